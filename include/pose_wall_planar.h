@@ -28,7 +28,11 @@
 #include "pose_wall_planar_grid.h"
 #include "pose_wall_planar_localise.h"
 #include "pose_wall_planar_map.h"
+#include "pose_wall_planar_plan.h"
+#include "pose_wall_planar_scan.h"
 #include "pose_wall_planar_slam.h"
+#include "pose_wall_planar_track.h"
+#include "pose_wall_planar_stop.h"
 #include "pose_wall_planar_types.h"
 
 #endif /* POSE_WALL_PLANAR_H */

@@ -5,9 +5,9 @@
 /*
  * The SLAM of pose_wall_planar: from planar scans, with odometry or without, to the poses that they were taken from.
  *
- * Every scan is matched with the last metres of the trail. Every keyframe_m the trail gets a keyframe. Where the machine
+ * Every scan is matched with the last metres of the trail. Every keyframe_m the trail gets a keyframe. Where a machine
  * comes to a place that it has been to, the graph of all keyframes is solved anew, a round in each call. So poses of
- * keyframes change: solution counts that. A scan's final pose is its pose in its keyframe, by that keyframe's final pose.
+ * keyframes change: solution counts that. A scan's final pose is its in_keyframe, by that keyframe's final pose.
  *
  *     pose_wall_planar_slam_settings_init(&settings);
  *     pose_wall_planar_slam_memory_needed(&settings, &bytes);
@@ -19,9 +19,9 @@
  *
  * CLOSURES  a place is the same only if several looks agree about it over metres of travel, if what they saw holds the
  *           place along the road, too, and if no line of sight passes through what the other saw. Where later looks
- *           contradict a belief, it is taken back. Roads that look alike stay apart as long as odometry keeps them apart.
+ *           contradict a belief, it is taken back. Roads that look alike stay apart while odometry keeps them apart.
  * ODOMETRY  a pose of base in any frame that may drift, at the scan's time. It may stall, slip and catch up.
- * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009, and Hess and others, ICRA 2016. The graph
+ * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009; Hess and others, ICRA 2016. The graph
  *           and its solution: Lu and Milios 1997; Dellaert and others, IROS 2010. README.md of src/planar/slam.
  *
  * The other rules are those of pose_wall_planar.h.
@@ -46,7 +46,8 @@ typedef struct pose_wall_planar_slam pose_wall_planar_slam;
 
 typedef struct pose_wall_planar_slam_settings {
   uint32_t struct_size;    /* sizeof(pose_wall_planar_slam_settings) */
-  uint32_t keyframes_most; /* 4096: the trail holds so many; 16 to 65536. A kilometre of road takes some 3300 */
+  uint32_t keyframes_most; /* 4096: the trail holds so many, of 360 surface points in the mean; 16 to 65536. A
+                              kilometre of road takes some 3300 */
   double keyframe_m;       /* 0.3: travel between two keyframes; 0.05 to 2 */
   double keyframe_rad;     /* 0.25: turn between two keyframes; 0.02 to 1 */
   double odometry_m;       /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
@@ -63,7 +64,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_slam_settings_check(const pose_wall_p
 
 /* ---------------------------------------------------------------------------------------------- life */
 
-/* Bytes of the block: some 2.9 kB a keyframe, and 9 MB. settings NULL: the defaults. Fails iff: bytes NULL, settings
+/* Bytes of the block: some 4.2 kB a keyframe, and 10 MB. settings NULL: the defaults. Fails iff: bytes NULL, settings
  * refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_slam_memory_needed(const pose_wall_planar_slam_settings* settings,
                                                               uint64_t* bytes);

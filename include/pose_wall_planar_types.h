@@ -50,7 +50,7 @@ typedef struct pose_wall_planar_fault {
 /* A planar scan, as sensor_msgs/LaserScan has it. A beam is
  *     a finite range from range_min_m to range_max_m: the first thing in this direction;
  *     plus infinity: nothing up to range_max_m, all of it was seen;
- *     anything else (NaN, 0, too near, too far): unknown. Unknown is not free. */
+ *     anything else (NaN, 0, too near, too far): unknown beyond free_m. Unknown is not free. */
 typedef struct pose_wall_planar_scan {
   uint32_t struct_size; /* sizeof(pose_wall_planar_scan) */
   uint32_t beams;       /* 1 to POSE_WALL_PLANAR_BEAMS_MAX */
@@ -62,6 +62,7 @@ typedef struct pose_wall_planar_scan {
   double range_max_m;           /* at most 1000 */
   double sigma_m;               /* standard deviation of a range: 0.001 to 1 */
   const float* range_m;         /* beams ranges in m, the caller's */
+  const float* free_m; /* so far a beam without a range was seen to be free; 0 or NaN: not at all. NULL: of no beam */
 } pose_wall_planar_scan;
 
 #ifdef __cplusplus

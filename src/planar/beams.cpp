@@ -3,21 +3,25 @@
 
 #include "planar/beams.hpp"
 
+#include <cstddef>
 #include <limits>
 
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
 #include "planar/pose2.hpp"
+#include "struct_sizes.hpp"
 
 namespace pose_wall::planar {
 namespace {
+
+constexpr StructSizes kScanSizes = {0, offsetof(pose_wall_planar_scan, free_m), sizeof(pose_wall_planar_scan)};
 
 bool is_within(double value, double least, double most) {
   return value >= least && value <= most;
 }
 
 bool is_pose(const pose_wall_planar_pose& pose) {
-  constexpr double kFarthest_m = 100.0;  // no sensor hangs further from its machine
+  constexpr double kFarthest_m = 100.0;  // no sensor hangs further from its machine than this
   return is_within(pose.x_m, -kFarthest_m, kFarthest_m) && is_within(pose.y_m, -kFarthest_m, kFarthest_m) &&
          is_within(pose.yaw_rad, -2.0 * kPi, 2.0 * kPi);
 }
@@ -26,9 +30,10 @@ bool is_pose(const pose_wall_planar_pose& pose) {
 
 std::int32_t check_scan(const pose_wall_planar_scan* scan) {
   if (scan == nullptr) return POSE_WALL_E_NULL;
-  if (scan->struct_size != sizeof(*scan)) return POSE_WALL_E_STRUCT_SIZE;
+  const std::int32_t status = check_struct_size(scan->struct_size, kScanSizes);
+  if (status != POSE_WALL_OK) return status;
   if (scan->range_m == nullptr) return POSE_WALL_E_NULL;
-  constexpr double kTurn_rad = 2.0 * kPi, kRangeMost_m = 1000.0;
+  constexpr double kTurn_rad = 2.0 * kPi, kRangeMost_m = 1000.0;  // as the header says
   const double step_rad = scan->angle_step_rad < 0.0 ? -scan->angle_step_rad : scan->angle_step_rad;
   const bool fits = scan->beams >= 1 && scan->beams <= POSE_WALL_PLANAR_BEAMS_MAX && is_pose(scan->sensor) &&
                     is_within(scan->angle_min_rad, -kTurn_rad, kTurn_rad) && step_rad > 0.0 &&
@@ -43,6 +48,7 @@ BeamScan read_beams(const pose_wall_planar_scan& scan, Span<Beam> beams) {
   out.origin_m = {scan.sensor.x_m, scan.sensor.y_m};
   out.stamp_ns = scan.stamp_ns;
   out.sigma_m = scan.sigma_m;
+  const float* const free_m = scan.struct_size >= sizeof(scan) ? scan.free_m : nullptr;
   const auto nearest_m = static_cast<float>(scan.range_min_m), farthest_m = static_cast<float>(scan.range_max_m);
   for (std::uint32_t k = 0; k < scan.beams; ++k) {
     const double angle_rad = scan.sensor.yaw_rad + scan.angle_min_rad + k * scan.angle_step_rad;
@@ -57,6 +63,9 @@ BeamScan read_beams(const pose_wall_planar_scan& scan, Span<Beam> beams) {
       beam.end = BeamEnd::thing;
     } else if (range_m > std::numeric_limits<float>::max()) {
       beam.range_m = farthest_m;
+      beam.end = BeamEnd::open;
+    } else if (free_m != nullptr && free_m[k] > 0.0F) {
+      beam.range_m = free_m[k] < farthest_m ? free_m[k] : farthest_m;
       beam.end = BeamEnd::open;
     }
   }

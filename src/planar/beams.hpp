@@ -28,8 +28,8 @@ struct BeamScan {
   double sigma_m = 0.0;
 
   Eigen::Vector2d end_m(const Beam& beam) const {
-    return origin_m + static_cast<double>(beam.range_m) * Eigen::Vector2d(static_cast<double>(beam.direction_x),
-                                                                         static_cast<double>(beam.direction_y));
+    return origin_m + static_cast<double>(beam.range_m) *
+                          Eigen::Vector2d(static_cast<double>(beam.direction_x), static_cast<double>(beam.direction_y));
   }
 };
 

@@ -22,7 +22,7 @@ struct CrcTable {
     }
   }
 };
-inline constexpr CrcTable kCrcTable;
+static constexpr CrcTable kCrcTable;  // of each file its own: an inline one would be a symbol to merge
 
 class FastCrc32 {
  public:

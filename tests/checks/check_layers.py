@@ -3,8 +3,8 @@
 # Copyright (c) 2026 the pose_wall authors
 """Includes go one way, in the order in which a frame goes through the house: base <- config <- trace <- gates <- cloud
 <- floor <- walls <- output <- engine <- c_api; within the walls propose <- choose <- fit <- sample <- doubts. Motion
-and planar take the base and the cloud reader and are no part of the engine; all take nothing but Eigen and small parts of the
-standard library; tools and the runtime see them by their headers.
+and planar take the base and the cloud reader and are no part of the engine; all take nothing but Eigen and small
+parts of the standard library; tools and the runtime see them by their headers.
 
 usage: check_layers.py ROOT        exit status 1 and one line per broken rule"""
 
@@ -133,6 +133,10 @@ def faults(root):
         for bracket, name in includes(header) if header.exists() else ():
             if name not in allowed:
                 yield header, f"includes {name}; it may include {', '.join(sorted(allowed))}"
+    for header in sorted(include.glob("pose_wall_planar*.h")):
+        for bracket, name in includes(header):
+            if name not in C_HEADERS | {"pose_wall.h"} and not name.startswith("pose_wall_planar_"):
+                yield header, f"includes {name}; it may include pose_wall.h and other headers of planar"
     for path in sources(tools):
         for bracket, name in includes(path):
             inside = not (tools / name).exists() and not (path.parent / name).exists() and (src / name).exists()

@@ -83,8 +83,10 @@ dpkg-deb -x "$deb" "$work/deb"
 tar -xzf "$tgz" -C "$work/tgz/some"
 diff -r "$work/deb/usr" "$work/tgz/some" || complain "DEB and TGZ hold different files"
 mv "$work/deb/usr" "$work/a/b/moved"
-for file in lib/libpose_wall.a lib/libpose_wall_motion.a include/pose_wall.h include/pose_wall.hpp \
-  include/pose_wall_motion.h lib/pkgconfig/pose_wall.pc lib/pkgconfig/pose_wall_motion.pc \
+for file in lib/libpose_wall.a lib/libpose_wall_motion.a lib/libpose_wall_planar.a \
+  include/pose_wall.h include/pose_wall.hpp \
+  include/pose_wall_motion.h include/pose_wall_planar.h include/pose_wall_planar_slam.h \
+  lib/pkgconfig/pose_wall.pc lib/pkgconfig/pose_wall_motion.pc lib/pkgconfig/pose_wall_planar.pc \
   lib/cmake/pose_wall/pose_wall-config.cmake share/doc/libpose-wall-dev/copyright \
   share/doc/libpose-wall-dev/pose_wall.spdx.json share/doc/libpose-wall-dev/plc/FB_PoseWall.st; do
   [ -s "$work/a/b/moved/$file" ] || complain "the package has no $file"
@@ -97,7 +99,7 @@ case $architecture in
   arm64) machine=AArch64 ;;
   *) complain "architecture $architecture is not known here" ;;
 esac
-for archive in pose_wall pose_wall_motion; do
+for archive in pose_wall pose_wall_motion pose_wall_planar; do
   readelf -h "$work/a/b/moved/lib/lib$archive.a" | grep -q "Machine:.*$machine" ||
     complain "lib$archive.a is not for $machine"
 done

@@ -25,21 +25,24 @@ READERS = """
 #include <stdio.h>
 #include <pose_wall.h>
 #include <pose_wall_motion.h>
+#include <pose_wall_planar.h>
 #include <pose_wall_runtime.h>
 void must(int32_t status);
 void steer(double yaw);
 void act_on(const pose_wall_result *result);
 void report_it(void);
+int next_scan(pose_wall_planar_scan *scan);
 int next_frame(const void **data, uint32_t *count, int64_t *stamp_ns);
 extern void *block, *motion_block;
 extern const void *points, *data;
 extern uint32_t count;
 extern int64_t stamp_ns;
-extern uint64_t bytes;
+extern uint64_t bytes, block_bytes;
 extern pose_wall_config config;
 extern pose_wall_cloud cloud;
 extern pose_wall_engine *engine;
 extern pose_wall_motion *motion;
+extern pose_wall_planar_scan scan;
 extern pose_wall_runtime *runtime;
 extern pose_wall_motion_result moved;
 extern pose_wall_result result;

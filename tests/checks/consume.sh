@@ -43,8 +43,11 @@ quietly "$cxx" -std=c++17 "$consumer/consumer.cpp" $flags -o "$work/pc/cpp"
 by_cmake motion "$consumer/motion.c" OFF pose_wall_motion
 # shellcheck disable=SC2046  # words
 quietly "$cc" -std=c99 "$consumer/motion.c" $(pkg-config --cflags --libs pose_wall_motion) -o "$work/pc/motion"
+by_cmake planar "$consumer/planar.c" OFF pose_wall_planar
+# shellcheck disable=SC2046  # words
+quietly "$cc" -std=c99 "$consumer/planar.c" $(pkg-config --cflags --libs pose_wall_planar) -o "$work/pc/planar"
 
-programs="c/consumer cpp/consumer pc/c pc/cpp motion/consumer pc/motion"
+programs="c/consumer cpp/consumer pc/c pc/cpp motion/consumer pc/motion planar/consumer pc/planar"
 if [ -e "$prefix/lib/libpose_wall_runtime.a" ]; then
   by_cmake runtime "$consumer/runtime.c" OFF pose_wall_runtime
   # shellcheck disable=SC2046  # words

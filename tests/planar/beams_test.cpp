@@ -60,6 +60,24 @@ TEST(Beams, OnlyInfinityIsOpenAndAllElseOutsideTheLimitsIsUnknown) {
   EXPECT_EQ(second.beams[3].end, BeamEnd::thing);
 }
 
+TEST(Beams, ABeamWithoutARangeIsFreeAsFarAsItWasSeenToBe) {
+  const float nan = std::nanf("");
+  const std::vector<float> ranges = {nan, nan, 5.0F, nan}, free = {3.0F, 0.0F, 5.0F, 90.0F};
+  std::vector<Beam> room(POSE_WALL_PLANAR_BEAMS_MAX);
+  const Span<Beam> span(room.data(), POSE_WALL_PLANAR_BEAMS_MAX);
+  pose_wall_planar_scan scan = quarter(ranges);
+  scan.free_m = free.data();
+  const BeamScan beams = read_beams(scan, span);
+  EXPECT_EQ(beams.beams[0].end, BeamEnd::open);
+  EXPECT_FLOAT_EQ(beams.beams[0].range_m, 3.0F);
+  EXPECT_EQ(beams.beams[1].end, BeamEnd::unknown);
+  EXPECT_EQ(beams.beams[2].end, BeamEnd::thing);
+  EXPECT_FLOAT_EQ(beams.beams[3].range_m, 20.0F);
+  scan.struct_size = offsetof(pose_wall_planar_scan, free_m);  // of a caller that knows nothing of it
+  EXPECT_EQ(check_scan(&scan), POSE_WALL_OK);
+  EXPECT_EQ(read_beams(scan, span).beams[0].end, BeamEnd::unknown);
+}
+
 TEST(Beams, AScanOutsideItsLimitsIsRefused) {
   const std::vector<float> ranges = {3.0F, 4.0F};
   const auto with = [&](auto change) {
@@ -69,7 +87,7 @@ TEST(Beams, AScanOutsideItsLimitsIsRefused) {
   };
   EXPECT_EQ(with([](auto&) {}), POSE_WALL_OK);
   EXPECT_EQ(check_scan(nullptr), POSE_WALL_E_NULL);
-  EXPECT_EQ(with([](auto& s) { s.struct_size -= 8; }), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(with([](auto& s) { s.struct_size -= 16; }), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(with([](auto& s) { s.range_m = nullptr; }), POSE_WALL_E_NULL);
   EXPECT_EQ(with([](auto& s) { s.beams = 0; }), POSE_WALL_E_SCAN);
   EXPECT_EQ(with([](auto& s) { s.beams = POSE_WALL_PLANAR_BEAMS_MAX + 1; }), POSE_WALL_E_SCAN);

@@ -118,6 +118,26 @@ TEST(SimNetwork, HasThePlannedLengthAndHangsTogether) {
   EXPECT_GT(loops, 200U);
 }
 
+// An opening that the graph does not know would make a closed loop look wrong.
+TEST(SimNetwork, RoadsMeetAtTheirNodesOnly) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    NetworkPlan plan = plan_of(400, seed);
+    plan.bend_m = 3.0 * static_cast<double>(seed % 5);
+    const NetworkGraph graph = draw_network(plan, seed);
+    for (const NetworkEdge& a : graph.edges) {
+      for (const NetworkEdge& b : graph.edges) {
+        const bool is_joined = a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to;
+        if (is_joined || (a.road >= 0 && a.road == b.road)) continue;
+        for (std::size_t i = 0; i < a.line.size(); ++i) {
+          for (std::size_t k = 0; k < b.line.size(); ++k) {
+            ASSERT_GT((a.line[i] - b.line[k]).norm() - a.half_width_m[i] - b.half_width_m[k], 1.0) << "seed " << seed;
+          }
+        }
+      }
+    }
+  }
+}
+
 TEST(SimNetwork, RefusesPlansOutsideTheirLimits) {
   const auto refused = [](auto change) {
     NetworkPlan plan;
@@ -308,7 +328,7 @@ TEST(SimNetwork, RoutesFollowTheEdges) {
 TEST(SimNetwork, ATourGoesEverywhereInTime) {
   const NetworkGraph graph = draw_network(plan_of(500, 4), 4);
   const Route tour = graph.tour(0, 1500, 4);
-  EXPECT_GT(tour.length_m, 1400.0);
+  EXPECT_GT(tour.length_m, 1350.0) << "corners and turning places make it shorter than its edges";
   EXPECT_EQ(std::set<std::uint32_t>(tour.nodes.begin(), tour.nodes.end()).size(), graph.nodes.size());
 }
 

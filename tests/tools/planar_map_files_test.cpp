@@ -192,8 +192,8 @@ TEST_F(PlanarMapFiles, DamagedFilesAreReadOrRefused) {
   for (int round = 0; round < 400; ++round) {
     std::string image = kSaverImage, yaml = kSaverYaml;
     for (std::string* const bytes : {&image, &yaml}) {
-      for (std::uint32_t k = random() % 4; k > 0; --k) (*bytes)[random() % bytes->size()] = static_cast<char>(random());
-      if (random() % 4 == 0) bytes->resize(random() % bytes->size());
+      for (auto k = random() % 3; k > 0; --k) (*bytes)[random() % bytes->size()] = static_cast<char>(random());
+      if (random() % 8 == 0) bytes->resize(random() % bytes->size());
     }
     file("map.pgm", image);
     const auto path = file("map.yaml", yaml);

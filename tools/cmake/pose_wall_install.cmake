@@ -2,9 +2,9 @@
 # Copyright (c) 2026 the pose_wall authors
 
 # cmake --install: headers, archives, package config, pkg-config files, bill of materials, what a controller needs; and
-# the command and the daemon where they are built. find_package(pose_wall) gives pose_wall::pose_wall and
-# pose_wall::pose_wall_motion, and pose_wall::pose_wall_runtime where that is built. Components: development, command,
-# daemon; python, which only who names it gets (tools/python/CMakeLists.txt).
+# the command and the daemon where they are built. find_package(pose_wall) gives pose_wall::pose_wall,
+# pose_wall::pose_wall_motion and pose_wall::pose_wall_planar, and pose_wall::pose_wall_runtime where that is built.
+# Components: development, command, daemon; python, which only who names it gets (tools/python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 include(pose_wall_sbom)
 
@@ -13,7 +13,7 @@ set(pose_wall_pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(GLOB pose_wall_public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/pose_wall*.h*)
 list(FILTER pose_wall_public_headers EXCLUDE REGEX "pose_wall_trace\\.h$")  # of a library that stays in the build
 install(FILES ${pose_wall_public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
-set(pose_wall_archives pose_wall pose_wall_motion)
+set(pose_wall_archives pose_wall pose_wall_motion pose_wall_planar)
 if(TARGET pose_wall_runtime)
   list(APPEND pose_wall_archives pose_wall_runtime)
 endif()
@@ -35,7 +35,7 @@ foreach(archive IN LISTS pose_wall_archives)
 endforeach()
 
 set(pose_wall_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libpose-wall-dev)
-pose_wall_sbom(${PROJECT_BINARY_DIR}/pose_wall.spdx.json pose_wall pose_wall_motion)
+pose_wall_sbom(${PROJECT_BINARY_DIR}/pose_wall.spdx.json pose_wall pose_wall_motion pose_wall_planar)
 install(FILES ${PROJECT_BINARY_DIR}/pose_wall.spdx.json DESTINATION ${pose_wall_doc_dir} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pose_wall_doc_dir} RENAME copyright COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/include/README.md ${PROJECT_SOURCE_DIR}/include/SAFETY.md

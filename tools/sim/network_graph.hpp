@@ -54,14 +54,15 @@ struct NetworkGraph {
   Route route(std::uint32_t from, std::uint32_t to) const;
   // Through these nodes in turn; throws std::invalid_argument where two of them are not joined by an edge.
   Route route_through(const std::vector<std::uint32_t>& nodes) const;
-  // A drive of at least least_m that goes where it has been least, and so through all of the network in time.
-  // At dead ends the machine turns.
+  // A drive that goes where it has been least, and so through all of the network in time; at dead ends the machine
+  // turns. Its edges are at least least_m long together, the drive itself a few percent less.
   Route tour(std::uint32_t from, double least_m, std::uint64_t seed) const;
   // Stretches of at least least_m that differ by less than 3 degrees and 0.3 m of width everywhere.
   std::vector<AlikePair> alike_pairs(double least_m = 12.0) const;
 };
 
-// Centre lines of a plan. Throws std::invalid_argument for a plan outside its limits.
+// Centre lines of a plan. Roads that share no node have rock between them. Throws std::invalid_argument for a plan
+// outside its limits, or without room for cross roads.
 NetworkGraph draw_network(const NetworkPlan& plan, std::uint64_t seed);
 
 // From places of the network to places on straight roads that lie on each other: the mould of twin rock.

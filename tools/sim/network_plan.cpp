@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -40,8 +42,8 @@ void check(const NetworkPlan& plan) {
 // Roads on straight lines, to be bent at the end: along is x, across is y.
 class Drawing {
  public:
-  Drawing(const NetworkPlan& plan, std::uint64_t seed)
-      : plan_(plan), mould_(plan, seed), random_(seed, 0x9e7), width_noise_(seed ^ 0x51dfu, 14.0) {
+  Drawing(const NetworkPlan& plan, std::uint64_t seed, std::uint64_t attempt)
+      : plan_(plan), mould_(plan, seed), random_(seed, 0x9e7 + (attempt << 16)), width_noise_(seed ^ 0x51dfu, 14.0) {
     const double common_m = draw_width();
     for (int road = 0; road < mould_.roads(); ++road) {
       road_width_m_.push_back(plan_.alike || plan_.twin_rock ? common_m : draw_width());
@@ -63,7 +65,6 @@ class Drawing {
     add_drifts(end_of_roads_m());
     const double end_m = end_of_roads_m();
     for (int road = 0; road < mould_.roads(); ++road) add_road(road, end_m);
-    for (const NetworkEdge& edge : graph_.edges) graph_.length_m += edge.length_m;
     return std::move(graph_);
   }
 
@@ -227,6 +228,84 @@ class Drawing {
   double drifts_m_ = 0.0;
 };
 
+// Rock that stands between two roads at the least, relief apart.
+constexpr double kPillarLeast_m = 1.2;
+
+bool is_beside(const NetworkEdge& a, const NetworkEdge& b, double reach_m) {
+  const auto box = [](const NetworkEdge& edge, Place* low, Place* high) {
+    *low = *high = edge.line.front();
+    for (const Place& p : edge.line) {
+      *low = low->cwiseMin(p);
+      *high = high->cwiseMax(p);
+    }
+  };
+  Place low_a, high_a, low_b, high_b;
+  box(a, &low_a, &high_a);
+  box(b, &low_b, &high_b);
+  const auto apart = [reach_m](const Place& low, const Place& high) { return (low - high).maxCoeff() > reach_m; };
+  return !apart(low_a, high_b) && !apart(low_b, high_a);
+}
+
+// Whether they run into each other although they share no node.
+bool breaks_through(const NetworkEdge& a, const NetworkEdge& b) {
+  const bool is_joined = a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to;
+  const bool is_one_road = a.road >= 0 && a.road == b.road;
+  if (is_joined || is_one_road || !is_beside(a, b, 8.0 + kPillarLeast_m)) return false;
+  for (std::size_t i = 0; i < a.line.size(); ++i) {
+    for (std::size_t k = 0; k < b.line.size(); ++k) {
+      const double pillar_m = (a.line[i] - b.line[k]).norm() - a.half_width_m[i] - b.half_width_m[k];
+      if (pillar_m < kPillarLeast_m) return true;
+    }
+  }
+  return false;
+}
+
+// Without the cross roads and drifts that break through where the graph has no junction. Nodes that only they had go,
+// too.
+NetworkGraph without_breaks(const NetworkGraph& drawn) {
+  std::vector<NetworkEdge> kept;
+  const auto is_crossing = [](const NetworkEdge& edge) { return edge.road < 0; };
+  std::copy_if(drawn.edges.begin(), drawn.edges.end(), std::back_inserter(kept), std::not_fn(is_crossing));
+  for (const NetworkEdge& edge : drawn.edges) {
+    const auto meets = [&edge](const NetworkEdge& other) { return breaks_through(edge, other); };
+    if (is_crossing(edge) && std::none_of(kept.begin(), kept.end(), meets)) kept.push_back(edge);
+  }
+  NetworkGraph graph;
+  std::map<std::uint32_t, std::uint32_t> names;
+  const auto renamed = [&](std::uint32_t node) {
+    const auto [entry, is_new] = names.try_emplace(node, static_cast<std::uint32_t>(graph.nodes.size()));
+    if (is_new) graph.nodes.push_back({drawn.nodes[node].at, {}});
+    return entry->second;
+  };
+  for (NetworkEdge& edge : kept) {
+    edge.from = renamed(edge.from);
+    edge.to = renamed(edge.to);
+    const auto index = static_cast<std::uint32_t>(graph.edges.size());
+    graph.nodes[edge.from].edges.push_back(index);
+    graph.nodes[edge.to].edges.push_back(index);
+    graph.length_m += edge.length_m;
+    graph.edges.push_back(std::move(edge));
+  }
+  return graph;
+}
+
+bool hangs_together(const NetworkGraph& graph) {
+  std::vector<bool> is_reached(graph.nodes.size(), false);
+  std::vector<std::uint32_t> open = {0};
+  std::size_t reached = 0;
+  while (!open.empty()) {
+    const std::uint32_t node = open.back();
+    open.pop_back();
+    if (is_reached[node]) continue;
+    is_reached[node] = true;
+    ++reached;
+    for (const std::uint32_t edge : graph.nodes[node].edges) {
+      open.insert(open.end(), {graph.edges[edge].from, graph.edges[edge].to});
+    }
+  }
+  return reached == graph.nodes.size();
+}
+
 }  // namespace
 
 RoadMould::RoadMould(const NetworkPlan& plan, std::uint64_t seed) : bend_m_(plan.bend_m) {
@@ -291,7 +370,12 @@ Place RoadMould::in_mould(const Place& p) const {
 
 NetworkGraph draw_network(const NetworkPlan& plan, std::uint64_t seed) {
   check(plan);
-  return Drawing(plan, seed).draw();
+  constexpr std::uint64_t kAttempts = 50;
+  for (std::uint64_t attempt = 0; attempt < kAttempts; ++attempt) {
+    NetworkGraph graph = without_breaks(Drawing(plan, seed, attempt).draw());
+    if (hangs_together(graph)) return graph;
+  }
+  throw std::invalid_argument("network plan: its roads leave no room for cross roads");
 }
 
 }  // namespace pose_wall::tools::sim

@@ -10,7 +10,7 @@ namespace pose_wall::tools::sim {
 enum class Lining { kRock, kSmooth };
 
 struct NetworkPlan {
-  double length_m = 500.0;  // of all centre lines together, 60 to 20000; a network differs by a few percent
+  double length_m = 500.0;  // of all centre lines together, 60 to 20000; within 15 percent where the roads find room
   // Parallel roads with cross roads between them. One road: a single corridor.
   int roads = 0;            // 1 to 6; 0: 2 to 4
   double spacing_m = 0.0;   // between the middles of parallel roads, 16 to 60; 0: 20 to 36

@@ -38,6 +38,7 @@ void Matcher::lay_out(Arena& arena) {
   nodes_ = arena.take<Node>(kSearchNodesMost);
   parents_ = arena.take<Node>(kSearchNodesMost);
   patches_ = arena.take<Patch>(kPatchesMost);
+  patch_of_ = arena.take<std::uint32_t>(kMatchPointsMost);
   offsets_ = arena.take<Offset>(kSearchPointsMost);
   chosen_ = arena.take<ScanPoint>(kSearchPointsMost);
 }
@@ -254,13 +255,12 @@ double misfit(const Eigen::Vector2d& p, const SurfaceMap& map, double noise_m2) 
 }  // namespace
 
 Refined Matcher::refine(Span<const ScanPoint> points, const SurfaceMap& map, const Pose2& start, const Prior& prior,
-                        double sigma_m) const {
+                        double sigma_m, int rounds) const {
   Refined out;
   out.pose = start;
-  constexpr int kRounds = 12;
   constexpr double kStill_m = 1e-4, kStill_rad = 1e-5;
   Normal normal;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     normal = Normal();
     const Turn2 turn(out.pose.yaw_rad);
     const Eigen::Vector2d place = out.pose.place() - map.middle_m();
@@ -291,29 +291,43 @@ Refined Matcher::refine(Span<const ScanPoint> points, const SurfaceMap& map, con
   return out;
 }
 
-// By how many of its standard errors the mean patch fits worse when shifted.
-double Matcher::agreed_gain(Span<const ScanPoint> points, const SurfaceMap& map, const Pose2& match,
-                            const Eigen::Vector2d& shift, double noise_m2) const {
-  const Turn2 turn(match.yaw_rad);
-  const Eigen::Vector2d place = match.place() - map.middle_m();
+// Sorts the points by patches of a square metre. Points beyond the last patch have none.
+std::uint32_t Matcher::make_patches(Span<const ScanPoint> points, const Turn2& turn,
+                                    const Eigen::Vector2d& place) const {
   std::uint32_t count = 0;
-  for (const ScanPoint& point : points) {
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector2d p =
-        turn * Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) + place;
+        turn * Eigen::Vector2d(static_cast<double>(points[i].x_m), static_cast<double>(points[i].y_m)) + place;
     const auto column = static_cast<std::int32_t>(std::floor(p.x())),
                row = static_cast<std::int32_t>(std::floor(p.y()));
     std::uint32_t k = 0;
     while (k < count && (patches_[k].column != column || patches_[k].row != row)) ++k;
-    if (k == patches_.size()) continue;
-    if (k == count) patches_[count++] = {column, row, 0.0};
-    patches_[k].gain += misfit(p + shift, map, noise_m2) - misfit(p, map, noise_m2);
+    if (k == count && count < patches_.size()) patches_[count++] = {column, row, 0.0};
+    patch_of_[i] = k;
+  }
+  return count;
+}
+
+// By how many of its standard errors the mean patch fits worse at another pose. None if that is too little to tell a
+// place by: cells and noise prefer where they are, a little and everywhere.
+double Matcher::agreed_gain(Span<const ScanPoint> points, const SurfaceMap& map, std::uint32_t patches,
+                            const Pose2& match, const Pose2& other, double noise_m2) const {
+  for (std::uint32_t k = 0; k < patches; ++k) patches_[k].gain = 0.0;
+  const Turn2 turn(match.yaw_rad), other_turn(other.yaw_rad);
+  const Eigen::Vector2d place = match.place() - map.middle_m(), other_place = other.place() - map.middle_m();
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (patch_of_[i] == patches) continue;
+    const Eigen::Vector2d p(static_cast<double>(points[i].x_m), static_cast<double>(points[i].y_m));
+    patches_[patch_of_[i]].gain +=
+        misfit(other_turn * p + other_place, map, noise_m2) - misfit(turn * p + place, map, noise_m2);
   }
   double sum = 0.0, squares = 0.0;
-  for (std::uint32_t k = 0; k < count; ++k) {
+  for (std::uint32_t k = 0; k < patches; ++k) {
     sum += patches_[k].gain;
     squares += patches_[k].gain * patches_[k].gain;
   }
-  return squares > 0.0 ? sum / std::sqrt(squares) : 0.0;
+  constexpr double kTold = 5.0;  // half of the sum, as a logarithm of likelihood
+  return 0.5 * sum / kAlike > kTold ? sum / std::sqrt(squares) : 0.0;
 }
 
 Slide Matcher::slide(Span<const ScanPoint> points, const SurfaceMap& map, const Refined& match, double sigma_m) const {
@@ -325,12 +339,21 @@ Slide Matcher::slide(Span<const ScanPoint> points, const SurfaceMap& map, const 
   const double xy = H(0, 1) - H(0, 2) * H(1, 2) / yaw;
   const double strong_rad = 0.5 * arc_tangent2(2.0 * xy, xx - yy);
   out.direction = {-sine(strong_rad), cosine(strong_rad)};
+  const std::uint32_t patches = make_patches(points, Turn2(match.pose.yaw_rad), match.pose.place() - map.middle_m());
+  // The rest is fitted anew at every shift: a direction that is a degree off would leave the wall.
+  constexpr double kHeld = 1e8;  // of information along the direction: 0.1 mm
+  constexpr int kRounds = 3;
+  const Eigen::Vector3d along(out.direction.x(), out.direction.y(), 0.0);
+  const auto is_excluded = [&](double shift_m) {
+    constexpr double kExcluded = 4.0;  // standard errors
+    const Eigen::Vector2d place = match.pose.place() + shift_m * out.direction;
+    const Prior held{{place.x(), place.y(), match.pose.yaw_rad}, kHeld * along * along.transpose()};
+    const Refined other = refine(points, map, held.pose, held, sigma_m, kRounds);
+    return agreed_gain(points, map, patches, match.pose, other.pose, sigma_m * sigma_m) > kExcluded;
+  };
   constexpr double kShifts_m[] = {3.2, 1.6, 0.8, 0.4, 0.2, 0.1};
-  constexpr double kExcluded = 4.0;  // standard errors
   for (const double shift_m : kShifts_m) {
-    const double ahead = agreed_gain(points, map, match.pose, shift_m * out.direction, sigma_m * sigma_m);
-    const double behind = agreed_gain(points, map, match.pose, -shift_m * out.direction, sigma_m * sigma_m);
-    if (ahead > kExcluded && behind > kExcluded) continue;
+    if (is_excluded(shift_m) && is_excluded(-shift_m)) continue;
     out.reach_m = shift_m;
     break;
   }

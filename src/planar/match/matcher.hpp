@@ -18,6 +18,7 @@
 namespace pose_wall::planar {
 
 constexpr std::uint32_t kSearchNodesMost = 512;
+constexpr int kRefineRounds = 12;  // of Gauss and Newton
 
 // Points of one surface err alike: of so many one counts. Errors of matched pairs of scans on recorded logs of
 // buildings, over what their points promise (bench/planar.md).
@@ -66,7 +67,7 @@ class Matcher {
   Found search(Span<const ScanPoint> points, const SurfaceMap& map, const SearchWindow& window) const;
   // sigma_m: range noise of the scan.
   Refined refine(Span<const ScanPoint> points, const SurfaceMap& map, const Pose2& start, const Prior& prior,
-                 double sigma_m) const;
+                 double sigma_m, int rounds = kRefineRounds) const;
   // What the match tells about x, y and yaw in the map: without what the slide leaves open, and since points of one
   // surface err alike, much less than so many independent points would tell.
   Eigen::Matrix3d information(const Refined& match, const Slide& slide) const;
@@ -97,11 +98,13 @@ class Matcher {
 
   static constexpr std::uint32_t kSearchPointsMost = 240;
 
-  double agreed_gain(Span<const ScanPoint> points, const SurfaceMap& map, const Pose2& match,
-                     const Eigen::Vector2d& shift, double noise_m2) const;
+  std::uint32_t make_patches(Span<const ScanPoint> points, const Turn2& turn, const Eigen::Vector2d& place) const;
+  double agreed_gain(Span<const ScanPoint> points, const SurfaceMap& map, std::uint32_t patches, const Pose2& match,
+                     const Pose2& other, double noise_m2) const;
   static constexpr std::uint32_t kPatchesMost = 128;
 
   Span<Patch> patches_;
+  Span<std::uint32_t> patch_of_;
   Span<Node> nodes_, parents_;
   Span<Offset> offsets_;
   Span<ScanPoint> chosen_;

@@ -86,7 +86,7 @@ SurfaceMap::Cell* SurfaceMap::cell_at(std::int32_t column, std::int32_t row) {
   return &cells_[used_++];
 }
 
-void SurfaceMap::add(Span<const ScanPoint> points, const Pose2& pose) {
+void SurfaceMap::add(Span<const ScanPoint> points, const Pose2& pose, bool with_sight) {
   const Turn2 turn(pose.yaw_rad);
   const Eigen::Vector2d place = pose.place() - middle_m_;
   for (const ScanPoint& point : points) {
@@ -96,7 +96,7 @@ void SurfaceMap::add(Span<const ScanPoint> points, const Pose2& pose) {
     if (!(p.x() > -kHalf_m && p.x() < kHalf_m && p.y() > -kHalf_m && p.y() < kHalf_m)) continue;
     const std::int32_t column = cell_of(p.x()), row = cell_of(p.y());
     if (!is_inside(column, row)) continue;
-    see(place, p);
+    if (with_sight) see(place, p);
     Cell* const cell = cell_at(column, row);
     if (cell == nullptr) continue;
     const auto x = static_cast<float>(p.x() - middle_of(column)), y = static_cast<float>(p.y() - middle_of(row));
@@ -151,13 +151,15 @@ void SurfaceMap::make_surface(std::uint32_t index) {
   const double mx = x / n, my = y / n;
   const double vxx = xx / n - mx * mx, vxy = xy / n - mx * my, vyy = yy / n - my * my;
   const double half = 0.5 * (vxx - vyy), root = std::sqrt(half * half + vxy * vxy), middle = 0.5 * (vxx + vyy);
-  // Direction of most spread by the double angle; of a round cluster any.
-  const double along_rad = root > 0.0 ? 0.5 * arc_tangent2(vxy, half) : 0.0;
+  // The eigenvector of the least spread, from the longer of its two forms; of a round cluster any.
+  const Eigen::Vector2d first(-vxy, half + root), second(root - half, -vxy);
+  const Eigen::Vector2d longer = first.squaredNorm() > second.squaredNorm() ? first : second;
+  const double length = std::sqrt(longer.squaredNorm());
   Surface& surface = surfaces_[index];
   surface.x_m = static_cast<float>(middle_of(own.column) + mx);
   surface.y_m = static_cast<float>(middle_of(own.row) + my);
-  surface.normal_x = static_cast<float>(-sine(along_rad));
-  surface.normal_y = static_cast<float>(cosine(along_rad));
+  surface.normal_x = static_cast<float>(length > 0.0 ? longer.x() / length : 0.0);
+  surface.normal_y = static_cast<float>(length > 0.0 ? longer.y() / length : 1.0);
   surface.across_m2 = static_cast<float>(middle - root > 0.0 ? middle - root : 0.0);
   surface.along_m2 = static_cast<float>(middle + root);
 }

@@ -36,7 +36,8 @@ class SurfaceMap {
   // An empty window about this place.
   void begin(const Eigen::Vector2d& middle_m);
   // Adds the points of a scan at this pose. Those outside the window, and beyond the capacity, are left out.
-  void add(Span<const ScanPoint> points, const Pose2& pose);
+  // with_sight: its lines of sight are marked as seen, too; they cost more than the points.
+  void add(Span<const ScanPoint> points, const Pose2& pose, bool with_sight);
   // After the last scan: surfaces and fields.
   void finish();
 

@@ -39,14 +39,42 @@ void Loops::open() {
   looked_at_m_ = 0.0;
 }
 
-// Travel over which the two places' relation could drift: along the trail, or by one closure.
-double Loops::drift_m(const Trail& trail, std::uint32_t old, std::uint32_t now) const {
-  double least_m = trail.travel_between_m(old, now);
-  for (std::uint32_t k = 0; k < believed_count_; ++k) {
-    const double by_m = trail.travel_between_m(old, believed_[k].from) + trail.travel_between_m(believed_[k].to, now);
-    least_m = std::min(least_m, by_m);
+void Loops::adopt(const Trail& trail) {
+  open();
+  for (std::uint32_t k = 0; k < trail.edges().size(); ++k) {
+    const Edge& edge = trail.edges()[k];
+    const bool is_held = edge.is_closure && edge.information(0, 0) > 0.0;
+    if (is_held && believed_count_ < believed_.size()) believed_[believed_count_++] = {edge.from, edge.to, k, 0};
   }
-  return least_m;
+}
+
+void Loops::assume(const Trail& trail) {
+  const std::uint32_t k = trail.edges().size() - 1;
+  const Edge& edge = trail.edges()[k];
+  if (believed_count_ < believed_.size()) believed_[believed_count_++] = {edge.from, edge.to, k, 0};
+}
+
+// A doubt about yaw turns what was driven since then about the place of the doubt.
+double Drift::place_m() const {
+  constexpr double kLeast_m = 0.5, kLever_m = 15.0, kMost_m = 20.0;
+  return std::min(kMost_m, kLeast_m + kDrift * travel_m + doubt_rad * std::min(travel_m, kLever_m));
+}
+
+double Drift::yaw_rad() const {
+  constexpr double kLeast_rad = 0.1, kMost_rad = 0.8;
+  return std::min(kMost_rad, kLeast_rad + kDriftYaw_rad * travel_m + doubt_rad);
+}
+
+// Along the trail, or by one closure, whichever is less.
+Drift Loops::drift(const Trail& trail, std::uint32_t old, std::uint32_t now) const {
+  Drift least{trail.travel_between_m(old, now), trail.doubt_between_rad(old, now)};
+  for (std::uint32_t k = 0; k < believed_count_; ++k) {
+    const Believed& by = believed_[k];
+    const Drift drift{trail.travel_between_m(old, by.from) + trail.travel_between_m(by.to, now),
+                      trail.doubt_between_rad(old, by.from) + trail.doubt_between_rad(by.to, now)};
+    if (drift.place_m() < least.place_m()) least = drift;
+  }
+  return least;
 }
 
 bool Loops::nearest_old(const Trail& trail, std::uint32_t now, std::uint32_t* old, double* reach_m) {
@@ -59,8 +87,7 @@ bool Loops::nearest_old(const Trail& trail, std::uint32_t now, std::uint32_t* ol
     *old = k;
   }
   if (nearest_m > 1e29) return false;
-  constexpr double kReachMost_m = 20.0;
-  *reach_m = std::min(kReachMost_m, 0.5 + kDrift * drift_m(trail, *old, now));
+  *reach_m = drift(trail, *old, now).place_m();
   return nearest_m < *reach_m + 3.0;
 }
 
@@ -122,7 +149,7 @@ bool Loops::match(const Trail& trail, const Matcher& matcher, const Look& look, 
   const Trail::Range stretch = trail.around(old, look.group_m + kBeyond_m, kStretchMost, {0, now});
   trail.draw(&old_, old, {stretch.first, std::min(stretch.last, now - 1)});
   const Span<const ScanPoint> points = group(trail, now, trail.around(now, look.group_m, kStretchMost, {0, last}));
-  const double reach_rad = std::min(0.8, 0.1 + kDriftYaw_rad * drift_m(trail, old, now));
+  const double reach_rad = drift(trail, old, now).yaw_rad();
   const Found found = matcher.search(points, old_, {look.guess, reach_m, reach_rad});
   const Refined refined = matcher.refine(points, old_, found.pose, Prior(), kNoise_m);
   if (!refined.is_valid) return false;
@@ -147,8 +174,10 @@ bool Loops::agrees(const Trail& trail, const Candidate& a, const Candidate& b) c
   const Pose2 by_a = compose(a.edge.step, between(trail.pose(a.edge.to), trail.pose(b.edge.to)));
   const double apart_m =
       trail.travel_between_m(a.edge.from, b.edge.from) + trail.travel_between_m(a.edge.to, b.edge.to);
-  const double yaw_rad = 0.03 + kDriftYaw_rad * apart_m;
-  const double place_m = 0.1 + kDrift * apart_m + a.slide_m + b.slide_m;
+  const double doubt_rad =
+      trail.doubt_between_rad(a.edge.from, b.edge.from) + trail.doubt_between_rad(a.edge.to, b.edge.to);
+  const double yaw_rad = 0.03 + kDriftYaw_rad * apart_m + doubt_rad;
+  const double place_m = 0.1 + (kDrift + doubt_rad) * apart_m + a.slide_m + b.slide_m;
   return (by_a.place() - by_b.place()).norm() < place_m && std::abs(wrapped(by_a.yaw_rad - by_b.yaw_rad)) < yaw_rad;
 }
 
@@ -227,7 +256,7 @@ bool Loops::doubt(Trail* trail, const Candidate& newest) {
     ++fits_;
   }
   if (contradictions_ < kEnough || contradictions_ < 2 * fits_) return false;
-  while (believed_count_ > 0 && believed_[believed_count_ - 1].group == groups_) {
+  while (believed_count_ > 0 && groups_ > 0 && believed_[believed_count_ - 1].group == groups_) {
     trail->untie(believed_[--believed_count_].edge);
     ++taken_back_;
   }

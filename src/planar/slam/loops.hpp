@@ -22,6 +22,14 @@ struct Candidate {
   bool is_distinct = false;
 };
 
+// How far the relation of two keyframes can be off.
+struct Drift {
+  double travel_m = 0.0, doubt_rad = 0.0;
+
+  double place_m() const;
+  double yaw_rad() const;
+};
+
 class Loops {
  public:
   void lay_out(Arena& arena);
@@ -29,10 +37,13 @@ class Loops {
   // Looks for an old place about the keyframe added last. Ties the closures that are believed to the trail, or takes
   // back those that turned out wrong. True if the trail has to be solved.
   bool look(Trail* trail, const Matcher& matcher);
+  // Takes the trail's closures for believed, for good: of a trail that was saved.
+  void adopt(const Trail& trail);
+  // Two keyframes whose relation is known as a closure's is: the trail's last edge.
+  void assume(const Trail& trail);
   std::uint32_t believed() const { return believed_count_; }
   std::uint32_t taken_back() const { return taken_back_; }
 
-  double drift_m(const Trail& trail, std::uint32_t old, std::uint32_t now) const;
   bool looked = false;
   Candidate last_whole;
   Candidate last_candidate;  // for pictures and tests
@@ -50,6 +61,7 @@ class Loops {
     std::uint32_t group;  // believed together
   };
 
+  Drift drift(const Trail& trail, std::uint32_t old, std::uint32_t now) const;
   bool nearest_old(const Trail& trail, std::uint32_t now, std::uint32_t* old, double* reach_m);
   bool match(const Trail& trail, const Matcher& matcher, const Look& look, Candidate* candidate);
   bool is_confirmed(const Trail& trail, const Matcher& matcher, const Candidate& newest);

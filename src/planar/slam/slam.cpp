@@ -34,8 +34,10 @@ void Slam::open(const SlamSettings& settings) {
   loops_.open();
   pose_ = odometry_ = last_step_ = since_agreed_ = agreed_odometry_ = Pose2();
   is_astray_ = is_full_ = false;
-  rounds_left_ = solution_ = 0;
+  rounds_left_ = solution_ = resumes_at_ = doubtful_ = 0;
+  resumes_ = false;
   has_odometry_ = false;
+  scatter_ = 1.0;
 }
 
 Prior Slam::prior_of(const Pose2& from, const Pose2& step, double sigma_m, double sigma_rad) const {
@@ -67,6 +69,19 @@ std::uint32_t Slam::predict(const Pose2* odometry, Prediction* predictions) cons
   return count + 1;
 }
 
+// Range noise and what the surfaces scatter beyond it: a scan of a cloud cuts rough walls at many heights.
+double Slam::noise_m(const BeamScan& scan) const {
+  return scan.sigma_m * scatter_;
+}
+
+// So much scatter that all but a few points are explained (Robbins and Monro 1951). Within limits: crowds are no
+// scatter.
+void Slam::learn_scatter(const Refined& placed) {
+  constexpr double kExplained = 0.92, kGain = 0.2, kMost = 3.0;
+  if (placed.is_valid)
+    scatter_ = std::min(kMost, std::max(1.0, scatter_ * (1.0 + kGain * (kExplained - placed.explained))));
+}
+
 // The match that scan and predictions together like best. Where the scan is not explained even then, the best place
 // that the machine can have reached joins in.
 Refined Slam::place(Span<const ScanPoint> points, const BeamScan& scan, const Prediction* predictions,
@@ -87,7 +102,7 @@ Refined Slam::place(Span<const ScanPoint> points, const BeamScan& scan, const Pr
   Refined best;
   double least = 0.0;
   const auto offer = [&](const Pose2& start, const Prior& prior) {
-    const Refined match = matcher_.refine(points, near_, start, prior, scan.sigma_m);
+    const Refined match = matcher_.refine(points, near_, start, prior, noise_m(scan));
     const double cost = cost_of(match);
     if (!match.is_valid || (best.is_valid && cost >= least)) return;
     best = match;
@@ -127,6 +142,7 @@ void Slam::follow(const Pose2& pose, const Pose2* odometry, const Prediction& fi
 // A scan that fits badly may stand wrong, and would spoil the map: the next may fit better.
 bool Slam::is_due(const Refined& placed) const {
   if (trail_.size() == 0) return true;
+  if (resumes_) return placed.explained >= kTrusted;
   constexpr double kPatience = 3.0;  // keyframes' distances that a bad fit may wait
   const double patience = placed.explained >= kTrusted ? 1.0 : kPatience;
   const Pose2 since = between(trail_.pose(trail_.size() - 1), pose_);
@@ -144,15 +160,18 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
     const std::uint32_t count = predict(odometry, predictions);
     placed = place(points, scan, predictions, count);
     follow(placed.pose, odometry, predictions[0]);
+    if (!placed.is_valid || placed.explained < kTrusted) ++doubtful_;
+    learn_scatter(placed);
     prior = predictions[0].prior;
   }
   if (odometry != nullptr) odometry_ = *odometry;
   if (trail_.size() == 0 && odometry != nullptr) agreed_odometry_ = *odometry;
   has_odometry_ = odometry != nullptr;
+  step.is_valid = placed.is_valid;
   step.explained = placed.explained;
   step.rms_m = placed.rms_m;
   if (is_due(placed)) {
-    const Slide slide = matcher_.slide(points, near_, placed, scan.sigma_m);
+    const Slide slide = matcher_.slide(points, near_, placed, noise_m(scan));
     begin_keyframe(points, scan, matcher_.information(placed, slide) + prior.information);
     step.is_keyframe = true;
     const std::uint32_t believed = loops_.believed();
@@ -169,11 +188,49 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
 }
 
 void Slam::begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information) {
+  constexpr double kLeap_m = 20.0;  // more than kOld_m of loops.cpp: the saved trail is an old place
   const std::uint32_t k = trail_.size();
-  if (!trail_.add(points, pose_, scan.stamp_ns)) is_full_ = true;
+  constexpr double kDoubt_rad = 0.3, kDoubtMost_rad = 0.6;  // a scan that says nothing; several
+  const double doubt_rad = std::min(kDoubtMost_rad, kDoubt_rad * doubtful_);
+  doubtful_ = 0;
+  is_full_ = !trail_.add(points, pose_, scan.stamp_ns, {resumes_ ? kLeap_m : 0.0, doubt_rad});
   if (is_full_ || k == 0) return;
+  if (resumes_) {
+    tie_to_saved(information);
+    return;
+  }
   const Pose2& from = trail_.pose(k - 1);
-  trail_.tie({k - 1, k, between(from, pose_), in_frame_of(from, information), false});
+  Eigen::Matrix3d known = information;
+  if (doubt_rad > 0.0) {
+    const double doubt = 1.0 / (doubt_rad * doubt_rad);  // of information, also in metres: some steps' length
+    known = (information.inverse() + Eigen::Matrix3d::Identity() / doubt).inverse();
+  }
+  trail_.tie({k - 1, k, between(from, pose_), in_frame_of(from, known), false});
+}
+
+// The first keyframe after a restart: loosely to the last one of the saved trail, for nobody saw that way, and as
+// measured to the one that it was matched with.
+void Slam::tie_to_saved(const Eigen::Matrix3d& information) {
+  constexpr double kLoose = 1.0;  // of information: a metre, a radian
+  const std::uint32_t k = trail_.size() - 1;
+  trail_.tie({k - 1, k, between(trail_.pose(k - 1), pose_), kLoose * Eigen::Matrix3d::Identity(), false});
+  const Pose2& from = trail_.pose(resumes_at_);
+  const Edge edge{resumes_at_, k, between(from, pose_), in_frame_of(from, information), true};
+  if (resumes_at_ + 1 < k && trail_.tie(edge)) loops_.assume(trail_);
+  resumes_ = false;
+}
+
+void Slam::resume(const Pose2& base) {
+  loops_.adopt(trail_);
+  pose_ = base;
+  last_step_ = since_agreed_ = Pose2();
+  has_odometry_ = is_astray_ = is_full_ = false;
+  rounds_left_ = 0;
+  ++solution_;
+  resumes_ = trail_.size() > 0;
+  if (!resumes_) return;
+  resumes_at_ = trail_.nearest(base.place());
+  trail_.draw(&near_, resumes_at_, trail_.around(resumes_at_, kLookBack_m, kLookBackMost, {0, trail_.size() - 1}));
 }
 
 // One round of the graph. The last keyframe takes the machine along.

@@ -22,6 +22,7 @@ struct SlamStep {
   std::uint32_t keyframe = 0;  // that the scan belongs to
   Pose2 in_keyframe;
   bool is_keyframe = false;
+  bool is_valid = false;  // it has points on surfaces
   double explained = 0.0, rms_m = 0.0;
   std::uint32_t closures = 0;  // believed with this scan
 };
@@ -36,6 +37,10 @@ class Slam {
   bool is_settled() const { return rounds_left_ == 0; }
   std::uint32_t solution() const { return solution_; }  // another number whenever earlier poses have changed
   bool is_full() const { return is_full_; }
+  Span<Beam> beams() const { return beams_; }  // room for a scan
+  // The trail was replaced by one that was saved: goes on from this pose in its map.
+  void resume(const Pose2& base);
+  Trail& trail() { return trail_; }
 
   const Trail& trail() const { return trail_; }
   const Loops& loops() const { return loops_; }
@@ -52,8 +57,11 @@ class Slam {
   Refined place(Span<const ScanPoint> points, const BeamScan& scan, const Prediction* predictions,
                 std::uint32_t count) const;
   void follow(const Pose2& pose, const Pose2* odometry, const Prediction& first);
+  double noise_m(const BeamScan& scan) const;
+  void learn_scatter(const Refined& placed);
   bool is_due(const Refined& placed) const;
   void begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information);
+  void tie_to_saved(const Eigen::Matrix3d& information);
 
   static constexpr std::uint32_t kRoundsMost = 12;
 
@@ -69,9 +77,13 @@ class Slam {
   Span<Beam> beams_;
   Span<ScanPoint> scan_points_;
   Pose2 pose_, odometry_, last_step_;
-  Pose2 since_agreed_;     // how the machine moved since odometry last agreed with a scan
-  Pose2 agreed_odometry_;  // what it said then
+  Pose2 since_agreed_;          // how the machine moved since odometry last agreed with a scan
+  Pose2 agreed_odometry_;       // what it said then
+  double scatter_ = 1.0;        // of points about surfaces, in range noises
+  std::uint32_t doubtful_ = 0;  // scans since the last keyframe that fitted badly
   std::uint32_t rounds_left_ = 0, solution_ = 0;
+  std::uint32_t resumes_at_ = 0;  // the keyframe that the machine stands near after that
+  bool resumes_ = false;
   bool has_odometry_ = false, is_astray_ = false, is_full_ = false;
 };
 

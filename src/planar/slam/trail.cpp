@@ -9,7 +9,7 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::uint32_t kPointsPerKeyframe = 200;  // in the mean
+constexpr std::uint32_t kPointsPerKeyframe = 360;  // in the mean: a whole turn in a road
 constexpr std::uint32_t kEdgesPerKeyframe = 3;     // one to the last, others to old ones
 
 }  // namespace
@@ -25,14 +25,15 @@ void Trail::open() {
   count_ = point_count_ = edge_count_ = 0;
 }
 
-bool Trail::add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns) {
+bool Trail::add(Span<const ScanPoint> points, const Pose2& pose, std::int64_t stamp_ns, const Beyond& beyond) {
   if (count_ == keyframes_.size() || points_.size() - point_count_ < points.size()) return false;
   Keyframe& keyframe = keyframes_[count_];
   keyframe = {stamp_ns, point_count_, points.size(), 0.0, 0.0};
   if (count_ > 0) {
     const Pose2 step = between(poses_[count_ - 1], pose);
-    keyframe.travel_m = keyframes_[count_ - 1].travel_m + std::sqrt(step.x_m * step.x_m + step.y_m * step.y_m);
-    keyframe.turned_rad = keyframes_[count_ - 1].turned_rad + std::abs(step.yaw_rad);
+    keyframe.travel_m =
+        keyframes_[count_ - 1].travel_m + beyond.leap_m + std::sqrt(step.x_m * step.x_m + step.y_m * step.y_m);
+    keyframe.doubt_rad = keyframes_[count_ - 1].doubt_rad + beyond.doubt_rad;
   }
   std::copy(points.begin(), points.end(), points_.begin() + point_count_);
   poses_[count_++] = pose;
@@ -55,8 +56,18 @@ Trail::Range Trail::around(std::uint32_t k, double reach_m, std::uint32_t most, 
 
 void Trail::draw(SurfaceMap* map, std::uint32_t k, Range range) const {
   map->begin(poses_[k].place());
-  for (std::uint32_t i = range.first; i <= range.last; ++i) map->add(points(i), poses_[i]);
+  // Neighbours' lines of sight go through the same cells.
+  constexpr std::uint32_t kSightEvery = 3;
+  for (std::uint32_t i = range.first; i <= range.last; ++i) map->add(points(i), poses_[i], (i - k) % kSightEvery == 0);
   map->finish();
+}
+
+std::uint32_t Trail::nearest(const Eigen::Vector2d& place_m) const {
+  std::uint32_t nearest = 0;
+  for (std::uint32_t k = 1; k < count_; ++k) {
+    if ((poses_[k].place() - place_m).squaredNorm() < (poses_[nearest].place() - place_m).squaredNorm()) nearest = k;
+  }
+  return nearest;
 }
 
 }  // namespace pose_wall::planar

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright (c) 2026 the pose_wall authors */
+
+/* The route planner of pose_wall_planar: from a pose to a pose through a grid, for a machine on tracks.
+ * pose_wall_planar.h is the manual of what all parts share.
+ *
+ * MACHINE   A rectangle that drives forwards and backwards, in curves, and turns on the spot. A pose is that of its
+ *           turning centre, midway between the tracks: x forward, y left. A margin goes round the rectangle.
+ * GRID      Cells from occupied_from on, unknown cells and all outside the grid are not driven on. A route is free when
+ *           no part of the rectangle touches such a cell on the way, turns included. Straight stretches are checked
+ *           exactly, turns and curves to within 3 mm and always on the safe side.
+ * COST      In metres: the length, times reverse_cost where it goes backwards; turn_cost_m_rad for each radian of
+ *           turning, on the spot or in a curve; cusp_cost_m for each change between forwards and backwards.
+ * METHOD    Weighted A* (Pohl 1970) over places lattice_m apart and 32 headings, along which the machine drives
+ * straight from place to place (a state lattice; Pivtoraiko, Knepper and Kelly 2009). The distance ahead is that of the
+ * inscribed circle, by Dijkstra's algorithm from the goal, and the turn that is left. If no route is found so, a second
+ * search has half the distance and 64 headings. The route is then pulled taut: corners are left out, cut and moved as
+ * long as the cost falls. Last, corners become curves where there is room. BOUND     result.bound: the route costs at
+ * most so many times the cheapest route over the same places and headings. The search alone keeps it below `weight`, as
+ * far as that has grown. Pulling taut lowers it, at times below 1: then bound is 1. TIME src/planar/route/README.md has
+ * figures. The work is bounded by expansions_max, by the sizes of grid and lists, and by a fixed share for pulling
+ * taut.
+ */
+
+#ifndef POSE_WALL_PLANAR_PLAN_H
+#define POSE_WALL_PLANAR_PLAN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "pose_wall_planar_grid.h"
+#include "pose_wall_planar_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct pose_wall_planar_planner pose_wall_planar_planner;
+
+typedef struct pose_wall_planar_plan_settings {
+  uint32_t struct_size;    /* sizeof(pose_wall_planar_plan_settings) */
+  uint32_t width_max;      /* cells of a grid along x, 8 to 8192; 2048 */
+  uint32_t height_max;     /* and along y, 8 to 8192; 2048 */
+  uint32_t places_max;     /* places that a search may enter, 1000 to 1000000; 60000. One takes 356 bytes */
+  uint32_t open_max;       /* entries of the open list, 1000 to 10000000; 400000 */
+  uint32_t expansions_max; /* of both searches together, 1 to 100000000; 2000000 */
+  uint32_t hurry_after;    /* expansions after which the weight grows by a tenth, again and again, up to 3; 0: never,
+                              to 100000000; 25000 */
+  uint32_t occupied_from;  /* per cent from which on a cell is occupied, 1 to 100; 50 */
+  double resolution_m;     /* of every grid, 0.01 to 1; 0.05 */
+  double front_m;          /* the rectangle's edges from the turning centre, 0.1 to 20; 2.25 */
+  double rear_m;           /* likewise; 2.25 */
+  double left_m;           /* likewise; 0.6 */
+  double right_m;          /* likewise; 0.6 */
+  double margin_m;         /* round the rectangle, 0 to 2; 0.1 */
+  double lattice_m;        /* between places, 2 to 50 cells, at most an eighth of the length; 0.25 */
+  double turn_cost_m_rad;  /* 0.01 to 100; 0.5 */
+  double reverse_cost;     /* 1 to 100; 1.2 */
+  double cusp_cost_m;      /* 0 to 100; 0.5 */
+  double weight;           /* of the distance ahead, 1 to 10; 1.1. Larger is faster and dearer */
+  double radius_min_m;     /* of curves in place of corners, 0.1 to 100; 1. A corner with room for less stays one */
+  double radius_max_m;     /* radius_min_m to 1000; 8 */
+  double pose_step_m;      /* between poses of the result, 0.05 to 10; 0.25 */
+} pose_wall_planar_plan_settings;
+
+/* The defaults above: the roadheader of 4.5 by 1.2 m. Fails iff settings is NULL. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_plan_settings_init(pose_wall_planar_plan_settings* settings);
+/* POSE_WALL_OK, or POSE_WALL_E_VALUE_RANGE with the member at fault, if `fault` is not NULL. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_plan_settings_check(const pose_wall_planar_plan_settings* settings,
+                                                               pose_wall_planar_fault* fault);
+
+/* Bytes of the block. 0 for settings that are not valid. */
+uint64_t pose_wall_planar_plan_memory_needed(const pose_wall_planar_plan_settings* settings);
+/* Opens a planner in a block of the caller's, aligned to POSE_WALL_BLOCK_ALIGNMENT; it may hold garbage. Fails iff:
+ * NULL, settings as in the check, POSE_WALL_E_BLOCK_ALIGN, POSE_WALL_E_BLOCK_SMALL. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_plan_open(const pose_wall_planar_plan_settings* settings, void* block,
+                                                     uint64_t block_bytes, pose_wall_planar_planner** planner);
+
+/* Bits of pose_wall_planar_path_pose.flags. */
+enum pose_wall_planar_path_flag {
+  POSE_WALL_PATH_STOP = 1,      /* the machine stands still here: a cusp, a turn on the spot, or the end */
+  POSE_WALL_PATH_CUSP = 2,      /* between forwards and backwards */
+  POSE_WALL_PATH_TURN_LEFT = 4, /* it turns on the spot to the left to get here from the pose before */
+  POSE_WALL_PATH_TURN_RIGHT = 8 /* or to the right */
+};
+
+/* A pose of a route, and how the stretch goes that leads to it. */
+typedef struct pose_wall_planar_path_pose {
+  pose_wall_planar_pose pose; /* of the turning centre, in the frame of the grid */
+  double curvature_1_m;       /* of the stretch, to the machine's left positive, whichever way it drives */
+  double along_m;             /* length of the route up to here */
+  int32_t drive;              /* 1 forwards, -1 backwards, 0 a turn on the spot; 0 at the first pose */
+  uint32_t flags;             /* pose_wall_planar_path_flag */
+} pose_wall_planar_path_pose;
+
+enum pose_wall_planar_plan_outcome {
+  POSE_WALL_PLAN_FOUND = 0,
+  POSE_WALL_PLAN_START_BLOCKED = 1, /* with its margin the rectangle does not fit at the start */
+  POSE_WALL_PLAN_GOAL_BLOCKED = 2,  /* likewise at the goal */
+  POSE_WALL_PLAN_NOT_CONNECTED = 3, /* no free cells lead from the start to the goal */
+  POSE_WALL_PLAN_TOO_NARROW = 4,    /* they do, but not even the inscribed circle passes: see place and width_m */
+  POSE_WALL_PLAN_TOO_TIGHT = 5,     /* the circle passes, the rectangle was not found to: place is how far it got,
+                                       or the goal, if it cannot get away from there */
+  POSE_WALL_PLAN_LIST_FULL = 6,     /* the open list or the room for places was full, and no route was found */
+  POSE_WALL_PLAN_WORK_LIMIT = 7,    /* expansions_max was reached before a route was found */
+  POSE_WALL_PLAN_ROOM_SMALL = 8     /* found, but the caller's room is smaller than result.poses: nothing written */
+};
+
+typedef struct pose_wall_planar_plan_result {
+  uint32_t struct_size;        /* sizeof(pose_wall_planar_plan_result) */
+  uint32_t outcome;            /* pose_wall_planar_plan_outcome */
+  uint32_t poses;              /* of the route; 0 without one */
+  uint32_t cusps;              /* changes between forwards and backwards */
+  uint32_t spot_turns;         /* turns on the spot */
+  uint32_t expansions;         /* of the searches */
+  uint32_t places;             /* that the last search entered */
+  uint32_t searches;           /* 0: the way was straight; 1 or 2 */
+  double length_m;             /* all below are NaN without a route */
+  double turning_rad;          /* all turns, on the spot and in curves */
+  double cost_m;               /* of the route as written */
+  double search_cost_m;        /* before it was pulled taut; cost_m if nothing was searched */
+  double bound;                /* 1 or more: BOUND above */
+  pose_wall_planar_pose place; /* TOO_NARROW: the narrowest place of the widest way; TOO_TIGHT: as above; else NaN */
+  double width_m;              /* TOO_NARROW: free width there, at most that of the inscribed circle; else NaN */
+} pose_wall_planar_plan_result;
+
+/* Plans from start to goal, poses of the turning centre in the grid's frame. Writes up to `capacity` poses; the first
+ * is the start and the last is the goal. Set result->struct_size first. That there is no route is an outcome, no error.
+ * The grid is read during the call only. Fails iff: NULL (poses may be NULL with capacity 0), a struct_size of another
+ * version, POSE_WALL_E_GRID (also: another resolution, or larger than the settings say), POSE_WALL_E_POSE for a start
+ * or goal that is not finite, not open, POSE_WALL_E_BUSY. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_plan(pose_wall_planar_planner* planner, const pose_wall_planar_grid* grid,
+                                                const pose_wall_planar_pose* start, const pose_wall_planar_pose* goal,
+                                                pose_wall_planar_path_pose* poses, uint32_t capacity,
+                                                pose_wall_planar_plan_result* result);
+
+/* "found", "too_narrow", ...; static storage. */
+const char* pose_wall_planar_plan_outcome_name(uint32_t outcome);
+/* One English sentence; static storage. */
+const char* pose_wall_planar_plan_outcome_text(uint32_t outcome);
+
+/* Distance in metres from a point of the grid last planned on to the nearest cell that is not driven on, or to the edge
+ * of the grid; at most 5. NaN before the first plan and for a point that is not finite. A tracker's callback. */
+double pose_wall_planar_plan_clearance(const pose_wall_planar_planner* planner, double x_m, double y_m);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* POSE_WALL_PLANAR_PLAN_H */

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Copyright (c) 2026 the pose_wall authors */
+
+/* clang-format off */
+/*
+ * pose_wall_planar_stop: stops the machine before it touches anything. It needs no map, no engine and no other part.
+ *
+ * Per frame it reads the raw cloud and the machine's motion, and gives a state (go, slow, stop) and the speed at which
+ * the machine can still stop before it touches anything.
+ *
+ *     pose_wall_planar_stop_settings settings;
+ *     pose_wall_planar_stop_settings_init(&settings);
+ *     uint64_t bytes = pose_wall_planar_stop_memory_needed();
+ *     pose_wall_planar_stop *stop;
+ *     pose_wall_planar_stop_open(&config, &settings, block, bytes, &stop);
+ *     result.struct_size = sizeof result;
+ *     for every frame:    pose_wall_planar_stop_process(stop, &cloud, &motion, now_ns, &result);
+ *     at least each 20 ms: pose_wall_planar_stop_tick(stop, now_ns, &result);
+ *
+ * RULE      a status other than POSE_WALL_OK means: stop. So does silence of the caller: no result is no permission.
+ * FREE      a place is free only where that was seen. A ray must have passed over it low enough to hit the smallest
+ *           thing there; another one where a person would stand; and one below top_m, where something may hang. Places
+ *           without such rays are blind. Blind places stop like things.
+ * SWEEP     the footprint along the arc of the motion, from now to standstill, without gaps between samples. It
+ *           includes the turn of the tail. Margins grow with the bounds of speed and turn rate.
+ * TIME      from the stamp to the first effect of the brakes may pass: scan_s + stale_s + delay_s + latency_s. The
+ *           machine may be anywhere that it can reach in this time and the braking time.
+ * DUST      returns between which most rays pass are doubtful. They count as soon as they persist in one place. That
+ *           takes at most delay_s, which is part of TIME. Dense returns count at once.
+ * MEMORY    of places: what was seen low, or of what hangs, is remembered for memory_s, until the bounds of the motion
+ *           since then reach drift_max_m. Things stay until they are seen gone. A person is excluded only by
+ *           rays of the last delay_s. After the start nothing is known of places that the sensor cannot see;
+ *           pose_wall_planar_stop_confirm tells that someone has looked.
+ * FRAMES    base as in pose_wall.h. Footprint, motion and results are in base; forward is forward_axis of the config.
+ * UNITS     metres, radians, seconds, nanoseconds (stamps). NaN where there is no number.
+ * THREADS   an opened stop belongs to one thread at a time.
+ *
+ * NOT COVERED   src/planar/stop/README.md states what is guaranteed, for which things, and under which assumptions.
+ *           The library is no certified safety component.
+ */
+/* clang-format on */
+
+#ifndef POSE_WALL_PLANAR_STOP_H
+#define POSE_WALL_PLANAR_STOP_H
+
+#include "pose_wall_planar_types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define POSE_WALL_PLANAR_STOP_CORNERS_MAX 12
+
+/* Extrinsic, forward_axis, range_min, range_max and the body boxes come from the engine's config. Returns beyond
+ * range_max show nothing: give the sensor's own reach, or long roads are blind. */
+typedef struct pose_wall_planar_stop_settings {
+  uint32_t struct_size; /* set by pose_wall_planar_stop_settings_init */
+  uint32_t corners;     /* 3 to POSE_WALL_PLANAR_STOP_CORNERS_MAX corners of the footprint */
+  /* x, y of the corners in base, counter-clockwise, strictly convex. The footprint holds the origin of base. Every
+   * part of the machine that can touch anything is above it, the boom as well. Edges are 0.1 m at least; no corner is
+   * further than 5 m from base. */
+  double corner_m[POSE_WALL_PLANAR_STOP_CORNERS_MAX][2];
+
+  double floor_z_m; /* -10 to 10: height of the tracks' contact with the floor in base */
+  double top_m;     /* 0.5 to 6: the machine's height above the floor, with clearance. Higher returns do not count */
+  double tall_m;    /* 0.5 to 2: persons near the machine are at least this tall */
+  /* The smallest thing that is found, as a standing cylinder. Returns up to floor_band_m above the floor are floor. */
+  double thing_height_m; /* 0.1 to 1, at least floor_band_m + 0.05 */
+  double thing_width_m;  /* 0.2 to 1 */
+  double floor_band_m;   /* 0.03 to 0.5: roughness of the floor and errors of its slope */
+  double slope_max_rad;  /* 0 to 0.35: largest slope of the floor against base */
+  double kink_max_rad;   /* 0.01 to 0.35: where no floor is seen, it may rise or fall so much ahead of the machine */
+
+  double speed_max_m_s;     /* 0.05 to 3: top speed of any point of the footprint that is allowed */
+  double turn_max_rad_s;    /* 0.01 to 2 */
+  double deceleration_m_s2; /* 0.1 to 10: least deceleration of the fastest point of the footprint */
+  double latency_s;         /* 0 to 2: from a result to the first effect of the brakes */
+  double stale_s;           /* 0.02 to 1: oldest frame. At least a frame's period and its own delay */
+  double scan_s;            /* 0 to 0.5: a point is measured up to so long before the stamp; 0: scan without skew */
+  double delay_s;           /* 0.1 to 2: in which sparse returns are told from dust; three frames at least */
+  double slack_s;           /* 0 to 2: allowed_speed_m_s is so much more careful than the stop */
+  double restart_s;         /* 0 to 60: clear for so long before a stop ends */
+  double restart_speed_m_s; /* 0.01 to 1: allowed speed needed to end a stop */
+  double approach_m_s;      /* 0 to 3: speed of people towards the path; 0: nobody is there */
+  double settle_s;     /* 0.2 to 60: what stood still for so long and is part of something long, like a wall, is not
+                          expected to walk. What stands alone may walk at any time */
+  double creep_m_s;    /* 0 to 0.3: so slowly the machine may pass a thing that stood still alone for settle_s, however
+                          near. 0: never nearer than it could walk into the way */
+  double memory_s;     /* 0.1 to 600: low places are remembered for so long */
+  double drift_max_m;  /* 0.02 to 0.5: and while the machine's motion is known so well */
+  double confirm_m;    /* 0 to 3: width of the strip around the footprint that _confirm declares empty */
+  double protection_m; /* 0.02 to 1: errors of range, extrinsic and footprint */
+  double speed_error_ratio; /* 0 to 0.5: error of a given speed or turn rate, as a share of it */
+  double speed_error_m_s;   /* 0 to 0.5: and beside it while the machine moves */
+  double turn_error_rad_s;  /* 0 to 0.5 */
+} pose_wall_planar_stop_settings;
+
+/* A roadheader of 4.5 x 1.2 m. Fails iff: NULL. */
+int32_t pose_wall_planar_stop_settings_init(pose_wall_planar_stop_settings* settings);
+/* The four corners of a rectangle, front and left as forward_axis +X has them. Fails iff: NULL, struct_size. */
+int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_settings* settings, double x_min_m, double x_max_m,
+                                        double y_min_m, double y_max_m);
+/* Fails iff: settings NULL, not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_VALUE_RANGE (*fault is written then,
+ * unless fault is NULL). */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_check(const pose_wall_planar_stop_settings* settings,
+                                                               pose_wall_planar_fault* fault);
+
+/* The machine's motion, each part with its bit. Give both the measured motion and the command under way: the stop
+ * covers all between them. Without any it assumes every motion that the settings allow. Speeds are along +x of base,
+ * negative backwards; turns are to the left. */
+enum pose_wall_planar_stop_given { POSE_WALL_PLANAR_STOP_MEASURED = 1, POSE_WALL_PLANAR_STOP_COMMANDED = 2 };
+typedef struct pose_wall_planar_stop_motion {
+  uint32_t struct_size; /* sizeof(pose_wall_planar_stop_motion) */
+  uint32_t given;       /* pose_wall_planar_stop_given bits */
+  double speed_m_s;     /* measured, of the origin of base along forward_axis */
+  double turn_rad_s;
+  double command_speed_m_s;
+  double command_turn_rad_s;
+} pose_wall_planar_stop_motion;
+
+enum pose_wall_planar_stop_state {
+  POSE_WALL_PLANAR_STOP_STOP = 0,
+  POSE_WALL_PLANAR_STOP_SLOW = 1, /* drive no faster than allowed_speed_m_s */
+  POSE_WALL_PLANAR_STOP_GO = 2
+};
+/* "stop"; static storage. */
+const char* pose_wall_planar_stop_state_name(uint32_t state);
+
+/* Why, in bits. */
+enum pose_wall_planar_stop_reason {
+  POSE_WALL_PLANAR_STOP_R_STALE = 1 << 0,     /* the last frame is older than stale_s, or there was none */
+  POSE_WALL_PLANAR_STOP_R_BLIND = 1 << 1,     /* a place in the way was not seen free */
+  POSE_WALL_PLANAR_STOP_R_INVALID = 1 << 2,   /* a stamp that went back or lies in the future, or hardly a return */
+  POSE_WALL_PLANAR_STOP_R_FROZEN = 1 << 3,    /* the cloud is that of the frame before: the sensor or driver hangs */
+  POSE_WALL_PLANAR_STOP_R_MISSING = 1 << 4,   /* no motion was given, or it is not finite: every motion is assumed */
+  POSE_WALL_PLANAR_STOP_R_THING = 1 << 5,     /* a thing is in the way */
+  POSE_WALL_PLANAR_STOP_R_LOW = 1 << 6,       /* it is a low one */
+  POSE_WALL_PLANAR_STOP_R_NEARING = 1 << 7,   /* it may walk into the way */
+  POSE_WALL_PLANAR_STOP_R_SPEED = 1 << 8,     /* the machine is faster than it can stop */
+  POSE_WALL_PLANAR_STOP_R_DUST = 1 << 9,      /* doubtful returns were seen near the way: dust, or a thin thing */
+  POSE_WALL_PLANAR_STOP_R_NO_FLOOR = 1 << 10, /* the floor was not seen: the machine's own plane is used */
+  POSE_WALL_PLANAR_STOP_R_RESTART = 1 << 11   /* the way is clear, but not for restart_s yet */
+};
+#define POSE_WALL_PLANAR_STOP_REASON_COUNT 12
+/* "stale", and one English sentence; static storage. */
+const char* pose_wall_planar_stop_reason_name(uint32_t bit_index);
+const char* pose_wall_planar_stop_reason_text(uint32_t bit_index);
+
+/* Heights of a thing. */
+enum pose_wall_planar_stop_height {
+  POSE_WALL_PLANAR_STOP_NONE = 0,     /* nothing is in the way */
+  POSE_WALL_PLANAR_STOP_LOW = 1,      /* below thing_height_m */
+  POSE_WALL_PLANAR_STOP_HIGH = 2,     /* above, and perhaps hanging */
+  POSE_WALL_PLANAR_STOP_STANDING = 3, /* from below thing_height_m to above it */
+  POSE_WALL_PLANAR_STOP_UNSEEN = 4    /* a blind place */
+};
+
+typedef struct pose_wall_planar_stop_result {
+  uint32_t struct_size; /* set by the caller to sizeof(pose_wall_planar_stop_result) before the call */
+  uint32_t state;       /* pose_wall_planar_stop_state */
+  uint32_t reasons;     /* pose_wall_planar_stop_reason bits */
+  uint32_t heartbeat;   /* changes with every call */
+  int64_t stamp_ns;     /* of the last frame */
+  int64_t now_ns;       /* of this call */
+  uint64_t frames;      /* since it was opened or reset */
+
+  /* The machine may move along the given motion so that its fastest point has this speed. 0 while state is stop. */
+  double allowed_speed_m_s;
+  double allowed_turn_rad_s; /* the turn rate of that motion */
+  double rim_speed_m_s;      /* speed of the fastest point now, measured or commanded */
+  double stop_speed_m_s;     /* above this speed the machine is stopped: no slack */
+  double time_to_contact_s;  /* at this speed, without braking; infinite: none within the reach of the sweep */
+
+  /* what limits the speed most, things and blind places; NaN without */
+  double nearest_m[2];       /* in base */
+  double nearest_distance_m; /* from the footprint as it stands */
+  double nearest_size_m;     /* across, of what hangs together within 1 m */
+  double nearest_age_s;      /* it has been there for so long */
+  uint32_t nearest_height;   /* pose_wall_planar_stop_height */
+  uint32_t points_in;
+  uint32_t points_used; /* returns within range, not of the machine */
+  uint32_t thing_cells; /* places of 0.1 m with a thing */
+  uint32_t blind_cells; /* in the way at top speed */
+  uint32_t doubtful_cells;
+  double floor_height_m; /* of the floor under base, in base */
+  double floor_slope[2]; /* along x and y of base */
+} pose_wall_planar_stop_result;
+
+typedef struct pose_wall_planar_stop pose_wall_planar_stop;
+
+/* Bytes of the block, at most 3 MiB. */
+uint64_t pose_wall_planar_stop_memory_needed(void);
+
+/* Places a stop in block, which may hold anything, stays the caller's and must not move. settings may be NULL:
+ * defaults. Fails iff: config or stop or block NULL, config or settings not initialised, POSE_WALL_E_CONFIG_RULE,
+ * POSE_WALL_E_VALUE_RANGE, POSE_WALL_E_BLOCK_SMALL, POSE_WALL_E_BLOCK_ALIGN. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_open(const pose_wall_config* config,
+                                                     const pose_wall_planar_stop_settings* settings, void* block,
+                                                     uint64_t block_bytes, pose_wall_planar_stop** stop);
+
+/* Forgets all, as if just opened. Fails iff: NULL, not open (POSE_WALL_E_ENGINE), POSE_WALL_E_BUSY. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_reset(pose_wall_planar_stop* stop);
+
+/* Someone has looked: within confirm_m of the footprint nothing lies lower than tall_m or hangs. Known things stay.
+ * Fails as reset does. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* stop);
+
+/* One frame in, one result out. now_ns is of the clock of the stamps. motion may be NULL: nothing is given. Fails as
+ * pose_wall_cloud_check does and iff: stop, cloud or result NULL, a struct_size, an unknown bit in given, not open,
+ * busy. All is then unchanged; treat it as a stop. Cost: README.md has it. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_process(pose_wall_planar_stop* stop, const pose_wall_cloud* cloud,
+                                                        const pose_wall_planar_stop_motion* motion, int64_t now_ns,
+                                                        pose_wall_planar_stop_result* result);
+
+/* The result for a moment without a frame. It is that of the last frame, until this is older than stale_s: then stop.
+ * Fails iff: NULL, struct_size, not open, busy. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_tick(pose_wall_planar_stop* stop, int64_t now_ns,
+                                                     pose_wall_planar_stop_result* result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* POSE_WALL_PLANAR_STOP_H */

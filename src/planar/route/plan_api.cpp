@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The extern "C" file of the route planner: checks arguments, translates, calls.
+
+#include "base/math/finite.hpp"
+#include "export.hpp"
+#include "planar/held.hpp"
+#include "planar/route/planner.hpp"
+#include "pose_wall_planar_plan.h"
+
+namespace {
+
+using pose_wall::planar::route::Planner;
+using HeldPlanner = pose_wall::planar::Held<Planner, 0x6E616C506D614C50ULL>;
+
+HeldPlanner* held_of(pose_wall_planar_planner* planner) {
+  return reinterpret_cast<HeldPlanner*>(planner);
+}
+const HeldPlanner* held_of(const pose_wall_planar_planner* planner) {
+  return reinterpret_cast<const HeldPlanner*>(planner);
+}
+
+bool is_pose(const pose_wall_planar_pose& pose) {
+  return pose_wall::is_finite(pose.x_m) && pose_wall::is_finite(pose.y_m) && pose_wall::is_finite(pose.yaw_rad);
+}
+
+pose_wall::planar::Pose2 taken(const pose_wall_planar_pose& pose) {
+  return {pose.x_m, pose.y_m, pose_wall::planar::wrapped(pose.yaw_rad)};
+}
+
+constexpr const char* kOutcomes[][2] = {
+    {"found", "A route was found."},
+    {"start_blocked", "The machine with its margin does not fit at the start."},
+    {"goal_blocked", "The machine with its margin does not fit at the goal."},
+    {"not_connected", "No free cells lead from the start to the goal."},
+    {"too_narrow", "The widest way is narrower than the machine with its margin."},
+    {"too_tight", "The way is wide enough, but the machine was not found to get round."},
+    {"list_full", "The lists of the search were full before a route was found."},
+    {"work_limit", "The limit of expansions was reached before a route was found."},
+    {"room_small", "A route was found, but the caller's room is too small for its poses."}};
+constexpr std::uint32_t kOutcomeCount = sizeof(kOutcomes) / sizeof(kOutcomes[0]);
+
+}  // namespace
+
+extern "C" {
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_plan_settings_init(pose_wall_planar_plan_settings* settings) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  *settings = {sizeof(*settings),
+               2048,
+               2048,
+               60000,
+               400000,
+               2000000,
+               25000,
+               50,
+               0.05,
+               2.25,
+               2.25,
+               0.6,
+               0.6,
+               0.1,
+               0.25,
+               0.5,
+               1.2,
+               0.5,
+               1.1,
+               1.0,
+               8.0,
+               0.25};
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_plan_settings_check(const pose_wall_planar_plan_settings* settings,
+                                                              pose_wall_planar_fault* fault) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  const pose_wall_planar_fault* const found = pose_wall::planar::route::fault_of(*settings);
+  if (found == nullptr) return POSE_WALL_OK;
+  if (fault != nullptr) *fault = *found;
+  return POSE_WALL_E_VALUE_RANGE;
+}
+
+POSE_WALL_EXPORT uint64_t pose_wall_planar_plan_memory_needed(const pose_wall_planar_plan_settings* settings) {
+  if (pose_wall_planar_plan_settings_check(settings, nullptr) != POSE_WALL_OK) return 0;
+  return HeldPlanner::bytes(*settings);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_plan_open(const pose_wall_planar_plan_settings* settings, void* block,
+                                                    uint64_t block_bytes, pose_wall_planar_planner** planner) {
+  if (settings == nullptr || block == nullptr || planner == nullptr) return POSE_WALL_E_NULL;
+  std::int32_t status = pose_wall_planar_plan_settings_check(settings, nullptr);
+  HeldPlanner* held = nullptr;
+  if (status == POSE_WALL_OK) status = HeldPlanner::place(block, block_bytes, &held, *settings);
+  if (status != POSE_WALL_OK) return status;
+  held->body().open();
+  *planner = reinterpret_cast<pose_wall_planar_planner*>(held);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_plan(pose_wall_planar_planner* planner, const pose_wall_planar_grid* grid,
+                                               const pose_wall_planar_pose* start, const pose_wall_planar_pose* goal,
+                                               pose_wall_planar_path_pose* poses, uint32_t capacity,
+                                               pose_wall_planar_plan_result* result) {
+  if (planner == nullptr || start == nullptr || goal == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  if (poses == nullptr && capacity > 0) return POSE_WALL_E_NULL;
+  const HeldPlanner::Inside inside(held_of(planner));
+  std::int32_t status = inside.status();
+  if (status == POSE_WALL_OK && result->struct_size != sizeof(*result)) status = POSE_WALL_E_STRUCT_SIZE;
+  if (status == POSE_WALL_OK) status = pose_wall::planar::route::check_grid(grid);
+  if (status == POSE_WALL_OK && !(is_pose(*start) && is_pose(*goal))) status = POSE_WALL_E_POSE;
+  if (status != POSE_WALL_OK) return status;
+  if (!inside.body().read(*grid)) return POSE_WALL_E_GRID;
+  const pose_wall::Span<pose_wall_planar_path_pose> room(poses, capacity);
+  inside.body().plan(taken(*start), taken(*goal), room, result);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT const char* pose_wall_planar_plan_outcome_name(uint32_t outcome) {
+  return outcome < kOutcomeCount ? kOutcomes[outcome][0] : "unknown";
+}
+POSE_WALL_EXPORT const char* pose_wall_planar_plan_outcome_text(uint32_t outcome) {
+  return outcome < kOutcomeCount ? kOutcomes[outcome][1] : "unknown outcome";
+}
+
+POSE_WALL_EXPORT double pose_wall_planar_plan_clearance(const pose_wall_planar_planner* planner, double x_m,
+                                                        double y_m) {
+  if (planner == nullptr || !pose_wall::is_finite(x_m) || !pose_wall::is_finite(y_m)) return pose_wall::not_a_number();
+  const HeldPlanner::Inside inside(held_of(planner));
+  return inside.status() == POSE_WALL_OK ? inside.body().clearance_m({x_m, y_m}) : pose_wall::not_a_number();
+}
+
+}  // extern "C"

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The extern "C" file of the tracker: checks arguments, translates, calls.
+
+#include "base/math/finite.hpp"
+#include "export.hpp"
+#include "planar/held.hpp"
+#include "planar/route/tracker.hpp"
+#include "pose_wall_planar_track.h"
+
+namespace {
+
+using pose_wall::is_finite;
+using pose_wall::planar::route::Tracker;
+using HeldTracker = pose_wall::planar::Held<Tracker, 0x6B6361725440504CULL>;
+
+HeldTracker* held_of(pose_wall_planar_tracker* tracker) {
+  return reinterpret_cast<HeldTracker*>(tracker);
+}
+
+std::int32_t check_route(const pose_wall_planar_path_pose* poses, std::uint32_t count) {
+  double along_m = 0.0;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const pose_wall_planar_path_pose& at = poses[k];
+    const bool is_whole = is_finite(at.pose.x_m) && is_finite(at.pose.y_m) && is_finite(at.pose.yaw_rad) &&
+                          is_finite(at.curvature_1_m) && is_finite(at.along_m) && at.along_m >= along_m &&
+                          at.drive >= -1 && at.drive <= 1;
+    if (!is_whole) return POSE_WALL_E_POSE;
+    along_m = at.along_m;
+  }
+  return POSE_WALL_OK;
+}
+
+constexpr const char* kStates[] = {"idle", "following", "turning", "stopping", "done", "off_path", "no_pose"};
+
+}  // namespace
+
+extern "C" {
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_init(pose_wall_planar_track_settings* settings) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  *settings = {sizeof(*settings),
+               8192,
+               0.5,
+               0.05,
+               0.25,
+               0.35,
+               1.0,
+               0.9,
+               1.6,
+               0.3,
+               0.15,
+               0.6,
+               0.5,
+               0.03,
+               0.015,
+               0.5,
+               0.7,
+               0.5,
+               0.5};
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_check(const pose_wall_planar_track_settings* settings,
+                                                               pose_wall_planar_fault* fault) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  const pose_wall_planar_fault* const found = pose_wall::planar::route::fault_of(*settings);
+  if (found == nullptr) return POSE_WALL_OK;
+  if (fault != nullptr) *fault = *found;
+  return POSE_WALL_E_VALUE_RANGE;
+}
+
+POSE_WALL_EXPORT uint64_t pose_wall_planar_track_memory_needed(const pose_wall_planar_track_settings* settings) {
+  if (pose_wall_planar_track_settings_check(settings, nullptr) != POSE_WALL_OK) return 0;
+  return HeldTracker::bytes(*settings);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_track_open(const pose_wall_planar_track_settings* settings, void* block,
+                                                     uint64_t block_bytes, pose_wall_planar_tracker** tracker) {
+  if (settings == nullptr || block == nullptr || tracker == nullptr) return POSE_WALL_E_NULL;
+  std::int32_t status = pose_wall_planar_track_settings_check(settings, nullptr);
+  HeldTracker* held = nullptr;
+  if (status == POSE_WALL_OK) status = HeldTracker::place(block, block_bytes, &held, *settings);
+  if (status != POSE_WALL_OK) return status;
+  held->body().open();
+  *tracker = reinterpret_cast<pose_wall_planar_tracker*>(held);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_track_route(pose_wall_planar_tracker* tracker,
+                                                      const pose_wall_planar_path_pose* poses, uint32_t count,
+                                                      pose_wall_planar_clearance clearance, void* context) {
+  if (tracker == nullptr || poses == nullptr) return POSE_WALL_E_NULL;
+  const HeldTracker::Inside inside(held_of(tracker));
+  std::int32_t status = inside.status();
+  if (status == POSE_WALL_OK && !(count >= 1 && count <= inside.body().path_max())) status = POSE_WALL_E_VALUE_RANGE;
+  if (status == POSE_WALL_OK) status = check_route(poses, count);
+  if (status == POSE_WALL_OK) inside.body().take_route(poses, count, clearance, context);
+  return status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_track_step(pose_wall_planar_tracker* tracker,
+                                                     const pose_wall_planar_track_input* input,
+                                                     pose_wall_planar_track_command* command) {
+  if (tracker == nullptr || input == nullptr || command == nullptr) return POSE_WALL_E_NULL;
+  const HeldTracker::Inside inside(held_of(tracker));
+  if (inside.status() != POSE_WALL_OK) return inside.status();
+  if (input->struct_size != sizeof(*input) || command->struct_size != sizeof(*command)) {
+    return POSE_WALL_E_STRUCT_SIZE;
+  }
+  inside.body().step(*input, command);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT const char* pose_wall_planar_track_state_name(uint32_t state) {
+  return state < sizeof(kStates) / sizeof(kStates[0]) ? kStates[state] : "unknown";
+}
+
+}  // extern "C"

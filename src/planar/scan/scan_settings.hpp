@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The settings of a planar scanner as its stages read them.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "config.hpp"
+#include "pose_wall_planar_scan.h"
+
+namespace pose_wall::planar {
+
+struct ScanSettings {
+  // heights above the floor, m
+  double clearance_m = 0.0, machine_m = 0.0, margin_m = 0.0;
+  double tolerance_m = 0.0, overhead_m = 0.0, thing_m = 0.0;
+  double low_m() const { return clearance_m - margin_m; }
+  double high_m() const { return machine_m + margin_m; }
+
+  // the scan
+  double angle_min_rad = 0.0, step_rad = 0.0, range_min_m = 0.0, range_max_m = 0.0;
+  std::uint32_t beams = 0;
+  std::uint32_t fill_beams = 0;  // neighbours this far apart can be joined
+  double steps_of_turn = 0.0;
+  bool goes_round = false;  // the last beam lies beside the first
+  bool alone_is_apart = false;
+  std::uint32_t sectors = 0;  // of the guarantee, over a whole turn
+  double reach_m = 0.0;       // of the guarantee
+
+  // the sensor
+  double sigma_m = 0.0, nearest_m = 0.0;
+  Eigen::Matrix3d R_base_lidar = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d lidar_base_m = Eigen::Vector3d::Zero();
+  Box body[4] = {};
+
+  // the floor
+  double hold_max_s = 0.0, hold_rate_rad_s = 0.0, tilt_level_max_rad = 0.0, bend_rad = 0.0;
+};
+
+// POSE_WALL_OK, POSE_WALL_E_NULL, the codes of a struct_size or POSE_WALL_E_VALUE_RANGE.
+std::int32_t check_scan_settings(const pose_wall_planar_scanner_settings* settings, pose_wall_planar_fault* fault);
+
+pose_wall_planar_scanner_settings default_scan_settings();
+
+// Of checked settings.
+std::uint32_t beams_of(const pose_wall_planar_scanner_settings& settings);
+ScanSettings scan_settings_of(const pose_wall_planar_scanner_settings& settings);
+// Of a checked config: the sensor and the hold rate.
+void read_sensor(const pose_wall_config& config, ScanSettings* settings);
+
+}  // namespace pose_wall::planar

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The only extern "C" file of SLAM: checks arguments, translates, calls.
+
+#include "export.hpp"
+#include "planar/held.hpp"
+#include "planar/slam/slam.hpp"
+#include "planar/slam/trail_image.hpp"
+#include "pose_wall_planar_slam.h"
+
+namespace {
+
+using pose_wall::planar::check_scan;
+using pose_wall::planar::Edge;
+using pose_wall::planar::Keyframe;
+using pose_wall::planar::Pose2;
+using pose_wall::planar::pose_for_caller;
+using pose_wall::planar::pose_of;
+using pose_wall::planar::read_beams;
+using pose_wall::planar::ScanPoint;
+using pose_wall::planar::Slam;
+using pose_wall::planar::SlamSettings;
+using pose_wall::planar::SlamStep;
+using pose_wall::planar::Trail;
+using pose_wall::planar::TrailImage;
+
+// What lives in the block: SLAM and its settings, for clear().
+struct Body {
+  Slam slam;
+  SlamSettings settings;
+
+  void lay_out(pose_wall::Arena& arena, const SlamSettings& with) { slam.lay_out(arena, with); }
+};
+
+using Opened = pose_wall::planar::Held<Body, 0x6D616C736C6E616CULL>;
+
+const Opened* opened(const pose_wall_planar_slam* slam) {
+  return reinterpret_cast<const Opened*>(slam);
+}
+
+bool is_within(double value, double least, double most) {
+  return value >= least && value <= most;
+}
+
+bool is_pose(const pose_wall_planar_pose& pose) {
+  constexpr double kFarthest_m = 1e6, kMost_rad = 10000.0;  // as the header says; a turn is exact to 1e-12 there
+  return is_within(pose.x_m, -kFarthest_m, kFarthest_m) && is_within(pose.y_m, -kFarthest_m, kFarthest_m) &&
+         is_within(pose.yaw_rad, -kMost_rad, kMost_rad);
+}
+
+pose_wall_planar_slam_settings defaults() {
+  const SlamSettings own;
+  pose_wall_planar_slam_settings out{};
+  out.struct_size = sizeof(out);
+  out.keyframes_most = own.keyframes_most;
+  out.keyframe_m = own.keyframe_m;
+  out.keyframe_rad = own.keyframe_rad;
+  out.odometry_m = own.odometry_m;
+  out.odometry_rad = own.odometry_rad;
+  return out;
+}
+
+SlamSettings settings_of(const pose_wall_planar_slam_settings& from) {
+  SlamSettings out;
+  out.keyframes_most = from.keyframes_most;
+  out.keyframe_m = from.keyframe_m;
+  out.keyframe_rad = from.keyframe_rad;
+  out.odometry_m = from.odometry_m;
+  out.odometry_rad = from.odometry_rad;
+  return out;
+}
+
+// The caller's settings, or the defaults. Fails as pose_wall_planar_slam_settings_check does.
+std::int32_t take_settings(const pose_wall_planar_slam_settings* from, SlamSettings* out) {
+  if (from != nullptr) {
+    const std::int32_t status = pose_wall_planar_slam_settings_check(from, nullptr);
+    if (status != POSE_WALL_OK) return status;
+  }
+  *out = settings_of(from != nullptr ? *from : defaults());
+  return POSE_WALL_OK;
+}
+
+std::uint32_t state_of(const SlamStep& step, bool is_first) {
+  constexpr double kFits = 0.75;  // kTrusted of slam.cpp
+  if (is_first) return POSE_WALL_PLANAR_SLAM_FIRST;
+  if (!step.is_valid) return POSE_WALL_PLANAR_SLAM_BLIND;
+  return step.explained >= kFits ? std::uint32_t{POSE_WALL_PLANAR_SLAM_TRACKED}
+                                 : std::uint32_t{POSE_WALL_PLANAR_SLAM_DOUBTFUL};
+}
+
+// Bodies of calls about an opened SLAM. call(body) gives the status.
+template <typename Call>
+std::int32_t inside(const pose_wall_planar_slam* slam, Call call) {
+  if (slam == nullptr) return POSE_WALL_E_NULL;
+  const Opened::Inside held(opened(slam));
+  return held.status() == POSE_WALL_OK ? call(held.body()) : held.status();
+}
+
+}  // namespace
+
+extern "C" {
+
+POSE_WALL_EXPORT const char* pose_wall_planar_slam_state_name(uint32_t state) {
+  constexpr const char* kNames[] = {"first", "tracked", "doubtful", "blind"};
+  return state < sizeof(kNames) / sizeof(kNames[0]) ? kNames[state] : "unknown";
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settings_init(pose_wall_planar_slam_settings* settings) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  *settings = defaults();
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settings_check(const pose_wall_planar_slam_settings* settings,
+                                                              pose_wall_planar_fault* fault) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  const struct {
+    double value, least, most;
+    const char *member, *rule;
+  } rows[] = {{static_cast<double>(settings->keyframes_most), 16, 65536, "keyframes_most",
+               "keyframes_most must be from 16 to 65536"},
+              {settings->keyframe_m, 0.05, 2, "keyframe_m", "keyframe_m must be from 0.05 to 2"},
+              {settings->keyframe_rad, 0.02, 1, "keyframe_rad", "keyframe_rad must be from 0.02 to 1"},
+              {settings->odometry_m, 0, 1, "odometry_m", "odometry_m must be from 0 to 1"},
+              {settings->odometry_rad, 0, 1, "odometry_rad", "odometry_rad must be from 0 to 1"}};
+  for (const auto& row : rows) {
+    if (is_within(row.value, row.least, row.most)) continue;
+    if (fault != nullptr) *fault = {row.member, row.rule};
+    return POSE_WALL_E_VALUE_RANGE;
+  }
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_memory_needed(const pose_wall_planar_slam_settings* settings,
+                                                             uint64_t* bytes) {
+  if (bytes == nullptr) return POSE_WALL_E_NULL;
+  SlamSettings own;
+  const std::int32_t status = take_settings(settings, &own);
+  if (status == POSE_WALL_OK) *bytes = Opened::bytes(own);
+  return status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_open(const pose_wall_planar_slam_settings* settings, void* block,
+                                                    uint64_t block_bytes, pose_wall_planar_slam** slam) {
+  if (block == nullptr || slam == nullptr) return POSE_WALL_E_NULL;
+  SlamSettings own;
+  std::int32_t status = take_settings(settings, &own);
+  Opened* placed = nullptr;
+  if (status == POSE_WALL_OK) status = Opened::place(block, block_bytes, &placed, own);
+  if (status != POSE_WALL_OK) return status;
+  placed->body().settings = own;
+  placed->body().slam.open(own);
+  *slam = reinterpret_cast<pose_wall_planar_slam*>(placed);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_clear(pose_wall_planar_slam* slam) {
+  return inside(slam, [](Body& body) {
+    body.slam.open(body.settings);
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_process(pose_wall_planar_slam* slam, const pose_wall_planar_scan* scan,
+                                                       const pose_wall_planar_pose* odometry,
+                                                       pose_wall_planar_slam_result* result) {
+  if (result == nullptr) return POSE_WALL_E_NULL;
+  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  const std::int32_t status = check_scan(scan);
+  if (status != POSE_WALL_OK) return status;
+  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_E_POSE;
+  return inside(slam, [&](Body& body) {
+    Slam& own = body.slam;
+    const bool is_first = own.trail().size() == 0;
+    const Pose2 given = odometry != nullptr ? pose_of(*odometry) : Pose2();
+    const SlamStep step = own.process(read_beams(*scan, own.beams()), odometry != nullptr ? &given : nullptr);
+    pose_wall_planar_slam_result out{};
+    out.struct_size = sizeof(out);
+    out.state = state_of(step, is_first);
+    out.stamp_ns = scan->stamp_ns;
+    out.pose = pose_for_caller(step.pose);
+    out.in_keyframe = pose_for_caller(step.in_keyframe);
+    out.keyframe = step.keyframe;
+    out.is_keyframe = step.is_keyframe ? 1 : 0;
+    out.explained = step.explained;
+    out.misfit_m = step.rms_m;
+    out.closures = own.loops().believed();
+    out.taken_back = own.loops().taken_back();
+    out.keyframes = own.trail().size();
+    out.is_full = own.is_full() ? 1 : 0;
+    out.solution = own.solution();
+    out.is_settled = own.is_settled() ? 1 : 0;
+    *result = out;
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settle(pose_wall_planar_slam* slam) {
+  return inside(slam, [](Body& body) {
+    body.slam.settle();
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_keyframe(const pose_wall_planar_slam* slam, uint32_t number,
+                                                        pose_wall_planar_keyframe* keyframe) {
+  if (keyframe == nullptr) return POSE_WALL_E_NULL;
+  if (keyframe->struct_size != sizeof(*keyframe)) return POSE_WALL_E_STRUCT_SIZE;
+  return inside(slam, [&](const Body& body) {
+    const Trail& trail = body.slam.trail();
+    if (number >= trail.size()) return std::int32_t{POSE_WALL_E_INDEX};
+    const Keyframe& own = trail[number];
+    *keyframe = {sizeof(*keyframe), own.count, own.stamp_ns, pose_for_caller(trail.pose(number)), own.travel_m};
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_points(const pose_wall_planar_slam* slam, uint32_t number, float* xy_m,
+                                                      uint32_t capacity) {
+  if (xy_m == nullptr) return POSE_WALL_E_NULL;
+  return inside(slam, [&](const Body& body) {
+    const Trail& trail = body.slam.trail();
+    if (number >= trail.size()) return std::int32_t{POSE_WALL_E_INDEX};
+    if (capacity < trail[number].count) return std::int32_t{POSE_WALL_E_BUFFER_SMALL};
+    float* to = xy_m;
+    for (const ScanPoint& point : trail.points(number)) {
+      *to++ = point.x_m;
+      *to++ = point.y_m;
+    }
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_edge(const pose_wall_planar_slam* slam, uint32_t number,
+                                                    pose_wall_planar_edge* edge) {
+  if (edge == nullptr) return POSE_WALL_E_NULL;
+  if (edge->struct_size != sizeof(*edge)) return POSE_WALL_E_STRUCT_SIZE;
+  return inside(slam, [&](const Body& body) {
+    const Trail& trail = body.slam.trail();
+    if (number >= trail.edges().size()) return std::int32_t{POSE_WALL_E_INDEX};
+    const Edge& own = trail.edges()[number];
+    pose_wall_planar_edge out{};
+    out.struct_size = sizeof(out);
+    out.from = own.from;
+    out.to = own.to;
+    out.is_closure = own.is_closure ? 1 : 0;
+    out.step = pose_for_caller(own.step);
+    for (int k = 0; k < 9; ++k) out.information[k] = own.information(k / 3, k % 3);
+    *edge = out;
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_save_bytes(const pose_wall_planar_slam* slam, uint64_t* bytes) {
+  if (bytes == nullptr) return POSE_WALL_E_NULL;
+  return inside(slam, [&](const Body& body) {
+    *bytes = TrailImage::bytes(body.slam.trail());
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_save(const pose_wall_planar_slam* slam, void* buffer,
+                                                    uint64_t buffer_bytes, uint64_t* bytes) {
+  if (buffer == nullptr || bytes == nullptr) return POSE_WALL_E_NULL;
+  return inside(slam, [&](const Body& body) {
+    const std::uint64_t needed = TrailImage::bytes(body.slam.trail());
+    if (buffer_bytes < needed) return std::int32_t{POSE_WALL_E_BUFFER_SMALL};
+    TrailImage::write(body.slam.trail(), static_cast<unsigned char*>(buffer));
+    *bytes = needed;
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_slam_load(pose_wall_planar_slam* slam, const void* saved, uint64_t bytes,
+                                                    const pose_wall_planar_pose* base) {
+  if (saved == nullptr) return POSE_WALL_E_NULL;
+  if (base != nullptr && !is_pose(*base)) return POSE_WALL_E_POSE;
+  return inside(slam, [&](Body& body) {
+    Trail& trail = body.slam.trail();
+    const std::int32_t status = TrailImage::read(static_cast<const unsigned char*>(saved), bytes, &trail);
+    if (status != POSE_WALL_OK) return status;
+    const Pose2 end = trail.size() > 0 ? trail.pose(trail.size() - 1) : Pose2();
+    body.slam.resume(base != nullptr ? pose_of(*base) : end);
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "planar/stop/places.hpp"
+
+#include <cmath>
+
+#include "base/math/elementary.hpp"
+#include "planar/pose2.hpp"
+
+namespace pose_wall::planar {
+namespace {
+
+constexpr std::int16_t kNowhere = 0x7FFF;  // of a place that is none of the ground's
+constexpr float kInside_m = 0.1F;          // so far inside the footprint nothing but the machine can be
+constexpr float kNotUnder_m = -0.02F;      // places under the machine are not in its way
+
+std::int32_t place_of(double m) {
+  return static_cast<std::int32_t>(std::floor(m / kPlace_m));
+}
+
+std::uint32_t milliseconds(double s) {
+  return static_cast<std::uint32_t>(s * 1000.0 + 0.5);
+}
+
+}  // namespace
+
+void Places::open(const StopSettings& settings) {
+  memory_ms_ = milliseconds(settings.memory_s);
+  delay_ms_ = milliseconds(settings.delay_s);
+  settle_ms_ = milliseconds(settings.settle_s);
+  gap_ms_ = 2 * delay_ms_;  // a thing that is not seen for longer has gone, or was another one
+  drift_most_m_ = static_cast<float>(settings.drift_max_m);
+  protection_m_ = static_cast<float>(settings.protection_m);
+  approach_m_s_ = static_cast<float>(settings.approach_m_s);
+  confirm_m_ = static_cast<float>(settings.confirm_m);
+  // What is known already needs no delay to be believed; it has to come nearer only.
+  sooner_s_ = static_cast<float>(settings.scan_s + settings.delay_s);
+  forget();
+}
+
+void Places::forget() {
+  Place none{};
+  none.ix = none.iy = kNowhere;
+  places_.fill(none);
+}
+
+std::uint32_t Places::index_of(std::int32_t ix, std::int32_t iy) {
+  constexpr std::uint32_t kOffset = kPlacesAcross * 100000U;  // no machine goes as far: above 0
+  const std::uint32_t a = (static_cast<std::uint32_t>(ix) + kOffset) % kPlacesAcross;
+  return a + kPlacesAcross * ((static_cast<std::uint32_t>(iy) + kOffset) % kPlacesAcross);
+}
+
+Place& Places::place_at(std::int32_t ix, std::int32_t iy) {
+  return place_at(ix, iy, index_of(ix, iy));
+}
+
+Place& Places::place_at(std::int32_t ix, std::int32_t iy, std::uint32_t index) {
+  Place& place = places_[index];
+  const auto x = static_cast<std::int16_t>(ix), y = static_cast<std::int16_t>(iy);
+  if (place.ix != x || place.iy != y) {
+    place = Place{};
+    place.ix = x, place.iy = y;
+  }
+  return place;
+}
+
+const Place* Places::known_at(std::int32_t ix, std::int32_t iy) const {
+  const Place& place = places_[index_of(ix, iy)];
+  return is_of(place, ix, iy) ? &place : nullptr;
+}
+
+bool Places::is_remembered(std::uint32_t when_ms, float drift_m, const Track& track, std::uint32_t now_ms) const {
+  return when_ms != 0 && now_ms - when_ms <= memory_ms_ && static_cast<float>(track.drift_m) - drift_m <= drift_most_m_;
+}
+
+bool Places::is_thing(const Place& place, const Track& track, std::uint32_t now_ms) const {
+  return is_remembered(place.thing_low_ms, place.thing_drift_m, track, now_ms) ||
+         is_remembered(place.thing_high_ms, place.thing_drift_m, track, now_ms);
+}
+
+bool Places::is_free(const Place& place, const Track& track, std::uint32_t now_ms) const {
+  return is_remembered(place.low_ms, place.low_drift_m, track, now_ms) &&
+         is_remembered(place.top_ms, place.top_drift_m, track, now_ms) && place.tall_ms != 0 &&
+         now_ms - place.tall_ms <= delay_ms_;
+}
+
+// A doubtful return is a thing's once there were others around it for two thirds of the delay: with a frame's period
+// of a third, before the delay has passed.
+void Places::doubt(Place* place, std::uint32_t now_ms) {
+  std::uint32_t first_ms = now_ms;
+  for (std::int32_t dy = -1; dy <= 1; ++dy) {
+    for (std::int32_t dx = -1; dx <= 1; ++dx) {
+      const Place* const near = known_at(place->ix + dx, place->iy + dy);
+      if (near == nullptr || near->doubt_ms == 0 || now_ms - near->doubt_ms > delay_ms_) continue;
+      if (near->doubt_first_ms < first_ms) first_ms = near->doubt_first_ms;
+    }
+  }
+  place->doubt_first_ms = first_ms;
+  place->doubt_ms = now_ms;
+}
+
+void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
+                         std::uint32_t now_ms) {
+  const Turn2 turn(track.yaw_rad);
+  const Eigen::Vector2d origin = turn * sensor_m + Eigen::Vector2d(track.x_m, track.y_m);
+  const auto drift_m = static_cast<float>(track.drift_m);
+  sight.each_return([&](const Sight::Return& hit) {
+    const Eigen::Vector2d at = turn * Eigen::Vector2d(static_cast<double>(hit.x), static_cast<double>(hit.y)) + origin;
+    Place& place = place_at(place_of(at.x()), place_of(at.y()));
+    bool counts = !hit.is_doubtful;
+    if (hit.is_doubtful) {
+      doubt(&place, now_ms);
+      counts = 3 * (now_ms - place.doubt_first_ms) >= 2 * delay_ms_;
+    }
+    if (!counts) return;
+    std::uint32_t& last_ms = hit.is_high ? place.thing_high_ms : place.thing_low_ms;
+    std::uint32_t& first_ms = hit.is_high ? place.first_ms : place.low_first_ms;
+    if (last_ms == 0 || now_ms - last_ms > gap_ms_) first_ms = now_ms;
+    last_ms = now_ms;
+    place.thing_drift_m = drift_m;
+  });
+}
+
+// visit(ix, iy, index, x and y in base): the places within a square around a point of base, row by row.
+template <typename Visit>
+void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
+  const Turn2 turn(track.yaw_rad);
+  const std::int32_t bx = place_of(track.x_m), by = place_of(track.y_m);
+  const Eigen::Vector2d middle = turn * middle_m + Eigen::Vector2d(track.x_m, track.y_m);
+  const auto bounded = [](double at_m, std::int32_t around) {
+    const std::int32_t place = place_of(at_m), least = around - kPlacesAround, most = around + kPlacesAround;
+    return place < least ? least : place > most ? most : place;
+  };
+  const std::int32_t first_x = bounded(middle.x() - half_m, bx), last_x = bounded(middle.x() + half_m, bx);
+  const std::int32_t first_y = bounded(middle.y() - half_m, by), last_y = bounded(middle.y() + half_m, by);
+  const auto step_x = static_cast<float>(turn.c * kPlace_m), step_y = static_cast<float>(-turn.s * kPlace_m);
+  for (std::int32_t iy = first_y; iy <= last_y; ++iy) {
+    const Eigen::Vector2d first =
+        turn.back({(first_x + 0.5) * kPlace_m - track.x_m, (iy + 0.5) * kPlace_m - track.y_m});
+    float x = static_cast<float>(first.x()), y = static_cast<float>(first.y());
+    std::uint32_t index = index_of(first_x, iy), column = index % kPlacesAcross;
+    for (std::int32_t ix = first_x; ix <= last_x; ++ix) {
+      visit(ix, iy, index, x, y);
+      x += step_x, y += step_y;
+      ++index, ++column;
+      if (column == kPlacesAcross) index -= kPlacesAcross, column = 0;
+    }
+  }
+}
+
+void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
+                      std::uint32_t now_ms) {
+  const auto drift_m = static_cast<float>(track.drift_m);
+  const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
+  const float most_m = sight.seen_most_m();
+  each_around(track, sensor_m, static_cast<double>(most_m),
+              [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
+                const float dx = x - sx, dy = y - sy;
+                if (!(dx * dx + dy * dy < most_m * most_m)) return;
+                const std::uint8_t seen = sight.seen(dx, dy);
+                if (seen == 0) return;
+                Place& place = place_at(ix, iy, index);
+                if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
+                if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift_m = drift_m;
+                if ((seen & Sight::kLow) == 0) return;
+                place.low_ms = now_ms, place.low_drift_m = drift_m;
+                if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
+              });
+  // Where the machine stands, nothing lies.
+  each_around(track, {0.0, 0.0}, sweep.radius_m(),
+              [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
+                if (!(sweep.distance_now(x, y) < -kInside_m)) return;
+                Place& place = place_at(ix, iy, index);
+                place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
+                place.thing_low_ms = place.thing_high_ms = 0;
+              });
+}
+
+void Places::confirm(const Track& track, const Sweep& sweep, std::uint32_t now_ms) {
+  const auto drift_m = static_cast<float>(track.drift_m);
+  const double reach_m = sweep.radius_m() + static_cast<double>(confirm_m_);
+  each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
+    if (!(sweep.distance_now(x, y) <= confirm_m_)) return;
+    Place& place = place_at(ix, iy, index);
+    place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
+  });
+}
+
+// It, or a neighbour, was there for long. What went out of sight then is taken to be still there.
+bool Places::is_settled(const Place& place, std::uint32_t now_ms) const {
+  for (std::int32_t dy = -1; dy <= 1; ++dy) {
+    for (std::int32_t dx = -1; dx <= 1; ++dx) {
+      const Place* const near = known_at(place.ix + dx, place.iy + dy);
+      if (near == nullptr || near->thing_high_ms == 0 || now_ms - near->thing_high_ms > memory_ms_) continue;
+      if (near->thing_high_ms - near->first_ms >= settle_ms_) return true;
+    }
+  }
+  return false;
+}
+
+bool Places::has_thing_around(std::int32_t ix, std::int32_t iy, const Track& track, std::uint32_t now_ms) const {
+  for (std::int32_t dy = -1; dy <= 1; ++dy) {
+    for (std::int32_t dx = -1; dx <= 1; ++dx) {
+      const Place* const near = known_at(ix + dx, iy + dy);
+      if (near != nullptr && is_remembered(near->thing_high_ms, near->thing_drift_m, track, now_ms)) return true;
+    }
+  }
+  return false;
+}
+
+// Whether it goes on in a straight line: half a metre to both sides, or a metre to one, along any of four axes. The
+// face of a wall does. A person does not, even with the back to a wall.
+bool Places::is_long(const Place& place, const Track& track, std::uint32_t now_ms) const {
+  constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};  // half a metre in places
+  for (const auto& axis : kAxes) {
+    const auto goes_on = [&](std::int32_t times) {
+      return has_thing_around(place.ix + times * axis[0], place.iy + times * axis[1], track, now_ms);
+    };
+    const bool ahead = goes_on(1), behind = goes_on(-1);
+    if ((ahead && behind) || (ahead && goes_on(2)) || (behind && goes_on(-2))) return true;
+  }
+  return false;
+}
+
+// A high thing is gone where rays pass and nothing returned for the delay.
+void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const {
+  const bool may_go = place->thing_high_ms != 0 && now_ms - place->thing_high_ms > delay_ms_;
+  if (may_go && sight.passed_high(x, y)) place->thing_high_ms = 0;
+}
+
+// What a place is to the sweep: false if it is free.
+bool Places::is_hazard(const Place* place, const Track& track, std::uint32_t now_ms, Hazard* hazard) const {
+  hazard->margin_m = protection_m_ + kPlaceCorner_m;
+  hazard->approach_m_s = hazard->sooner_s = 0.0F;
+  hazard->kind = POSE_WALL_PLANAR_STOP_UNSEEN;
+  if (place == nullptr) return true;
+  const bool is_low = is_remembered(place->thing_low_ms, place->thing_drift_m, track, now_ms);
+  const bool is_high = is_remembered(place->thing_high_ms, place->thing_drift_m, track, now_ms);
+  if (!is_low && !is_high) return !is_free(*place, track, now_ms);
+  hazard->margin_m += kCellCorner_m + static_cast<float>(track.drift_m) - place->thing_drift_m;
+  hazard->kind =
+      static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) + (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
+  if (!is_high) return true;
+  const bool is_settled_there = is_settled(*place, now_ms);
+  if (is_settled_there && is_long(*place, track, now_ms)) return true;
+  hazard->approach_m_s = approach_m_s_;
+  hazard->sooner_s = is_settled_there ? sooner_s_ : 0.0F;
+  return true;
+}
+
+std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
+                                   const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count) {
+  const float still_reach_m = protection_m_ + kPlaceCorner_m + kCellCorner_m + drift_most_m_ + sweep.growth_m(0.0F);
+  const float walk_reach_m = still_reach_m + sweep.growth_m(approach_m_s_) - sweep.growth_m(0.0F);
+  const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
+  std::uint32_t found = 0;
+  const double half_m = sweep.half_m() + static_cast<double>(walk_reach_m);
+  each_around(track, sweep.middle_m(), half_m,
+              [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
+                const bool is_near = sweep.concerns(x, y, still_reach_m);
+                if (!is_near && (places_[index].thing_high_ms == 0 || !sweep.concerns(x, y, walk_reach_m))) return;
+                Place* const place = is_of(places_[index], ix, iy) ? &places_[index] : nullptr;
+                if (place != nullptr) let_go(place, sight, x - sx, y - sy, now_ms);
+                if (place != nullptr && is_near && place->doubt_ms == now_ms) ++count->doubtful;
+                Hazard hazard{x, y, 0.0F, 0.0F, 0.0F, index, 0};
+                if (!is_hazard(place, track, now_ms, &hazard)) return;
+                const bool is_blind = hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN;
+                if (!is_blind) ++count->things;
+                if (!is_near && !(hazard.approach_m_s > 0.0F)) return;
+                if (sweep.distance_now(x, y) < kNotUnder_m) return;
+                if (is_blind) ++count->blind;
+                hazards[found++] = hazard;  // there is room for every place
+              });
+  return found;
+}
+
+double Places::size_around(std::uint32_t index, const Track& track, std::uint32_t now_ms) const {
+  constexpr std::int32_t kAround = 10;  // 1 m to each side
+  const Place& middle = places_[index];
+  std::int32_t low_x = 0, high_x = 0, low_y = 0, high_y = 0;
+  for (std::int32_t dy = -kAround; dy <= kAround; ++dy) {
+    for (std::int32_t dx = -kAround; dx <= kAround; ++dx) {
+      const Place* const near = known_at(middle.ix + dx, middle.iy + dy);
+      if (near == nullptr || !is_thing(*near, track, now_ms)) continue;
+      if (dx < low_x) low_x = dx;
+      if (dx > high_x) high_x = dx;
+      if (dy < low_y) low_y = dy;
+      if (dy > high_y) high_y = dy;
+    }
+  }
+  const std::int32_t across_x = high_x - low_x + 1, across_y = high_y - low_y + 1;
+  return kPlace_m * (across_x > across_y ? across_x : across_y);
+}
+
+}  // namespace pose_wall::planar

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// Places of 0.1 m that stand still on the ground while the machine moves over them: when each was seen free, and when
+// a thing was there. The ground's frame is dead reckoning; it serves for seconds, and its errors are bounded.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "base/containers/arena.hpp"
+#include "planar/stop/sight.hpp"
+#include "planar/stop/sweep.hpp"
+
+namespace pose_wall::planar {
+
+constexpr std::uint32_t kPlacesAcross = 160;  // 16 m, in a ring: what falls out at one side comes in at the other
+constexpr double kPlace_m = 0.1;              // a third of the smallest thing
+constexpr std::int32_t kPlacesAround = 79;    // to each side of base
+// From the middle of a place to its corner, and from the middle of a cell of the sight to its own.
+constexpr float kPlaceCorner_m = 0.0707F, kCellCorner_m = 0.0640F;
+
+// Base on the ground, and the bound of the errors that have added up.
+struct Track {
+  double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
+  double drift_m = 0.0;
+};
+
+struct Place {
+  std::int16_t ix, iy;                            // which place of the ground this is
+  std::uint32_t low_ms;                           // seen free low; 0: never
+  std::uint32_t tall_ms;                          // seen free of people
+  std::uint32_t top_ms;                           // seen free of what hangs
+  std::uint32_t thing_low_ms, thing_high_ms;      // last return; 0: none, or seen gone
+  std::uint32_t first_ms;                         // of the high returns that go on until now
+  std::uint32_t low_first_ms;                     // likewise of the low ones
+  std::uint32_t doubt_first_ms, doubt_ms;         // doubtful returns
+  float low_drift_m, top_drift_m, thing_drift_m;  // the track's, then
+};
+
+class Places {
+ public:
+  void lay_out(Arena& arena) { places_ = arena.take<Place>(kPlacesAcross * kPlacesAcross); }
+  void open(const StopSettings& settings);
+  void forget();
+
+  // The returns of a frame at time now_ms. `sensor` in base.
+  void put_returns(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m, std::uint32_t now_ms);
+  // What was seen free, and what is gone.
+  void put_seen(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
+                std::uint32_t now_ms);
+  // Someone has looked.
+  void confirm(const Track& track, const Sweep& sweep, std::uint32_t now_ms);
+
+  struct Count {
+    std::uint32_t things = 0, blind = 0, doubtful = 0;
+  };
+  // All that is in the way of a sweep, and high things that are gone go. `hazards` has room for kHazards.
+  std::uint32_t find_hazards(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
+                             const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count);
+
+  const Place& at(std::uint32_t index) const { return places_[index]; }
+  // Across, of things that hang together around a place.
+  double size_around(std::uint32_t index, const Track& track, std::uint32_t now_ms) const;
+  bool is_thing(const Place& place, const Track& track, std::uint32_t now_ms) const;
+
+ private:
+  template <typename Visit>
+  void each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
+  void let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const;
+  bool is_hazard(const Place* place, const Track& track, std::uint32_t now_ms, Hazard* hazard) const;
+  static std::uint32_t index_of(std::int32_t ix, std::int32_t iy);
+  static bool is_of(const Place& place, std::int32_t ix, std::int32_t iy) {
+    return place.ix == static_cast<std::int16_t>(ix) && place.iy == static_cast<std::int16_t>(iy);
+  }
+  Place& place_at(std::int32_t ix, std::int32_t iy);
+  Place& place_at(std::int32_t ix, std::int32_t iy, std::uint32_t index);
+  const Place* known_at(std::int32_t ix, std::int32_t iy) const;
+  void doubt(Place* place, std::uint32_t now_ms);
+  bool is_remembered(std::uint32_t when_ms, float drift_m, const Track& track, std::uint32_t now_ms) const;
+  bool is_settled(const Place& place, std::uint32_t now_ms) const;
+  bool has_thing_around(std::int32_t ix, std::int32_t iy, const Track& track, std::uint32_t now_ms) const;
+  bool is_long(const Place& place, const Track& track, std::uint32_t now_ms) const;
+  bool is_free(const Place& place, const Track& track, std::uint32_t now_ms) const;
+
+  Span<Place> places_;
+  std::uint32_t memory_ms_ = 0, delay_ms_ = 0, settle_ms_ = 0, gap_ms_ = 0;
+  float drift_most_m_ = 0.0F, protection_m_ = 0.0F, approach_m_s_ = 0.0F, confirm_m_ = 0.0F, sooner_s_ = 0.0F;
+};
+
+// Every place at most:
+constexpr std::uint32_t kHazards = kPlacesAcross * kPlacesAcross;
+
+}  // namespace pose_wall::planar

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The returns of a cloud, four at a time, about the sensor and in the axes of base.
+
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "base/simd/four_floats.hpp"
+#include "cloud/cloud_reader.hpp"
+#include "planar/stop/settings.hpp"
+
+namespace pose_wall::planar {
+
+class Rays {
+ public:
+  Rays(const pose_wall_cloud& cloud, const Mount& mount);
+
+  std::uint64_t points() const { return points_; }
+
+  // visit(FourPlaces from the sensor, FourTruths which of them are returns in range and not of the machine).
+  template <typename Visit>
+  void each_four(const Visit& visit) const {
+    const bool row_is_plain = is_xyz32_in_a_row(cloud_);
+    for (std::uint32_t row = 0; row < rows_of(cloud_); ++row) {
+      const unsigned char* point = row_of(cloud_, row);
+      for (std::uint32_t k = 0; k < cloud_.width; k += kFour) {
+        const std::uint32_t left = cloud_.width - k;
+        FourPlaces raw;
+        if (row_is_plain && left >= kFour) {
+          raw = plain_four(point);
+        } else {
+          raw = four_of(point, left);
+        }
+        FourTruths those = first_of_four(left);
+        const FourPlaces at = in_base(raw, &those);
+        visit(at, those);
+        point += std::size_t{kFour} * cloud_.point_step;
+      }
+    }
+  }
+
+  // One point, by its number: false if it is no return.
+  bool one(std::uint64_t index, float* x, float* y, float* z) const;
+  // Of an even share of the points, to tell a frame from the one before; *returns: how many of them are finite, not 0.
+  std::uint64_t print(std::uint32_t* returns) const;
+
+ private:
+  const unsigned char* point_at(std::uint64_t index) const {
+    return row_of(cloud_, static_cast<std::uint32_t>(index / cloud_.width)) +
+           (index % cloud_.width) * cloud_.point_step;
+  }
+
+  FourPlaces plain_four(const unsigned char* point) const {
+    FourFloats column[kFour];
+    FourFloats rows[kFour];
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      std::memcpy(&rows[lane], point + cloud_.x.offset + std::size_t{lane} * cloud_.point_step, sizeof(FourFloats));
+    }
+    transpose(rows[0], rows[1], rows[2], rows[3], column);
+    return {column[0], column[1], column[2]};
+  }
+
+  FourPlaces four_of(const unsigned char* point, std::uint32_t left) const;
+  float number(const unsigned char* point, const pose_wall_field& field) const {
+    if (!plain_) return static_cast<float>(read_field(point, field, swap_));
+    float value;
+    std::memcpy(&value, point + field.offset, sizeof(value));
+    return value;
+  }
+
+  FourPlaces in_base(const FourPlaces& p, FourTruths* those) const {
+    const FourFloats r2 = p.x * p.x + p.y * p.y + p.z * p.z;
+    *those &= (r2 >= near2_) & (r2 <= far2_);
+    const FourPlaces at = {R_[0] * p.x + R_[1] * p.y + R_[2] * p.z, R_[3] * p.x + R_[4] * p.y + R_[5] * p.z,
+                           R_[6] * p.x + R_[7] * p.y + R_[8] * p.z};
+    for (std::uint32_t k = 0; k < boxes_; ++k) {
+      const float* b = body_[k];
+      *those &= ~((at.x >= b[0]) & (at.x <= b[1]) & (at.y >= b[2]) & (at.y <= b[3]) & (at.z >= b[4]) & (at.z <= b[5]));
+    }
+    return at;
+  }
+
+  const pose_wall_cloud& cloud_;
+  bool swap_, plain_;
+  std::uint64_t points_;
+  float R_[9];
+  float near2_, far2_;
+  std::uint32_t boxes_ = 0;
+  float body_[4][6];  // about the sensor
+};
+
+}  // namespace pose_wall::planar

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "planar/stop/stop.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "base/math/elementary.hpp"
+#include "base/math/finite.hpp"
+#include "planar/pose2.hpp"
+
+namespace pose_wall::planar {
+namespace {
+
+constexpr std::uint32_t kReturnsLeast = 50;         // in a frame: a sensor that is covered or off has fewer
+constexpr std::uint32_t kPrintLeast = 8;            // returns that tell a frame from the one before
+constexpr std::uint32_t kMomentFirst_ms = 1000000;  // the first frame's time: that of a place that was never seen is 0
+constexpr std::uint32_t kMomentMost_ms = 0xF0000000U;  // after 46 days all is forgotten once
+constexpr double kFuture_s = 0.005;                    // a stamp may lie so far ahead of the caller's clock
+constexpr double kGap_s = 1.0;                         // beyond stale_s: what the machine did in between is not known
+constexpr double kStill = 1e-9;                        // m/s and rad/s: it stands
+
+// Without a frame that can be used nothing is known:
+constexpr std::uint32_t kFatal =
+    POSE_WALL_PLANAR_STOP_R_STALE | POSE_WALL_PLANAR_STOP_R_INVALID | POSE_WALL_PLANAR_STOP_R_FROZEN;
+
+double larger(double a, double b) {
+  return a > b ? a : b;
+}
+
+}  // namespace
+
+void Stop::lay_out(Arena& arena) {
+  sight_.lay_out(arena);
+  places_.lay_out(arena);
+  hazards_ = arena.take<Hazard>(kHazards);
+  looks_ = arena.take_one<FloorLooks>();
+}
+
+void Stop::open(const StopSettings& settings, const Mount& mount) {
+  settings_ = settings;
+  mount_ = mount;
+  sight_.open(settings, mount);
+  sweep_.open(settings);
+  heartbeat_ = 0;
+  reset();
+}
+
+void Stop::reset() {
+  places_.open(settings_);
+  track_ = Track();
+  last_motion_ = Motion{};
+  first_ns_ = last_ns_ = clear_since_ns_ = 0;
+  frames_ = print_ = 0;
+  now_ms_ = kMomentFirst_ms;
+  is_stopped_ = true;
+  is_clear_ = false;
+  last_ = begun(0);
+  last_.reasons = POSE_WALL_PLANAR_STOP_R_STALE;
+}
+
+void Stop::confirm() {
+  places_.confirm(track_, sweep_, now_ms_);
+}
+
+pose_wall_planar_stop_result Stop::begun(std::int64_t now_ns) const {
+  pose_wall_planar_stop_result r{};
+  r.struct_size = sizeof(r);
+  r.state = POSE_WALL_PLANAR_STOP_STOP;
+  r.stamp_ns = last_ns_;
+  r.now_ns = now_ns;
+  r.frames = frames_;
+  r.rim_speed_m_s = r.nearest_m[0] = r.nearest_m[1] = r.nearest_distance_m = not_a_number();
+  r.nearest_size_m = r.nearest_age_s = not_a_number();
+  r.floor_height_m = r.floor_slope[0] = r.floor_slope[1] = not_a_number();
+  r.time_to_contact_s = std::numeric_limits<double>::infinity();
+  return r;
+}
+
+Stop::Motion Stop::motion_of(const pose_wall_planar_stop_motion& m) const {
+  Motion motion{};
+  const double speed[2] = {m.speed_m_s, m.command_speed_m_s}, turn[2] = {m.turn_rad_s, m.command_turn_rad_s};
+  // Of the two kinds of motion:
+  constexpr std::uint32_t kBits[2] = {POSE_WALL_PLANAR_STOP_MEASURED, POSE_WALL_PLANAR_STOP_COMMANDED};
+  motion.is_known = m.given != 0;
+  for (int k = 0; k < 2; ++k) {
+    motion.given[k] = (m.given & kBits[k]) != 0;
+    if (!motion.given[k]) continue;
+    motion.speed_m_s[k] = speed[k], motion.turn_rad_s[k] = turn[k];
+    constexpr double kMost = 1000.0;  // no machine: more is a wrong unit
+    const bool is_sound = speed[k] >= -kMost && speed[k] <= kMost && turn[k] >= -kMost && turn[k] <= kMost;
+    motion.is_known = motion.is_known && is_sound;
+  }
+  return motion;
+}
+
+double Stop::rim_of(double speed_m_s, double turn_rad_s) const {
+  const Eigen::Vector2d v = speed_m_s * mount_.forward_base;
+  double most = 0.0;
+  for (std::uint32_t k = 0; k < settings_.corners; ++k) {
+    const double* c = settings_.corner_m[k];
+    const double x = v.x() - turn_rad_s * c[1], y = v.y() + turn_rad_s * c[0];
+    most = larger(most, std::sqrt(x * x + y * y));
+  }
+  return most;
+}
+
+// The direction is the command's, or the measured one where nothing is commanded. What the measured motion has beside
+// it is a deviation.
+SweepMotion Stop::sweep_of(const Motion& motion, double* rim_m_s) const {
+  SweepMotion sweep;
+  sweep.any = !motion.is_known;
+  *rim_m_s = sweep.any ? settings_.speed_max_m_s : 0.0;
+  sweep.velocity = mount_.forward_base;
+  if (sweep.any) return sweep;
+  double v = 0.0, w = 0.0;
+  for (int k = 0; k < 2; ++k) {
+    if (!motion.given[k]) continue;
+    const double speed = std::fabs(motion.speed_m_s[k]), turn = std::fabs(motion.turn_rad_s[k]);
+    if (!(speed + turn > kStill)) continue;
+    v = motion.speed_m_s[k], w = motion.turn_rad_s[k];
+    *rim_m_s = larger(*rim_m_s, rim_of(speed, turn));
+  }
+  const double rim = rim_of(v, w);
+  if (rim > kStill) {
+    sweep.velocity = v / rim * mount_.forward_base;
+    sweep.turn_rad_m = w / rim;
+  }
+  const double along = sweep.velocity.dot(mount_.forward_base), lever_m = sweep_.radius_m();
+  sweep.speed_error_ratio = settings_.speed_error_ratio;
+  sweep.speed_error_m_s = settings_.speed_error_m_s;
+  sweep.turn_error_rad_s = settings_.turn_error_rad_s;
+  if (motion.given[0] && motion.given[1]) {
+    // In the plane of speed and turn by the lever: the part of the measured motion that the direction leaves.
+    const double a = along, b = sweep.turn_rad_m * lever_m, ab = a * a + b * b;
+    const double m = motion.speed_m_s[0], n = motion.turn_rad_s[0] * lever_m;
+    double share = ab > 0.0 ? (m * a + n * b) / ab : 0.0;
+    if (share < 0.0) share = 0.0;
+    sweep.aside_m_s = std::fabs(m - share * a);
+    sweep.turn_error_rad_s += std::fabs(n - share * b) / lever_m;
+  }
+  return sweep;
+}
+
+void Stop::move_on(const Motion& motion, double seconds) {
+  if (frames_ == 0) return;
+  // The mean of the motions at both ends.
+  double v = 0.0, w = 0.0, rim = 0.0;
+  bool is_known = motion.is_known && last_motion_.is_known, is_still = is_known;
+  const Motion* const ends[] = {&last_motion_, &motion};
+  for (const Motion* m : ends) {
+    const int k = m->given[0] ? 0 : 1;
+    v += 0.5 * m->speed_m_s[k], w += 0.5 * m->turn_rad_s[k];
+    rim = larger(rim, rim_of(m->speed_m_s[k], m->turn_rad_s[k]));
+    is_still = is_still && std::fabs(m->speed_m_s[k]) + std::fabs(m->turn_rad_s[k]) <= kStill;
+  }
+  if (!is_known) v = w = 0.0, rim = settings_.speed_max_m_s;
+  if (!is_known || seconds > settings_.stale_s + kGap_s) {
+    track_.drift_m += 2.0 * settings_.drift_max_m + settings_.speed_max_m_s * seconds;
+  } else if (!is_still) {
+    track_.drift_m += seconds * (settings_.speed_error_ratio * rim + settings_.speed_error_m_s +
+                                 settings_.turn_error_rad_s * sweep_.radius_m());
+  }
+  const double yaw = track_.yaw_rad + 0.5 * w * seconds;
+  const Eigen::Vector2d step = Turn2(yaw) * (v * seconds * mount_.forward_base);
+  track_.x_m += step.x(), track_.y_m += step.y();
+  track_.yaw_rad = wrapped(track_.yaw_rad + w * seconds);
+}
+
+std::uint32_t Stop::frame_reasons(const pose_wall_cloud& cloud, const Rays& rays, std::int64_t now_ns) {
+  std::uint32_t reasons = 0;
+  const double age_s = (static_cast<double>(now_ns) - static_cast<double>(cloud.stamp_ns)) * kNanosecond_s;
+  if (!(age_s <= settings_.stale_s)) reasons |= POSE_WALL_PLANAR_STOP_R_STALE;
+  if (!(age_s >= -kFuture_s)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
+  if (frames_ > 0 && !(cloud.stamp_ns > last_ns_)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
+  std::uint32_t returns = 0;
+  const std::uint64_t print = rays.print(&returns);
+  if (frames_ > 0 && print == print_ && returns >= kPrintLeast) reasons |= POSE_WALL_PLANAR_STOP_R_FROZEN;
+  print_ = print;
+  return reasons;
+}
+
+void Stop::see(const Rays& rays, pose_wall_planar_stop_result* result) {
+  const Ground ground = find_ground(rays, mount_, settings_, looks_);
+  const Eigen::Vector2d sensor_m = mount_.sensor_base_m.head<2>();
+  result->points_used = sight_.look(rays, ground);
+  places_.put_returns(sight_, track_, sensor_m, now_ms_);
+  places_.put_seen(sight_, track_, sensor_m, sweep_, now_ms_);
+  result->floor_height_m = ground.height_m;
+  result->floor_slope[0] = ground.slope_x, result->floor_slope[1] = ground.slope_y;
+  if (!ground.seen) result->reasons |= POSE_WALL_PLANAR_STOP_R_NO_FLOOR;
+}
+
+void Stop::judge(const SweepMotion& motion, pose_wall_planar_stop_result* result) {
+  // Its own speeds by the careful sweep, the stop by the other.
+  sweep_.set_motion(motion, reaction_s(settings_) + settings_.slack_s);
+  Places::Count count;
+  const Eigen::Vector2d sensor_m = mount_.sensor_base_m.head<2>();
+  const std::uint32_t found = places_.find_hazards(sight_, track_, sensor_m, sweep_, now_ms_, hazards_, &count);
+  const Span<const Hazard> hazards = hazards_.first(found);
+  std::int32_t limiting = -1;
+  const std::uint32_t careful = sweep_.highest_level(hazards, &limiting);
+  result->allowed_speed_m_s = sweep_.speed_of(careful);
+  result->stop_speed_m_s = result->allowed_speed_m_s;
+  if (limiting >= 0) {
+    const Hazard& hazard = hazards[static_cast<std::uint32_t>(limiting)];
+    tell_nearest(hazard, result);
+    if (result->rim_speed_m_s > kStill) result->time_to_contact_s = sweep_.path_to(hazard) / result->rim_speed_m_s;
+    sweep_.set_motion(motion, reaction_s(settings_));
+    std::int32_t same = -1;
+    result->stop_speed_m_s = sweep_.speed_of(sweep_.highest_level(hazards, &same));
+    if (result->stop_speed_m_s < result->allowed_speed_m_s) result->allowed_speed_m_s = result->stop_speed_m_s;
+  }
+  result->allowed_turn_rad_s = result->allowed_speed_m_s * motion.turn_rad_m;
+  result->thing_cells = count.things;
+  result->blind_cells = count.blind;
+  result->doubtful_cells = count.doubtful;
+  if (count.doubtful > 0) result->reasons |= POSE_WALL_PLANAR_STOP_R_DUST;
+}
+
+void Stop::tell_nearest(const Hazard& hazard, pose_wall_planar_stop_result* result) const {
+  result->nearest_m[0] = static_cast<double>(hazard.x_m);
+  result->nearest_m[1] = static_cast<double>(hazard.y_m);
+  result->nearest_distance_m = static_cast<double>(sweep_.distance_now(hazard.x_m, hazard.y_m));
+  result->nearest_height = hazard.kind;
+  if (hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN) {
+    result->reasons |= POSE_WALL_PLANAR_STOP_R_BLIND;
+    return;
+  }
+  const Place& place = places_.at(hazard.place);
+  result->nearest_size_m = places_.size_around(hazard.place, track_, now_ms_);
+  const bool is_high = (hazard.kind & POSE_WALL_PLANAR_STOP_HIGH) != 0;
+  result->nearest_age_s = 0.001 * (now_ms_ - (is_high ? place.first_ms : place.low_first_ms));
+  result->reasons |= POSE_WALL_PLANAR_STOP_R_THING;
+  if (!is_high) result->reasons |= POSE_WALL_PLANAR_STOP_R_LOW;
+  if (hazard.approach_m_s > 0.0F) result->reasons |= POSE_WALL_PLANAR_STOP_R_NEARING;
+}
+
+// Stops at once; goes on only after restart_s without a reason to stop.
+void Stop::decide(std::uint32_t fatal, std::int64_t now_ns, pose_wall_planar_stop_result* r) {
+  // The sweep has the errors of a speed; the same ones may be in what was measured.
+  const double may_read = r->stop_speed_m_s * (1.0 + settings_.speed_error_ratio) + settings_.speed_error_m_s;
+  const bool is_fast = !(r->rim_speed_m_s <= may_read);
+  if (is_fast) r->reasons |= POSE_WALL_PLANAR_STOP_R_SPEED;
+  const bool may_move = fatal == 0 && r->stop_speed_m_s > 0.0 && !is_fast;
+  const bool is_clear = may_move && r->allowed_speed_m_s >= settings_.restart_speed_m_s;
+  if (!is_clear) is_clear_ = false;
+  if (is_clear && !is_clear_) is_clear_ = true, clear_since_ns_ = now_ns;
+  if (!may_move) is_stopped_ = true;
+  if (is_stopped_ && is_clear_) {
+    const double clear_s = static_cast<double>(now_ns - clear_since_ns_) * kNanosecond_s;
+    is_stopped_ = !(clear_s >= settings_.restart_s);
+    if (is_stopped_) r->reasons |= POSE_WALL_PLANAR_STOP_R_RESTART;
+  }
+  if (is_stopped_) {
+    r->state = POSE_WALL_PLANAR_STOP_STOP;
+    r->allowed_speed_m_s = r->allowed_turn_rad_s = 0.0;
+    return;
+  }
+  const bool is_whole = r->allowed_speed_m_s >= settings_.speed_max_m_s;
+  r->state = is_whole ? POSE_WALL_PLANAR_STOP_GO : POSE_WALL_PLANAR_STOP_SLOW;
+}
+
+void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_motion& given, std::int64_t now_ns,
+                   pose_wall_planar_stop_result* result) {
+  const Rays rays(cloud, mount_);
+  const Motion motion = motion_of(given);
+  const std::uint32_t refused = frame_reasons(cloud, rays, now_ns);
+  pose_wall_planar_stop_result r = begun(now_ns);
+  r.reasons = refused;
+  r.points_in = static_cast<std::uint32_t>(rays.points());
+  const SweepMotion sweep_motion = sweep_of(motion, &r.rim_speed_m_s);
+  if (!motion.is_known) r.reasons |= POSE_WALL_PLANAR_STOP_R_MISSING;
+  const bool goes_on = frames_ == 0 || cloud.stamp_ns > last_ns_;
+  if (goes_on) {
+    if (frames_ == 0) first_ns_ = cloud.stamp_ns;
+    const double since_s = frames_ == 0 ? 0.0 : static_cast<double>(cloud.stamp_ns - last_ns_) * kNanosecond_s;
+    move_on(motion, since_s);
+    const double ms = static_cast<double>(cloud.stamp_ns - first_ns_) * 1e-6;
+    if (!(ms < kMomentMost_ms - kMomentFirst_ms)) places_.forget(), first_ns_ = cloud.stamp_ns;
+    now_ms_ = kMomentFirst_ms + static_cast<std::uint32_t>(static_cast<double>(cloud.stamp_ns - first_ns_) * 1e-6);
+    last_ns_ = cloud.stamp_ns;
+    last_motion_ = motion;
+    ++frames_;
+  }
+  r.stamp_ns = last_ns_;
+  r.frames = frames_;
+  if (goes_on && (refused & kFatal) == 0) {
+    see(rays, &r);
+    if (r.points_used < kReturnsLeast) r.reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
+    judge(sweep_motion, &r);
+  }
+  decide(r.reasons & kFatal, now_ns, &r);
+  r.heartbeat = ++heartbeat_;
+  last_ = r;
+  *result = r;
+}
+
+void Stop::tick(std::int64_t now_ns, pose_wall_planar_stop_result* result) {
+  last_.now_ns = now_ns;
+  const double age_s = (static_cast<double>(now_ns) - static_cast<double>(last_ns_)) * kNanosecond_s;
+  if (frames_ == 0 || !(age_s <= settings_.stale_s) || !(age_s >= -kFuture_s)) {
+    last_.reasons |=
+        frames_ != 0 && !(age_s >= -kFuture_s) ? POSE_WALL_PLANAR_STOP_R_INVALID : POSE_WALL_PLANAR_STOP_R_STALE;
+    is_stopped_ = true;
+    is_clear_ = false;
+    last_.state = POSE_WALL_PLANAR_STOP_STOP;
+    last_.allowed_speed_m_s = last_.allowed_turn_rad_s = last_.stop_speed_m_s = 0.0;
+  }
+  last_.heartbeat = ++heartbeat_;
+  *result = last_;
+}
+
+}  // namespace pose_wall::planar

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// One frame: floor, sight, places, sweep, verdict.
+
+#pragma once
+
+#include <cstdint>
+
+#include "base/containers/arena.hpp"
+#include "planar/stop/places.hpp"
+#include "planar/stop/settings.hpp"
+#include "planar/stop/sight.hpp"
+#include "planar/stop/sweep.hpp"
+
+namespace pose_wall::planar {
+
+class Stop {
+ public:
+  void lay_out(Arena& arena);
+  void open(const StopSettings& settings, const Mount& mount);
+  void reset();
+  void confirm();
+  void process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_motion& motion, std::int64_t now_ns,
+               pose_wall_planar_stop_result* result);
+  void tick(std::int64_t now_ns, pose_wall_planar_stop_result* result);
+
+ private:
+  // What the machine does and may do, in speeds of its fastest point.
+  struct Motion {
+    double speed_m_s[2], turn_rad_s[2];  // measured and commanded
+    bool given[2];
+    bool is_known;
+  };
+  Motion motion_of(const pose_wall_planar_stop_motion& motion) const;
+  double rim_of(double speed_m_s, double turn_rad_s) const;
+  SweepMotion sweep_of(const Motion& motion, double* rim_m_s) const;
+  void move_on(const Motion& motion, double seconds);
+  std::uint32_t frame_reasons(const pose_wall_cloud& cloud, const Rays& rays, std::int64_t now_ns);
+  void see(const Rays& rays, pose_wall_planar_stop_result* result);
+  void judge(const SweepMotion& sweep_motion, pose_wall_planar_stop_result* result);
+  void tell_nearest(const Hazard& hazard, pose_wall_planar_stop_result* result) const;
+  void decide(std::uint32_t fatal, std::int64_t now_ns, pose_wall_planar_stop_result* result);
+  pose_wall_planar_stop_result begun(std::int64_t now_ns) const;
+
+  StopSettings settings_;
+  Mount mount_;
+  Sight sight_;
+  Places places_;
+  Sweep sweep_;
+  Span<Hazard> hazards_;
+  FloorLooks* looks_;
+
+  Track track_;
+  Motion last_motion_;
+  std::int64_t first_ns_, last_ns_, clear_since_ns_;
+  std::uint64_t frames_, print_;
+  std::uint32_t now_ms_, heartbeat_;
+  bool is_stopped_, is_clear_;
+  pose_wall_planar_stop_result last_;
+};
+
+}  // namespace pose_wall::planar

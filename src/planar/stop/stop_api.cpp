@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The C ABI of the stop: pointers and sizes are checked here, once.
+
+#include "cloud/cloud_reader.hpp"
+#include "export.hpp"
+#include "planar/held.hpp"
+#include "planar/stop/stop.hpp"
+#include "pose_wall_planar_stop.h"
+#include "struct_sizes.hpp"
+#include "struct_versions.hpp"
+
+namespace {
+
+using pose_wall::planar::Stop;
+using Mine = pose_wall::planar::Held<Stop, 0x706F74735F6E6C70ULL>;
+
+constexpr const char* kStates[] = {"stop", "slow", "go"};
+constexpr const char* kReasons[POSE_WALL_PLANAR_STOP_REASON_COUNT][2] = {
+    {"stale", "The last frame is too old, or there was none."},
+    {"blind", "A place in the way was not seen free."},
+    {"invalid", "The stamp went back or lies in the future, or the frame has hardly a return."},
+    {"frozen", "The frame is the same as the one before it."},
+    {"missing", "The machine's motion was not given, so every motion is assumed."},
+    {"thing", "A thing is in the way."},
+    {"low", "The thing in the way is a low one."},
+    {"nearing", "The thing may walk into the way."},
+    {"speed", "The machine is faster than it can stop."},
+    {"dust", "Doubtful returns near the way are dust, or a thin thing."},
+    {"no_floor", "The floor was not seen, so the machine's own plane is used."},
+    {"restart", "The way is clear, but not for long enough yet."}};
+
+Mine* mine(pose_wall_planar_stop* stop) {
+  return reinterpret_cast<Mine*>(stop);
+}
+
+std::int32_t check_motion(const pose_wall_planar_stop_motion& motion) {
+  if (motion.struct_size != sizeof(motion)) return POSE_WALL_E_STRUCT_SIZE;
+  // The bits of this header:
+  constexpr std::uint32_t kKnown = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
+  return (motion.given & ~kKnown) == 0 ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_INPUT};
+}
+
+std::int32_t check_size(std::uint32_t size) {
+  constexpr pose_wall::StructSizes kSizes = {0, sizeof(pose_wall_planar_stop_result),
+                                             sizeof(pose_wall_planar_stop_result)};
+  return pose_wall::check_struct_size(size, kSizes);
+}
+
+}  // namespace
+
+extern "C" {
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_init(pose_wall_planar_stop_settings* settings) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  *settings = pose_wall::planar::default_stop_settings();
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_settings* settings, double x_min_m,
+                                                         double x_max_m, double y_min_m, double y_max_m) {
+  if (settings == nullptr) return POSE_WALL_E_NULL;
+  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  pose_wall::planar::set_rectangle(settings, x_min_m, x_max_m, y_min_m, y_max_m);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_check(const pose_wall_planar_stop_settings* settings,
+                                                              pose_wall_planar_fault* fault) {
+  return settings != nullptr ? pose_wall::planar::check_stop_settings(*settings, fault)
+                             : std::int32_t{POSE_WALL_E_NULL};
+}
+
+POSE_WALL_EXPORT const char* pose_wall_planar_stop_state_name(uint32_t state) {
+  return state <= POSE_WALL_PLANAR_STOP_GO ? kStates[state] : "unknown";
+}
+POSE_WALL_EXPORT const char* pose_wall_planar_stop_reason_name(uint32_t bit_index) {
+  return bit_index < POSE_WALL_PLANAR_STOP_REASON_COUNT ? kReasons[bit_index][0] : "unknown";
+}
+POSE_WALL_EXPORT const char* pose_wall_planar_stop_reason_text(uint32_t bit_index) {
+  return bit_index < POSE_WALL_PLANAR_STOP_REASON_COUNT ? kReasons[bit_index][1] : "unknown reason";
+}
+
+POSE_WALL_EXPORT uint64_t pose_wall_planar_stop_memory_needed(void) {
+  return Mine::bytes();
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_open(const pose_wall_config* config,
+                                                    const pose_wall_planar_stop_settings* settings, void* block,
+                                                    uint64_t block_bytes, pose_wall_planar_stop** stop) {
+  if (config == nullptr || block == nullptr || stop == nullptr) return POSE_WALL_E_NULL;
+  std::int32_t status = pose_wall_config_check(config, nullptr);
+  if (status == POSE_WALL_OK && settings != nullptr) status = pose_wall_planar_stop_settings_check(settings, nullptr);
+  if (status != POSE_WALL_OK) return status;
+  Mine* opened = nullptr;
+  status = Mine::place(block, block_bytes, &opened);
+  if (status != POSE_WALL_OK) return status;
+  opened->body().open(settings != nullptr ? *settings : pose_wall::planar::default_stop_settings(),
+                      pose_wall::planar::mount_of(*config));
+  *stop = reinterpret_cast<pose_wall_planar_stop*>(opened);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_reset(pose_wall_planar_stop* stop) {
+  if (stop == nullptr) return POSE_WALL_E_NULL;
+  const Mine::Inside inside(mine(stop));
+  if (inside.status() == POSE_WALL_OK) inside.body().reset();
+  return inside.status();
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* stop) {
+  if (stop == nullptr) return POSE_WALL_E_NULL;
+  const Mine::Inside inside(mine(stop));
+  if (inside.status() == POSE_WALL_OK) inside.body().confirm();
+  return inside.status();
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_process(pose_wall_planar_stop* stop, const pose_wall_cloud* cloud,
+                                                       const pose_wall_planar_stop_motion* motion, int64_t now_ns,
+                                                       pose_wall_planar_stop_result* result) {
+  if (stop == nullptr || cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  const Mine::Inside inside(mine(stop));
+  std::int32_t status = inside.status();
+  if (status == POSE_WALL_OK) status = pose_wall_cloud_check(cloud);
+  if (status == POSE_WALL_OK && motion != nullptr) status = check_motion(*motion);
+  if (status == POSE_WALL_OK) status = check_size(result->struct_size);
+  if (status != POSE_WALL_OK) return status;
+  const auto whole = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
+  const pose_wall_planar_stop_motion nothing{};
+  inside.body().process(whole, motion != nullptr ? *motion : nothing, now_ns, result);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_tick(pose_wall_planar_stop* stop, int64_t now_ns,
+                                                    pose_wall_planar_stop_result* result) {
+  if (stop == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  const Mine::Inside inside(mine(stop));
+  std::int32_t status = inside.status();
+  if (status == POSE_WALL_OK) status = check_size(result->struct_size);
+  if (status == POSE_WALL_OK) inside.body().tick(now_ns, result);
+  return status;
+}
+
+}  // extern "C"

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// One encounter: a road, a machine with its stop, and what comes into its way.
+
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "planar/encounter/machine.hpp"
+#include "planar/encounter/sensor.hpp"
+#include "planar/encounter/world.hpp"
+#include "pose_wall_planar_stop.h"
+#include "support/aligned_block.hpp"
+
+namespace pose_wall::test {
+
+enum class Drive { straight, curve, spot, reverse };
+enum class Loss { none, silent, frozen, delayed, covered, dirty };
+enum class Kind { clear, person_crosses, person_comes, person_starts, prop, box, muck, boom, dust, puddle, kinds };
+
+inline const char* name_of(Kind kind) {
+  static constexpr const char* kNames[] = {"clear", "person_crosses", "person_comes", "person_starts", "prop",
+                                           "box",   "muck",           "boom",         "dust",          "puddle"};
+  return kNames[static_cast<int>(kind)];
+}
+
+struct Plan {
+  World world;
+  Machine machine;
+  Sensor sensor;
+  Drive drive = Drive::straight;
+  Kind kind = Kind::clear;
+  Loss loss = Loss::none;
+  double loss_from_s = 1e9, dirt_to_rad = 0.0;
+  double wish_m_s = 1.0;  // rim speed that the driver wants
+  double lasts_s = 8.0;
+  double odometry = 1.0;  // measured over true
+};
+
+struct Outcome {
+  bool contact = false;
+  double contact_m_s = 0.0, contact_s = 0.0, moved_m = 0.0, drove_s = 0.0, top_m_s = 0.0, lasted_s = 0.0;
+  std::uint32_t stops = 0, frames = 0;  // from motion
+  std::uint32_t stop_reasons = 0;       // of the last such
+  std::uint32_t reasons = 0;            // of the last frame
+  Kind touched = Kind::clear;
+};
+
+// An opened stop with room for it.
+class StopUnderTest {
+ public:
+  StopUnderTest() : block_(pose_wall_planar_stop_memory_needed(), Dirt::kRandom) {}
+
+  void open(const Sensor& sensor, const pose_wall_planar_stop_settings& settings) {
+    pose_wall_config config;
+    (void)pose_wall_config_init(&config);
+    (void)pose_wall_config_set_number(&config, "extrinsic_x", sensor.x_m);
+    (void)pose_wall_config_set_number(&config, "extrinsic_z", sensor.z_m);
+    (void)pose_wall_config_set_number(&config, "extrinsic_roll", sensor.roll_rad);
+    (void)pose_wall_config_set_number(&config, "extrinsic_pitch", sensor.pitch_rad);
+    (void)pose_wall_config_set_number(&config, "range_min", 0.3);
+    (void)pose_wall_config_set_number(&config, "range_max", 100.0);
+    if (pose_wall_planar_stop_open(&config, &settings, block_.data(), block_.size(), &stop_) != POSE_WALL_OK) {
+      stop_ = nullptr;
+    }
+    result_.struct_size = sizeof(result_);
+  }
+  pose_wall_planar_stop* get() { return stop_; }
+  pose_wall_planar_stop_result& result() { return result_; }
+
+ private:
+  AlignedBlock block_;
+  pose_wall_planar_stop* stop_ = nullptr;
+  pose_wall_planar_stop_result result_{};
+};
+
+class Encounter {
+ public:
+  Encounter(const Plan& plan, const pose_wall_planar_stop_settings& settings, StopUnderTest* stop, Draw* draw)
+      : plan_(plan), settings_(settings), stop_(stop), draw_(draw) {}
+
+  Outcome run(bool verbose = false) {
+    stop_->open(plan_.sensor, settings_);
+    if (pose_wall_planar_stop_confirm(stop_->get()) != POSE_WALL_OK) return out_;
+    constexpr double kStep_s = 0.02;
+    const double phase_s = draw_->within(0.0, 0.1);
+    const auto steps = static_cast<int>(plan_.lasts_s / kStep_s);
+    double stood_s = 0.0;
+    for (int k = 0; k < steps; ++k) {
+      const double now_s = k * kStep_s;
+      if (now_s + phase_s >= next_frame_s_) {
+        frame(now_s);
+        next_frame_s_ += 0.1;
+        if (verbose) print(now_s);
+      }
+      deliver(now_s);
+      obey(now_s);
+      plan_.machine.step(now_s, kStep_s);
+      for (Thing& thing : plan_.world.things) thing.step(now_s, kStep_s);
+      watch(now_s, kStep_s);
+      if (out_.contact) break;
+      stood_s = plan_.machine.rim_m_s <= 0.0 ? stood_s + kStep_s : 0.0;
+      if (out_.moved_m > 0.0 && stood_s > 0.8 && !is_walking(now_s)) break;
+      if (out_.moved_m <= 0.0 && now_s > 1.7 && stood_s > 1.6) break;  // it never starts
+    }
+    out_.reasons = stop_->result().reasons;
+    return out_;
+  }
+
+ private:
+  static std::int64_t ns(double s) { return 1000000000LL + static_cast<std::int64_t>(s * 1e9 + 0.5); }
+
+  bool is_walking(double now_s) const {
+    for (const Thing& t : plan_.world.things) {
+      if (now_s < t.walks_until_s) return true;
+    }
+    return false;
+  }
+
+  // A scan is taken; it arrives 40 ms later.
+  void frame(double now_s) {
+    const bool lost = now_s >= plan_.loss_from_s;
+    if (lost && plan_.loss == Loss::silent) return;
+    const Machine& m = plan_.machine;
+    if (!(lost && plan_.loss == Loss::frozen)) {
+      double along = 0.0, across = 0.0;
+      plan_.world.slopes_at(m.x_m, m.y_m, &along, &across);
+      const double c = std::cos(m.yaw_rad), s = std::sin(m.yaw_rad);
+      const double pitch = -(c * along + s * across) + 0.004 * draw_->normal();
+      const double roll = (-s * along + c * across) + 0.004 * draw_->normal();
+      if (lost && plan_.loss == Loss::dirty) {
+        plan_.sensor.dirt_from_rad = plan_.dirt_to_rad - 0.3, plan_.sensor.dirt_to_rad = plan_.dirt_to_rad;
+      }
+      scan_.take(plan_.sensor, plan_.world, m.x_m, m.y_m, m.yaw_rad, pitch, roll, draw_);
+      if (lost && plan_.loss == Loss::covered) scan_.blind();
+    }
+    const double delay_s = lost && plan_.loss == Loss::delayed ? 0.04 + 0.5 * (now_s - plan_.loss_from_s) : 0.04;
+    stamp_s_ = now_s;
+    if (delay_s > 0.5) return;
+    arrives_s_ = now_s + delay_s;
+    waits_ = true;
+    ++out_.frames;
+  }
+
+  void deliver(double now_s) {
+    auto& result = stop_->result();
+    if (waits_ && now_s + 1e-9 >= arrives_s_) {
+      waits_ = false;
+      const pose_wall_cloud cloud = scan_.cloud(ns(stamp_s_));
+      pose_wall_planar_stop_motion motion{};
+      motion.struct_size = sizeof(motion);
+      motion.given = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
+      const Machine& m = plan_.machine;
+      motion.speed_m_s = m.speed_m_s() * plan_.odometry;
+      motion.turn_rad_s = m.turn_rad_s() * plan_.odometry;
+      const double next = m.wanted() > 0.02 ? m.wanted() : 0.02;
+      motion.command_speed_m_s = next * m.velocity;
+      motion.command_turn_rad_s = next * m.turn_rad_m;
+      if (pose_wall_planar_stop_process(stop_->get(), &cloud, &motion, ns(now_s), &result) != POSE_WALL_OK) {
+        result.state = POSE_WALL_PLANAR_STOP_STOP;
+      }
+      return;
+    }
+    if (pose_wall_planar_stop_tick(stop_->get(), ns(now_s), &result) != POSE_WALL_OK) {
+      result.state = POSE_WALL_PLANAR_STOP_STOP;
+    }
+  }
+
+  void obey(double now_s) {
+    const auto& result = stop_->result();
+    const bool stops = result.state == POSE_WALL_PLANAR_STOP_STOP;
+    if (stops && !was_stopped_) {
+      out_.stops += plan_.machine.rim_m_s > 0.01 ? 1U : 0U;
+      out_.stop_reasons = result.reasons;
+    }
+    was_stopped_ = stops;
+    const double allowed = stops ? 0.0 : result.allowed_speed_m_s;
+    plan_.machine.command(now_s, std::fmin(plan_.wish_m_s, allowed), stops);
+  }
+
+  void watch(double now_s, double step_s) {
+    const Machine& m = plan_.machine;
+    out_.moved_m += m.rim_m_s * step_s;
+    if (m.rim_m_s > 0.01) out_.drove_s += step_s;
+    out_.top_m_s = std::fmax(out_.top_m_s, m.rim_m_s);
+    out_.lasted_s = now_s;
+    for (const Thing& thing : plan_.world.things) {
+      if (!m.touches(thing)) continue;
+      out_.contact = true;
+      out_.contact_m_s = m.rim_m_s;
+      out_.contact_s = now_s;
+      out_.touched = plan_.kind;
+    }
+  }
+
+  void print(double now_s) const {
+    const auto& r = stop_->result();
+    const Machine& m = plan_.machine;
+    std::printf(
+        "%5.2f x %.2f y %.2f yaw %.2f rim %.2f | %s allowed %.2f stop %.2f reasons %03x things %u blind %u "
+        "doubt %u near (%.2f %.2f) d %.2f kind %u age %.1f floor %.3f %.3f %.3f\n",
+        now_s, m.x_m, m.y_m, m.yaw_rad, m.rim_m_s, pose_wall_planar_stop_state_name(r.state), r.allowed_speed_m_s,
+        r.stop_speed_m_s, r.reasons, r.thing_cells, r.blind_cells, r.doubtful_cells, r.nearest_m[0], r.nearest_m[1],
+        r.nearest_distance_m, r.nearest_height, r.nearest_age_s, r.floor_height_m, r.floor_slope[0], r.floor_slope[1]);
+    for (const Thing& t : plan_.world.things) {
+      std::printf("        thing at (%.2f %.2f) half %.2f %.2f z %.2f..%.2f\n", t.x_m, t.y_m, t.half_x_m, t.half_y_m,
+                  t.bottom_m, t.top_m);
+    }
+  }
+
+  Plan plan_;
+  const pose_wall_planar_stop_settings& settings_;
+  StopUnderTest* stop_;
+  Draw* draw_;
+  Scan scan_;
+  Outcome out_;
+  double next_frame_s_ = 0.0, stamp_s_ = 0.0, arrives_s_ = 0.0;
+  bool waits_ = false, was_stopped_ = true;
+};
+
+}  // namespace pose_wall::test

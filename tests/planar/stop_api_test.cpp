@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "planar/encounter/plans.hpp"
+#include "pose_wall_planar.h"
+#include "support/aligned_block.hpp"
+
+namespace {
+
+using pose_wall::test::AlignedBlock;
+using pose_wall::test::Dirt;
+using pose_wall::test::Draw;
+using pose_wall::test::encounter_settings;
+using pose_wall::test::Pattern;
+using pose_wall::test::round_thing;
+using pose_wall::test::Scan;
+using pose_wall::test::Sensor;
+using pose_wall::test::StopUnderTest;
+using pose_wall::test::World;
+
+constexpr std::int64_t kFrame_ns = 100000000;
+
+// A machine that stands in a road, with a stop that is asked for straight ahead.
+class Standing {
+ public:
+  explicit Standing(World world, double confirm_m = 2.5) : world_(std::move(world)), draw_(3) {
+    sensor_ = Sensor(Pattern::os1_64, 2.0, 1.5, 0.0, 0.28, 1.0, 1024);
+    pose_wall_planar_stop_settings settings = encounter_settings();
+    settings.confirm_m = confirm_m;
+    stop_.open(sensor_, settings);
+    EXPECT_EQ(pose_wall_planar_stop_confirm(stop_.get()), POSE_WALL_OK);
+    motion_.struct_size = sizeof(motion_);
+    motion_.given = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
+    motion_.command_speed_m_s = 0.05;
+  }
+
+  void take() { scan_.take(sensor_, world_, 0.0, 0.0, 0.0, 0.0, 0.0, &draw_); }
+  pose_wall_planar_stop_result frame() {
+    take();
+    return again();
+  }
+  // The last cloud once more, with a new stamp.
+  pose_wall_planar_stop_result again() {
+    stamp_ns_ += kFrame_ns;
+    const pose_wall_cloud cloud = scan_.cloud(stamp_ns_);
+    EXPECT_EQ(pose_wall_planar_stop_process(stop_.get(), &cloud, &motion_, stamp_ns_ + 1000000, &stop_.result()),
+              POSE_WALL_OK);
+    return stop_.result();
+  }
+  pose_wall_planar_stop_result frames(int count) {
+    for (int k = 0; k < count; ++k) frame();
+    return stop_.result();
+  }
+  pose_wall_planar_stop_result tick_after(std::int64_t after_ns) {
+    EXPECT_EQ(pose_wall_planar_stop_tick(stop_.get(), stamp_ns_ + after_ns, &stop_.result()), POSE_WALL_OK);
+    return stop_.result();
+  }
+
+  World& world() { return world_; }
+  Scan& scan() { return scan_; }
+  Sensor& sensor() { return sensor_; }
+  StopUnderTest& stop() { return stop_; }
+  pose_wall_planar_stop_motion& motion() { return motion_; }
+  std::int64_t stamp_ns() const { return stamp_ns_; }
+
+ private:
+  World world_;
+  Draw draw_;
+  Sensor sensor_;
+  Scan scan_;
+  StopUnderTest stop_;
+  pose_wall_planar_stop_motion motion_{};
+  std::int64_t stamp_ns_ = 1000000000;
+};
+
+World road() {
+  World world;
+  world.half_width_m = 3.0, world.wall_wave_m = 0.02;
+  return world;
+}
+
+TEST(StopApi, AClearRoadBecomesGoAndAPersonAheadStops) {
+  Standing standing(road());
+  const auto clear = standing.frames(30);
+  EXPECT_EQ(clear.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_GO));
+  EXPECT_DOUBLE_EQ(clear.allowed_speed_m_s, 1.0);
+  EXPECT_EQ(clear.reasons, 0U);
+  standing.world().things.push_back(round_thing(3.2, 0.2, 0.2, -0.1, 1.7));
+  const auto stopped = standing.frame();
+  EXPECT_EQ(stopped.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+  EXPECT_NE(stopped.reasons & POSE_WALL_PLANAR_STOP_R_THING, 0U);
+  EXPECT_NEAR(stopped.nearest_m[0], 3.05, 0.2);
+  EXPECT_NEAR(stopped.nearest_distance_m, 0.8, 0.2);
+  EXPECT_NE(stopped.nearest_height & POSE_WALL_PLANAR_STOP_HIGH, 0U);
+  EXPECT_DOUBLE_EQ(stopped.allowed_speed_m_s, 0.0);
+  // Gone, and clear for restart_s.
+  standing.world().things.clear();
+  standing.frame();
+  EXPECT_EQ(standing.frames(1).state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+  EXPECT_EQ(standing.frames(12).state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_GO));
+}
+
+TEST(StopApi, TheSmallestThingStopsAndIsCalledLow) {
+  Standing standing(road());
+  standing.frames(30);
+  standing.world().things.push_back(round_thing(2.25 + 1.3, 0.3, 0.15, -0.1, 0.27));
+  const auto result = standing.frames(3);
+  EXPECT_LT(result.stop_speed_m_s, 0.9);
+  EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_THING, 0U);
+  EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_LOW, 0U);
+  EXPECT_EQ(result.nearest_height, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_LOW));
+}
+
+// Who has stood for long may walk off at any moment, even with the back to a wall. A wall does not.
+TEST(StopApi, APersonWhoStandsBesideTheWayKeepsTheMachineSlow) {
+  for (const double y : {1.7, 2.75}) {
+    World world = road();
+    world.things.push_back(round_thing(1.8 + 0.77 * y, y, 0.2, -0.1, 1.7));
+    Standing standing(world);
+    const auto result = standing.frames(40);
+    EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_NEARING, 0U) << y;
+    // Stands in 0.45 s + v / a, while the person comes near at 1.6 m/s.
+    EXPECT_LE(1.6 * (0.45 + result.stop_speed_m_s), y - 0.2 - 0.6) << y;
+    EXPECT_GT(result.nearest_age_s, 1.0);
+  }
+}
+
+TEST(StopApi, SilenceStops) {
+  Standing standing(road());
+  standing.frames(30);
+  EXPECT_EQ(standing.tick_after(200000000).state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_GO));
+  const auto stale = standing.tick_after(260000000);
+  EXPECT_EQ(stale.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+  EXPECT_NE(stale.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
+  EXPECT_DOUBLE_EQ(stale.allowed_speed_m_s, 0.0);
+  EXPECT_EQ(standing.frame().state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));  // not at once
+}
+
+TEST(StopApi, BeforeTheFirstFrameItIsStopped) {
+  Standing standing(road());
+  const auto result = standing.tick_after(1);
+  EXPECT_EQ(result.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+  EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
+}
+
+TEST(StopApi, AFrozenFrameAnOldOneAndOneOfTheFutureStop) {
+  Standing standing(road());
+  standing.frames(30);
+  const auto frozen = standing.again();
+  EXPECT_EQ(frozen.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+  EXPECT_NE(frozen.reasons & POSE_WALL_PLANAR_STOP_R_FROZEN, 0U);
+  standing.frames(30);
+  const auto at = [&](std::int64_t stamp_ns, std::int64_t now_ns) {
+    standing.scan().points()[0] += 0.01F;
+    const pose_wall_cloud cloud = standing.scan().cloud(stamp_ns);
+    EXPECT_EQ(pose_wall_planar_stop_process(standing.stop().get(), &cloud, &standing.motion(), now_ns,
+                                            &standing.stop().result()),
+              POSE_WALL_OK);
+    return standing.stop().result();
+  };
+  const std::int64_t last = standing.stamp_ns();
+  EXPECT_NE(at(last - 1, last + 1000).reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);
+  EXPECT_NE(at(last + 2, last + 400000000).reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
+  const auto future = at(last + 900000000, last + 400000001);
+  EXPECT_NE(future.reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);
+  EXPECT_EQ(future.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+}
+
+TEST(StopApi, ACoveredSensorADirtySectorAndALongPuddleAreBlind) {
+  Standing covered(road());
+  covered.frames(30);
+  covered.sensor().dropout = 1.1;
+  EXPECT_EQ(covered.frame().state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+  Standing dirty(road());
+  dirty.frames(30);
+  dirty.sensor().dirt_from_rad = -0.1, dirty.sensor().dirt_to_rad = 0.2;
+  const auto blind = dirty.frames(5);
+  EXPECT_NE(blind.reasons & POSE_WALL_PLANAR_STOP_R_BLIND, 0U);
+  EXPECT_LT(blind.stop_speed_m_s, 0.1);
+  World wet = road();
+  wet.puddles.push_back({2.8, 7.0, -1.0, 1.0, false});
+  Standing puddle(wet, 0.5);  // from 2.75 m on nobody has looked either
+  const auto before = puddle.frames(30);
+  EXPECT_NE(before.reasons & POSE_WALL_PLANAR_STOP_R_BLIND, 0U);
+  EXPECT_LT(before.stop_speed_m_s, 0.5);
+}
+
+TEST(StopApi, ATurnAndTheWayBackAreBlindForASensorInFront) {
+  Standing standing(road());
+  standing.frames(30);
+  standing.motion().command_speed_m_s = 0.0, standing.motion().command_turn_rad_s = 0.1;
+  EXPECT_NE(standing.frames(2).reasons & POSE_WALL_PLANAR_STOP_R_BLIND, 0U);
+  EXPECT_EQ(standing.frame().state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+  standing.motion().command_speed_m_s = -0.1, standing.motion().command_turn_rad_s = 0.0;
+  EXPECT_EQ(standing.frame().state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+}
+
+TEST(StopApi, WithoutAMotionItStops) {
+  Standing standing(road());
+  standing.frames(30);
+  standing.motion().given = 0;
+  const auto result = standing.frame();
+  EXPECT_EQ(result.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+  EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING, 0U);
+  standing.motion().given = POSE_WALL_PLANAR_STOP_MEASURED;
+  standing.motion().speed_m_s = std::nan("");
+  EXPECT_NE(standing.frame().reasons & POSE_WALL_PLANAR_STOP_R_MISSING, 0U);
+}
+
+TEST(StopApi, TooFastStops) {
+  World world = road();
+  world.things.push_back(round_thing(2.25 + 1.2, 0.0, 0.2, -0.1, 0.9));
+  Standing standing(world);
+  standing.frames(40);
+  standing.motion().speed_m_s = standing.motion().command_speed_m_s = 0.9;
+  const auto result = standing.frame();
+  EXPECT_EQ(result.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+  EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_SPEED, 0U);
+}
+
+// Sparse returns through which rays pass: here and there they are dust, in one place they are a thing after the delay.
+TEST(StopApi, DustIsNoThingAndAThinThingIsOneAfterTheDelay) {
+  World dusty = road();
+  Standing dust(dusty);
+  dust.frames(30);
+  const auto frame_with = [&](Standing* standing, double x, double y) {
+    // One ray of the frame ends in the air.
+    standing->take();
+    auto& points = standing->scan().points();
+    const Eigen::Matrix3d R = standing->sensor().R();
+    const Eigen::Vector3d at = R.transpose() * Eigen::Vector3d(x - 2.0, y, 0.6 - standing->sensor().z_m);
+    std::size_t best = 0;
+    float most = -1.0F;
+    for (std::size_t k = 0; k + 3 < points.size(); k += 4) {
+      const Eigen::Vector3f p(points[k], points[k + 1], points[k + 2]);
+      if (!(p.norm() > 0.1F)) continue;
+      const float along = p.normalized().dot(at.cast<float>().normalized());
+      if (along > most) most = along, best = k;
+    }
+    const auto scale =
+        static_cast<float>(at.norm()) / Eigen::Vector3f(points[best], points[best + 1], points[best + 2]).norm();
+    for (std::size_t axis = 0; axis < 3; ++axis) points[best + axis] *= scale;
+    return standing->again();
+  };
+  std::uint32_t things = 0;
+  for (int k = 0; k < 20; ++k) {
+    const auto result = frame_with(&dust, 3.0 + 0.1 * ((7 * k) % 20), -1.0 + 0.1 * ((11 * k) % 20));
+    things += (result.reasons & POSE_WALL_PLANAR_STOP_R_THING) != 0 ? 1U : 0U;
+  }
+  EXPECT_EQ(things, 0U);
+  Standing thin(road());
+  thin.frames(30);
+  int frames = 0;
+  while (frames < 10) {
+    ++frames;
+    if ((frame_with(&thin, 3.3, 0.15).reasons & POSE_WALL_PLANAR_STOP_R_THING) != 0) break;
+  }
+  EXPECT_LE(frames, 4);  // 0.3 s after the first of them
+}
+
+TEST(StopApi, GarbageGivesNoNumberThatIsNoneAndNeverGo) {
+  Standing standing(road());
+  standing.frames(30);
+  Draw draw(1);
+  for (int k = 0; k < 50; ++k) {
+    standing.frame();
+    auto& points = standing.scan().points();
+    for (float& value : points) {
+      const std::uint32_t bits = (draw.below(65536) << 16U) | draw.below(65536);
+      std::memcpy(&value, &bits, sizeof(value));
+    }
+    const auto result = standing.again();
+    EXPECT_EQ(result.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP)) << k;
+    EXPECT_EQ(result.allowed_speed_m_s, 0.0);
+    EXPECT_TRUE(result.stop_speed_m_s >= 0.0 && result.stop_speed_m_s <= 1.0);
+  }
+}
+
+TEST(StopApi, RefusedCallsChangeNothing) {
+  Standing standing(road());
+  const auto before = standing.frames(5);
+  auto& result = standing.stop().result();
+  const pose_wall_cloud good = standing.scan().cloud(standing.stamp_ns() + kFrame_ns);
+  const auto status_with = [&](auto change) {
+    pose_wall_cloud cloud = good;
+    pose_wall_planar_stop_motion motion = standing.motion();
+    change(cloud, motion);
+    return pose_wall_planar_stop_process(standing.stop().get(), &cloud, &motion, standing.stamp_ns() + kFrame_ns,
+                                         &result);
+  };
+  EXPECT_EQ(status_with([](auto& c, auto&) { c.struct_size = 1; }), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(status_with([](auto& c, auto&) { c.x.type = POSE_WALL_FIELD_UINT8; }), POSE_WALL_E_CLOUD_FIELD);
+  EXPECT_EQ(status_with([](auto& c, auto&) { c.z.offset = 13; }), POSE_WALL_E_CLOUD_STEP);
+  EXPECT_EQ(status_with([](auto& c, auto&) { c.data_bytes -= 1; }), POSE_WALL_E_CLOUD_SIZE);
+  EXPECT_EQ(status_with([](auto& c, auto&) { c.data = nullptr; }), POSE_WALL_E_NULL);
+  EXPECT_EQ(status_with([](auto&, auto& m) { m.struct_size = 0; }), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(status_with([](auto&, auto& m) { m.given = 8; }), POSE_WALL_E_INPUT);
+  EXPECT_EQ(std::memcmp(&before, &result, sizeof(before)), 0);
+  result.struct_size = 4;
+  EXPECT_EQ(status_with([](auto&, auto&) {}), POSE_WALL_E_STRUCT_SIZE);
+  result.struct_size = sizeof(result);
+  EXPECT_EQ(pose_wall_planar_stop_process(nullptr, &good, nullptr, 0, &result), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_planar_stop_tick(standing.stop().get(), 0, nullptr), POSE_WALL_E_NULL);
+}
+
+TEST(StopApi, OpenRefusesWhatItCannotUse) {
+  pose_wall_config config;
+  ASSERT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
+  AlignedBlock block(pose_wall_planar_stop_memory_needed(), Dirt::kOnes);
+  EXPECT_LE(block.size(), 3U << 20U);
+  pose_wall_planar_stop* stop = nullptr;
+  EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.size() - 1, &stop),
+            POSE_WALL_E_BLOCK_SMALL);
+  EXPECT_EQ(pose_wall_planar_stop_open(nullptr, nullptr, block.data(), block.size(), &stop), POSE_WALL_E_NULL);
+  pose_wall_planar_stop_settings settings = encounter_settings();
+  settings.deceleration_m_s2 = std::nan("");
+  EXPECT_EQ(pose_wall_planar_stop_open(&config, &settings, block.data(), block.size(), &stop), POSE_WALL_E_VALUE_RANGE);
+  EXPECT_EQ(stop, nullptr);
+  EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.size(), &stop), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_planar_stop_reset(stop), POSE_WALL_OK);
+  std::memset(block.data(), 0xFF, 64);
+  EXPECT_EQ(pose_wall_planar_stop_reset(stop), POSE_WALL_E_ENGINE);
+}
+
+TEST(StopApi, SettingsOutsideTheirRangesAreNamed) {
+  pose_wall_planar_stop_settings settings = encounter_settings();
+  EXPECT_EQ(pose_wall_planar_stop_settings_check(&settings, nullptr), POSE_WALL_OK);
+  const auto member_with = [](auto change) {
+    pose_wall_planar_stop_settings changed = encounter_settings();
+    change(changed);
+    pose_wall_planar_fault fault{"", ""};
+    EXPECT_EQ(pose_wall_planar_stop_settings_check(&changed, &fault), POSE_WALL_E_VALUE_RANGE);
+    return std::string(fault.member);
+  };
+  EXPECT_EQ(member_with([](auto& s) { s.corners = 2; }), "corner_m");
+  EXPECT_EQ(member_with([](auto& s) { std::swap(s.corner_m[0], s.corner_m[1]); }), "corner_m");
+  EXPECT_EQ(member_with([](auto& s) { s.corner_m[0][0] = std::nan(""); }), "corner_m");
+  EXPECT_EQ(member_with([](auto& s) { s.corner_m[0][0] = -20.0; }), "corner_m");
+  EXPECT_EQ(member_with([](auto& s) { s.latency_s = -0.1; }), "latency_s");
+  EXPECT_EQ(member_with([](auto& s) { s.floor_band_m = 0.28; }), "floor_band_m");
+  EXPECT_EQ(member_with([](auto& s) { s.tall_m = 2.0, s.top_m = 1.0; }), "tall_m");
+  settings.struct_size = 0;
+  EXPECT_EQ(pose_wall_planar_stop_settings_check(&settings, nullptr), POSE_WALL_E_STRUCT_SIZE);
+}
+
+TEST(StopApi, TheSameFramesGiveTheSameBitsWhateverTheBlockHeld) {
+  const auto digest = [](Dirt dirt) {
+    AlignedBlock block(pose_wall_planar_stop_memory_needed(), dirt);
+    pose_wall_config config;
+    (void)pose_wall_config_init(&config);
+    (void)pose_wall_config_set_number(&config, "extrinsic_z", 1.5);
+    (void)pose_wall_config_set_number(&config, "extrinsic_pitch", 0.5);
+    pose_wall_planar_stop* stop = nullptr;
+    EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.size(), &stop), POSE_WALL_OK);
+    World world = road();
+    world.things.push_back(round_thing(5.0, 0.5, 0.2, -0.1, 1.7));
+    Sensor sensor(Pattern::vlp16, 0.0, 1.5, 0.0, 0.5, 1.25, 900);
+    Scan scan;
+    Draw draw(4);
+    std::vector<double> numbers;
+    for (int k = 0; k < 12; ++k) {
+      scan.take(sensor, world, 0.02 * k, 0.0, 0.0, 0.0, 0.0, &draw);
+      pose_wall_planar_stop_result result{};
+      result.struct_size = sizeof(result);
+      const pose_wall_planar_stop_motion motion{sizeof(motion), 1, 0.2, 0.01, 0.0, 0.0};
+      const pose_wall_cloud cloud = scan.cloud((k + 1) * kFrame_ns);
+      EXPECT_EQ(pose_wall_planar_stop_process(stop, &cloud, &motion, cloud.stamp_ns, &result), POSE_WALL_OK);
+      for (const double number :
+           {result.stop_speed_m_s, result.floor_height_m, result.floor_slope[0], result.nearest_distance_m,
+            static_cast<double>(result.thing_cells), static_cast<double>(result.blind_cells)}) {
+        numbers.push_back(std::isnan(number) ? -1.0 : number);
+      }
+    }
+    return numbers;
+  };
+  const std::vector<double> zeros = digest(Dirt::kZeros);
+  EXPECT_EQ(zeros, digest(Dirt::kOnes));
+  EXPECT_EQ(zeros, digest(Dirt::kRandom));
+}
+
+TEST(StopApi, NamesAreThoseOfTheHeader) {
+  EXPECT_STREQ(pose_wall_planar_stop_state_name(POSE_WALL_PLANAR_STOP_GO), "go");
+  EXPECT_STREQ(pose_wall_planar_stop_state_name(7), "unknown");
+  EXPECT_STREQ(pose_wall_planar_stop_reason_name(1), "blind");
+  EXPECT_STREQ(pose_wall_planar_stop_reason_name(POSE_WALL_PLANAR_STOP_REASON_COUNT), "unknown");
+  EXPECT_STRNE(pose_wall_planar_stop_reason_text(0), "");
+}
+
+}  // namespace
