@@ -31,8 +31,8 @@
 #include "pose_wall_planar_plan.h"
 #include "pose_wall_planar_scan.h"
 #include "pose_wall_planar_slam.h"
-#include "pose_wall_planar_track.h"
 #include "pose_wall_planar_stop.h"
+#include "pose_wall_planar_track.h"
 #include "pose_wall_planar_types.h"
 
 #endif /* POSE_WALL_PLANAR_H */

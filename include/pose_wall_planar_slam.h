@@ -92,21 +92,21 @@ enum pose_wall_planar_slam_state {
 const char* pose_wall_planar_slam_state_name(uint32_t state);
 
 typedef struct pose_wall_planar_slam_result {
-  uint32_t struct_size; /* sizeof(pose_wall_planar_slam_result): set it before the call */
-  uint32_t state;       /* pose_wall_planar_slam_state */
-  int64_t stamp_ns;     /* the scan's */
+  uint32_t struct_size;              /* sizeof(pose_wall_planar_slam_result): set it before the call */
+  uint32_t state;                    /* pose_wall_planar_slam_state */
+  int64_t stamp_ns;                  /* the scan's */
   pose_wall_planar_pose pose;        /* of base in map, as it is known now */
   pose_wall_planar_pose in_keyframe; /* of base in its keyframe */
   uint32_t keyframe;                 /* number of that keyframe, from 0 */
   uint32_t is_keyframe;              /* 1: it began with this scan */
-  double explained;     /* share of the points in known parts of the map that lie on its surfaces; 0 for the first */
-  double misfit_m;      /* root mean square of these points' distances from the surfaces */
-  uint32_t closures;    /* that are believed now */
-  uint32_t taken_back;  /* closures that were believed once */
-  uint32_t keyframes;   /* in the trail */
-  uint32_t is_full;     /* 1: the trail takes no more keyframes. Scans are matched with its last metres */
-  uint32_t solution;    /* another number whenever poses of earlier keyframes have changed */
-  uint32_t is_settled;  /* 1: the graph rests */
+  double explained;    /* share of the points in known parts of the map that lie on its surfaces; 0 for the first */
+  double misfit_m;     /* root mean square of these points' distances from the surfaces */
+  uint32_t closures;   /* that are believed now */
+  uint32_t taken_back; /* closures that were believed once */
+  uint32_t keyframes;  /* in the trail */
+  uint32_t is_full;    /* 1: the trail takes no more keyframes. Scans are matched with its last metres */
+  uint32_t solution;   /* another number whenever poses of earlier keyframes have changed */
+  uint32_t is_settled; /* 1: the graph rests */
 } pose_wall_planar_slam_result;
 
 /* One scan. odometry may be NULL. Fails iff: struct_size, POSE_WALL_E_SCAN, POSE_WALL_E_POSE (odometry not finite or

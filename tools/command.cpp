@@ -67,6 +67,8 @@ constexpr Example kExamples[] = {
     {"pose_wall doctor -o pose_wall.yaml frames", translatable("settings for your own frames")},
     {"pose_wall run -c road/pose_wall.yaml -o out.csv road/frames", translatable("measure a folder of frames")},
     {"pose_wall motion -c road/pose_wall.yaml -o motion.csv road/frames", translatable("travel of the machine")},
+    {"pose_wall map -o map --poses poses.tum aces.clf.gz", translatable("a map of planar scans")},
+    {"pose_wall plan map/map.yaml --from 0,0,0 --to 12,3,90", translatable("a route through a map")},
     {"pose_wall report -c road/pose_wall.yaml -o report.html road/frames",
      translatable("the same as a page for a browser")},
     {"pose_wall info road.bag", translatable("contents of a recording")},
@@ -89,6 +91,9 @@ void add_verbs(CLI::App& app, int& exit_code) {
                        tr("Display program version information and exit"));
   add_run(app, exit_code);
   add_motion(app, exit_code);
+  add_scan(app, exit_code);
+  add_map(app, exit_code);
+  add_plan(app, exit_code);
   add_doctor(app, exit_code);
   add_sim(app, exit_code);
   add_demo(app, exit_code);

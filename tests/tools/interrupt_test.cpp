@@ -21,6 +21,7 @@
 #include "csv/csv_table.hpp"
 #include "frames/load_frame.hpp"
 #include "frames/whole_file.hpp"
+#include "planar_logs.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 #include "truth/truth_csv.hpp"
@@ -111,6 +112,25 @@ TEST(Interrupt, MotionLeavesWholeRowsAndItsMap) {
   const CsvTable table = table_of(csv);  // throws where a row has too few cells
   EXPECT_LT(table.rows(), 2000U);
   EXPECT_TRUE(contains(text_of(map), "end_header\n"));
+}
+
+TEST(Interrupt, MapWritesTheScansSoFar) {
+  const TempFolder folder;
+  const std::string log = folder.write("room.clf", test::DrawnRoom::long_log(100'000));
+  const std::string part = part_of(folder.file("poses.tum")).string();
+  int seen = 0;
+  // The part is opened before the scans; some milliseconds later they are under way.
+  const auto is_under_way = [&] { return std::filesystem::exists(part) && ++seen > 20; };
+  EXPECT_EQ(interrupted_status({"map", "-q", "--poses", folder.file("poses.tum"), "-o", folder.file("map"), log},
+                               folder.file("said"), is_under_way),
+            130);
+  const std::size_t poses = lines_of(folder.file("poses.tum"));
+  EXPECT_GT(poses, 0U);
+  EXPECT_LT(poses, 100'000U);
+  EXPECT_TRUE(
+      contains(text_of(folder.file("said")), "interrupted after " + std::to_string(poses) + " of 100000 scans"));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("map/map.yaml")));
+  EXPECT_FALSE(std::filesystem::exists(part));
 }
 
 TEST(Interrupt, SimLeavesFramesWithTheirTruth) {

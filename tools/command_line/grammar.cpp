@@ -13,6 +13,9 @@
 #include "config_file/key_table.hpp"
 #include "config_file/motion_settings.hpp"
 #include "explain/gate_list.hpp"
+#include "planar/cloud_scans.hpp"
+#include "planar/planned_route.hpp"
+#include "planar/slam_settings.hpp"
 #include "sim/parameters.hpp"
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
@@ -71,12 +74,20 @@ bool is_number(const std::string& type) {
   return type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0 || type.rfind("FLOAT", 0) == 0;
 }
 
+// Of the verb's --set.
+ValueKind key_kind(const std::string& verb) {
+  if (verb == "sim") return ValueKind::kSimulatorKey;
+  if (verb == "plan") return ValueKind::kPlannerKey;
+  if (verb == "scan") return ValueKind::kScanKey;
+  return verb == "map" ? ValueKind::kMapKey : ValueKind::kEngineKey;
+}
+
 ValueKind kind_of(const CLI::App& verb, const CLI::Option& option) {
   const std::string type = option.get_type_name();
   if (is_flag(option)) return ValueKind::kNone;
   if (!choices_of(type).empty()) return ValueKind::kChoice;
   if (is_number(type)) return ValueKind::kNumber;
-  if (verb.get_name() == "sim" && long_name(option) == "set") return ValueKind::kSimulatorKey;
+  if (long_name(option) == "set") return key_kind(verb.get_name());
   const Meaning* meaning = meaning_of(option);
   return meaning != nullptr ? meaning->kind : ValueKind::kFile;
 }
@@ -130,6 +141,16 @@ std::vector<std::string> config_words() {
   return names;
 }
 
+std::vector<std::string> with_equals(std::vector<std::string> names) {
+  for (std::string& name : names) name += "=";
+  return names;
+}
+
+std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 }  // namespace
 
 void name_values(CLI::App& app) {
@@ -165,6 +186,12 @@ std::vector<std::string> value_words(const OptionGrammar& option) {
       return config_words();
     case ValueKind::kSimulatorKey:
       return names_of(sim::parameters(), "=");
+    case ValueKind::kPlannerKey:
+      return with_equals(plan_setting_names());
+    case ValueKind::kScanKey:
+      return joined(config_words(), with_equals(scanner_setting_names()));
+    case ValueKind::kMapKey:
+      return joined(joined(config_words(), with_equals(scanner_setting_names())), with_equals(slam_setting_names()));
     case ValueKind::kGate:
       return names_of(explain::gate_list(), "=");
     case ValueKind::kScene:

@@ -13,7 +13,21 @@
 namespace pose_wall::tools {
 
 // What may stand behind an option.
-enum class ValueKind { kNone, kText, kNumber, kFile, kChoice, kEngineKey, kSimulatorKey, kGate, kScene, kSensor };
+enum class ValueKind {
+  kNone,
+  kText,
+  kNumber,
+  kFile,
+  kChoice,
+  kEngineKey,
+  kSimulatorKey,
+  kPlannerKey,
+  kScanKey,  // of the engine and of planar scans
+  kMapKey,   // these, and of the SLAM
+  kGate,
+  kScene,
+  kSensor
+};
 
 struct OptionGrammar {
   std::vector<std::string> names;  // "-c", "--config"; the one name of a positional

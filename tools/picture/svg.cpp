@@ -97,6 +97,13 @@ void Svg::dots(const std::vector<Pixel>& centres, double diameter, std::string_v
                        path, colour, diameter, opacity);
 }
 
+void Svg::image(Pixel corner, double width, double height, std::string_view href) {
+  body_ += fmt::format(R"(<image x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" preserveAspectRatio="none" )"
+                       R"(image-rendering="pixelated" href="{}"/>)"
+                       "\n",
+                       corner.x, corner.y, width, height, href);
+}
+
 void Svg::text(Pixel at, std::string_view words, const TextStyle& style) {
   const std::string halo =
       style.halo.empty()

@@ -45,6 +45,8 @@ class Svg {
   void polyline(const std::vector<Pixel>& points, const Stroke& stroke);
   // All dots of one colour as one path: a tenth of the bytes of as many circles.
   void dots(const std::vector<Pixel>& centres, double diameter, std::string_view colour, double opacity);
+  // href: a link, or the image itself as data:image/png;base64,... Its pixels stay sharp squares.
+  void image(Pixel corner, double width, double height, std::string_view href);
   void text(Pixel at, std::string_view words, const TextStyle& style);
   // Elements up to end_clip() show only inside the rectangle.
   void begin_clip(Pixel corner, double width, double height);

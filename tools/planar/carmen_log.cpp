@@ -95,6 +95,7 @@ void read_stamps(Words* words, CarmenScan* scan) {
   if (!parse_stamp_ns(stamp, &scan->stamp_ns)) {
     throw LineFault{CarmenSkip::kBadLine, say("{} is no number: '{}'", "ipc_timestamp", std::string(stamp))};
   }
+  scan->stamp = std::string(stamp);
   words->word("host");
   scan->logger_s = words->finite("logger_timestamp");
   words->end();
@@ -268,6 +269,33 @@ class LogParser {
   CarmenLog log_;
 };
 
+// Of the scanner in the frame of the robot.
+pose_wall_planar_pose place_in_scan(const CarmenScan& scan) {
+  const double dx_m = scan.laser.x_m - scan.odometry.x_m;
+  const double dy_m = scan.laser.y_m - scan.odometry.y_m;
+  const double c = std::cos(scan.odometry.yaw_rad);
+  const double s = std::sin(scan.odometry.yaw_rad);
+  return {c * dx_m + s * dy_m, c * dy_m - s * dx_m,
+          std::remainder(scan.laser.yaw_rad - scan.odometry.yaw_rad, 2.0 * kHalfTurn_rad)};
+}
+
+std::optional<pose_wall_planar_pose> place_in_all_scans(const CarmenLog& log) {
+  // Logs write six digits; the place of a scanner is told in millimetres.
+  constexpr double kSame_m = 1e-3;
+  constexpr double kSame_rad = 1e-3;
+  if (log.scans.empty()) return std::nullopt;
+  const pose_wall_planar_pose first = place_in_scan(log.scans.front());
+  for (const CarmenScan& scan : log.scans) {
+    const pose_wall_planar_pose place = place_in_scan(scan);
+    const bool is_same = std::abs(place.x_m - first.x_m) <= kSame_m && std::abs(place.y_m - first.y_m) <= kSame_m &&
+                         std::abs(std::remainder(place.yaw_rad - first.yaw_rad, 2.0 * kHalfTurn_rad)) <= kSame_rad;
+    if (!is_same) return std::nullopt;
+  }
+  // Digits that the log's rounding left are no place.
+  const auto rounded = [](double value) { return std::round(value * 1e4) * 1e-4 + 0.0; };
+  return pose_wall_planar_pose{rounded(first.x_m), rounded(first.y_m), rounded(first.yaw_rad)};
+}
+
 }  // namespace
 
 const char* carmen_skip_name(CarmenSkip reason) {
@@ -342,6 +370,9 @@ pose_wall_planar_scan planar_scan_of(const CarmenScan& scan, const pose_wall_pla
 }
 
 pose_wall_planar_pose carmen_sensor_pose(const CarmenLog& log) {
+  const std::optional<pose_wall_planar_pose> place = place_in_all_scans(log);
+  // At 0 the log may have copied one pose into both.
+  if (place && (place->x_m != 0.0 || place->y_m != 0.0 || place->yaw_rad != 0.0)) return *place;
   const auto offset = log.params.find("robot_frontlaser_offset");
   if (offset == log.params.end()) return {0.0, 0.0, 0.0};
   const std::optional<double> x_m = parse_number<double>(offset->second.value);

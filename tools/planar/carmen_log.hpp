@@ -39,7 +39,8 @@ namespace pose_wall::tools {
 
 struct CarmenScan {
   std::size_t line = 0;
-  std::int64_t stamp_ns = 0;   // ipc_timestamp, all its digits
+  std::string stamp;           // ipc_timestamp as the log writes it
+  std::int64_t stamp_ns = 0;   // the same, all its digits
   std::int64_t rising_ns = 0;  // the same, but at least 1 us after the scan before it
   double logger_s = 0.0;       // since the log began
   std::vector<float> range_m;  // as they stand in the log
@@ -102,7 +103,8 @@ CarmenLog parse_carmen_log(std::string_view text);
 pose_wall_planar_scan planar_scan_of(const CarmenScan& scan, const pose_wall_planar_pose& sensor, double sigma_m,
                                      std::vector<float>* range_m);
 
-// The scanner's place in base: x from the log's parameter robot_frontlaser_offset, else 0.
+// The scanner's place in base: where every scan has the scanner at one place of the robot, that place. Else (the poses
+// are the robot's, or corrected) x from the log's parameter robot_frontlaser_offset, or 0.
 pose_wall_planar_pose carmen_sensor_pose(const CarmenLog& log);
 
 // Seconds with all digits as nanoseconds: "976052857.436207". False for what is no such number.

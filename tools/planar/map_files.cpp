@@ -210,6 +210,28 @@ void write_map_files(const std::filesystem::path& yaml, const pose_wall_planar_g
                                      grid.origin_y_m, kOccupiedThreshold, kFreeThreshold));
 }
 
+std::size_t free_specks(MapFile* map) {
+  constexpr int kFreeNeighbours = 5;
+  std::vector<std::size_t> specks;
+  for (std::size_t row = 1; row + 1 < map->height; ++row) {
+    for (std::size_t column = 1; column + 1 < map->width; ++column) {
+      const std::size_t at = row * map->width + column;
+      if (map->cells[at] >= 0) continue;
+      int free = 0;
+      bool touches_thing = false;
+      for (const std::size_t line : {at - map->width, at, at + map->width}) {
+        for (const std::size_t cell : {line - 1, line, line + 1}) {
+          free += map->cells[cell] == kFree ? 1 : 0;
+          touches_thing = touches_thing || map->cells[cell] > kFree;
+        }
+      }
+      if (free >= kFreeNeighbours && !touches_thing) specks.push_back(at);
+    }
+  }
+  for (const std::size_t at : specks) map->cells[at] = kFree;
+  return specks.size();
+}
+
 MapFile read_map_files(const std::filesystem::path& file) {
   const MapYaml yaml(file);
   MapFile map;

@@ -12,6 +12,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
@@ -43,6 +44,10 @@ class MapFileError : public std::runtime_error {
 // Throws std::runtime_error.
 void write_map_files(const std::filesystem::path& yaml, const pose_wall_planar_grid& grid, int occupied_per_cent = 65,
                      int free_per_cent = 35);
+
+// Unknown cells that are specks in the open become free: no thing touches them, and five of the eight cells round them
+// are free. Returns how many there were.
+std::size_t free_specks(MapFile* map);
 
 // PGM of either kind (P5, P2), of 1 or 2 bytes. Throws MapFileError.
 //

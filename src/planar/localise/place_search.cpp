@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include "planar/heap_sort.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -295,12 +296,7 @@ void PlaceSearch::refine(const PlaceMap& map, const Look& look, const Seed& seed
 // The best first, each fitted once more with all points.
 void PlaceSearch::sort_out(const PlaceMap& map, const Look& look) {
   const auto better = [](const Hypothesis& a, const Hypothesis& b) { return a.verdict.cost < b.verdict.cost; };
-  // By a heap: std::sort calls itself, and the stack is bounded.
-  const auto sort = [&](std::uint32_t count) {
-    std::make_heap(hypotheses_.begin(), hypotheses_.begin() + count, better);
-    std::sort_heap(hypotheses_.begin(), hypotheses_.begin() + count, better);
-  };
-  sort(hypothesis_count_);
+  heap_sort(hypotheses_.begin(), hypotheses_.begin() + hypothesis_count_, better);
   constexpr std::uint32_t kBest = 32;
   for (std::uint32_t k = 0; k < std::min(kBest, hypothesis_count_); ++k) {
     Hypothesis& own = hypotheses_[k];
@@ -312,7 +308,7 @@ void PlaceSearch::sort_out(const PlaceMap& map, const Look& look) {
     own.rms_m = fit.rms_m;
     own.verdict = judge_patches(map, look, fit.pose, &own.costs);
   }
-  sort(std::min(kBest, hypothesis_count_));
+  heap_sort(hypotheses_.begin(), hypotheses_.begin() + std::min(kBest, hypothesis_count_), better);
 }
 
 bool PlaceSearch::go_on(const PlaceMap& map, const Look& look, std::uint64_t steps) {

@@ -109,7 +109,7 @@ void Recent::keep(Span<const ScanPoint> points) {
 void Recent::draw() {
   near_.begin(pose_.place());
   for (std::uint32_t k = 0; k < count_; ++k) {
-    if (travel_m_ - kept(k).travel_m < kLookBack_m) near_.add(points_of(k), kept(k).pose);
+    if (travel_m_ - kept(k).travel_m < kLookBack_m) near_.add(points_of(k), kept(k).pose, true);
   }
   near_.finish();
 }

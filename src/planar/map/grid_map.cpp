@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "base/math/bits.hpp"
+#include "planar/heap_sort.hpp"
 #include "planar/map/tile_record.hpp"
 
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
@@ -223,7 +224,7 @@ void GridMap::copy_out(std::uint32_t tile, pose_wall_planar_tile* record) const 
 
 Span<const std::uint32_t> GridMap::in_order() {
   for (std::uint32_t tile = 0; tile < tiles_.count(); ++tile) order_[tile] = tile;
-  std::sort(order_.begin(), order_.begin() + tiles_.count(), [this](std::uint32_t a, std::uint32_t b) {
+  heap_sort(order_.begin(), order_.begin() + tiles_.count(), [this](std::uint32_t a, std::uint32_t b) {
     const TileHead &one = tiles_.head(a), &other = tiles_.head(b);
     return one.row != other.row ? one.row < other.row : one.column < other.column;
   });

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planar/heap_sort.hpp"
+
 namespace pose_wall::planar {
 namespace {
 
@@ -110,10 +112,11 @@ std::uint32_t Matcher::look_coarse(const Grid& grid, std::uint32_t* dropped) con
 std::uint32_t Matcher::look_closer(const Grid& grid, std::uint32_t level, std::uint32_t parents,
                                    std::uint32_t* dropped) const {
   std::copy(nodes_.begin(), nodes_.begin() + parents, parents_.begin());
-  std::sort(parents_.begin(), parents_.begin() + parents, [](const Node& a, const Node& b) {
+  const auto before = [](const Node& a, const Node& b) {
     if (a.yaw != b.yaw) return a.yaw < b.yaw;
     return a.x != b.x ? a.x < b.x : a.y < b.y;
-  });
+  };
+  heap_sort(parents_.begin(), parents_.begin() + parents, before);
   const std::int32_t step = kFineInCoarse[level];
   std::uint32_t kept = 0;
   for (std::uint32_t k = 0; k < parents; ++k) {

@@ -25,6 +25,8 @@ using pose_wall::planar::SlamStep;
 using pose_wall::planar::Trail;
 using pose_wall::planar::TrailImage;
 
+constexpr const char* kStates[] = {"first", "tracked", "doubtful", "blind"};
+
 // What lives in the block: SLAM and its settings, for clear().
 struct Body {
   Slam slam;
@@ -102,8 +104,7 @@ std::int32_t inside(const pose_wall_planar_slam* slam, Call call) {
 extern "C" {
 
 POSE_WALL_EXPORT const char* pose_wall_planar_slam_state_name(uint32_t state) {
-  constexpr const char* kNames[] = {"first", "tracked", "doubtful", "blind"};
-  return state < sizeof(kNames) / sizeof(kNames[0]) ? kNames[state] : "unknown";
+  return state < sizeof(kStates) / sizeof(kStates[0]) ? kStates[state] : "unknown";
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settings_init(pose_wall_planar_slam_settings* settings) {

@@ -161,9 +161,9 @@ bool read_options(int argc, char** argv, Options* options) {
     } else if (name == "--metres") {
       options->metres = std::atof(value);
     } else if (name == "--kind") {
-      options->kind = static_cast<int>(std::find_if(kNames, kNames + kKinds, [&](const char* own) {
-                                         return std::strcmp(own, value) == 0;
-                                       }) - kNames);
+      options->kind = static_cast<int>(
+          std::find_if(kNames, kNames + kKinds, [&](const char* own) { return std::strcmp(own, value) == 0; }) -
+          kNames);
     } else {
       return false;
     }

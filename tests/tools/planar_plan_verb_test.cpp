@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: `pose_wall plan` writes routes that end where they should and names why there is none. Does not prove: that
+// routes are short (tests/planar).
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "csv/csv_table.hpp"
+#include "planar/map_files.hpp"
+#include "planar/map_picture.hpp"
+#include "ran_command.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::command;
+using test::contains;
+using test::Ran;
+using test::table_of;
+using test::TempFolder;
+using test::text_of;
+
+// 40 x 20 m, free within walls; a wall at x 20 leaves `gap_m` free in the middle.
+MapFile hall(double gap_m) {
+  MapFile map;
+  map.width = 400;
+  map.height = 200;
+  map.resolution_m = 0.1;
+  map.cells.assign(std::size_t{map.width} * map.height, 0);
+  for (std::size_t row = 0; row < map.height; ++row) {
+    for (std::size_t column = 0; column < map.width; ++column) {
+      const bool is_rim = row == 0 || column == 0 || row + 1 == map.height || column + 1 == map.width;
+      const double from_middle_m = 0.1 * (static_cast<double>(row) + 0.5) - 10.0;
+      const bool is_wall = column == 200 && (from_middle_m > 0.5 * gap_m || from_middle_m < -0.5 * gap_m);
+      if (is_rim || is_wall) map.cells[row * map.width + column] = 100;
+    }
+  }
+  return map;
+}
+
+std::string written(const TempFolder& folder, const MapFile& map) {
+  write_map_files(folder.file("hall.yaml"), map.grid());
+  return folder.file("hall.yaml");
+}
+
+TEST(PlanVerb, WritesARouteFromStartToGoal) {
+  const TempFolder folder;
+  const std::string map = written(folder, hall(3.0));
+  const Ran ran = command({"plan", map, "--from", "8,5,0", "--to", "32,15,90", "-o", folder.file("r.csv"), "--picture",
+                           folder.file("r.svg")});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(ran.printed, "length")) << ran.printed;
+  const CsvTable table = table_of(folder.file("r.csv"));
+  ASSERT_GT(table.rows(), 10U);
+  const auto number = [&table](std::size_t row, const char* column) {
+    return table.number(row, *table.find_column(column));
+  };
+  EXPECT_NEAR(number(0, "x_m"), 8.0, 1e-6);
+  const std::size_t last = table.rows() - 1;
+  EXPECT_NEAR(number(last, "x_m"), 32.0, 1e-6);
+  EXPECT_NEAR(number(last, "y_m"), 15.0, 1e-6);
+  EXPECT_NEAR(number(last, "yaw_rad"), 1.5707963, 1e-6);
+  EXPECT_GE(number(last, "along_m"), 26.0 - 1e-6) << "the straight line";
+  EXPECT_LT(number(last, "along_m"), 32.0);
+  EXPECT_TRUE(contains(text_of(folder.file("r.svg")), "<polyline"));
+}
+
+TEST(PlanVerb, NamesWhyThereIsNoRoute) {
+  const TempFolder folder;
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"--from", "8,5,0", "--to", "32,10,0"}, "too narrow: at x 20"},
+      {{"--from", "8,0.3,0", "--to", "12,10,0"}, "A thing at x "},
+      {{"--from", "8,5,0", "--to", "39.9,10,0"}, "does not fit at the goal"},
+  };
+  const std::string map = written(folder, hall(1.0));
+  for (const auto& [words, answer] : cases) {
+    std::vector<std::string> all = {"plan", map, "--picture", folder.file("none.svg"), "-o", folder.file("none.csv")};
+    all.insert(all.end(), words.begin(), words.end());
+    const Ran ran = command(all);
+    EXPECT_EQ(ran.exit_status, 3) << ran.errors;
+    EXPECT_TRUE(contains(ran.errors, answer)) << answer << " in: " << ran.errors;
+    EXPECT_FALSE(std::filesystem::exists(folder.file("none.csv")));
+    EXPECT_TRUE(std::filesystem::exists(folder.file("none.svg")));
+  }
+}
+
+TEST(PlanVerb, SpecksCountAsFreeOnlyIfToldSo) {
+  const TempFolder folder;
+  MapFile map = hall(3.0);
+  map.cells[std::size_t{50} * map.width + 80] = -1;  // x 8 m, y 5 m
+  const std::string file = written(folder, map);
+  const Ran strict = command({"plan", file, "--from", "8,5,0", "--to", "14,5,0"});
+  EXPECT_EQ(strict.exit_status, 3);
+  EXPECT_TRUE(contains(strict.errors, "An unknown cell at x 8.05 m, y 5.05 m")) << strict.errors;
+  const Ran freed = command({"plan", file, "--from", "8,5,0", "--to", "14,5,0", "--free-specks"});
+  EXPECT_EQ(freed.exit_status, 0) << freed.errors;
+  EXPECT_TRUE(contains(freed.errors, "1 specks count as free")) << freed.errors;
+}
+
+TEST(PlanVerb, FaultsOfUsage) {
+  const TempFolder folder;
+  const std::string map = written(folder, hall(3.0));
+  const std::pair<std::vector<std::string>, const char*> usage[] = {
+      {{"plan", map, "--to", "1,1,0"}, "--from"},
+      {{"plan", map, "--from", "1,1", "--to", "1,1,0"}, "--from: '1,1' is refused; allowed: x,y,yaw"},
+      {{"plan", map, "--from", "1,1,nan", "--to", "1,1,0"}, "'1,1,nan' is refused"},
+      {{"plan", map, "--from", "1,1,0", "--to", "5,5,0", "-s", "frnt_m=2"}, "did you mean 'front_m'"},
+      {{"plan", map, "--from", "1,1,0", "--to", "5,5,0", "-s", "front_m=99"}, "front_m"},
+      {{"plan", map, "--from", "1,1,0", "--to", "5,5,0", "--picture", "r.png"}, "ending in .svg"},
+      {{"plan", folder.file("none.yaml"), "--from", "1,1,0", "--to", "5,5,0"}, "there is no file"},
+  };
+  for (const auto& [words, answer] : usage) {
+    const Ran ran = command(words);
+    EXPECT_EQ(ran.exit_status, 2) << ran.errors;
+    EXPECT_TRUE(contains(ran.errors, answer)) << answer << " in: " << ran.errors;
+  }
+  const Ran damaged = command({"plan", folder.write("bad.yaml", "image: x.pgm\n"), "--from", "1,1,0", "--to", "5,5,0"});
+  EXPECT_EQ(damaged.exit_status, 1);
+  EXPECT_TRUE(contains(damaged.errors, "bad.yaml")) << damaged.errors;
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// A log of CARMEN as a source of scans.
+
+#pragma once
+
+#include <string>
+
+#include "planar/carmen_log.hpp"
+#include "planar/scan_source.hpp"
+
+namespace pose_wall::tools {
+
+// By its first bytes, packed or not; by its name (.clf, .log) where they leave it open. False for what cannot be read.
+bool is_carmen_log(const std::filesystem::path& file);
+
+class CarmenScans : public ScanSource {
+ public:
+  // Throws CarmenError.
+  explicit CarmenScans(const std::string& file);
+
+  std::optional<SourcedScan> next() override;
+  std::size_t scans() const override { return log_.scans.size(); }
+  bool has_odometry() const override { return true; }
+  std::vector<std::string> notes() const override;
+  std::vector<std::filesystem::path> files() const override { return {file_}; }
+
+ private:
+  std::string file_;
+  CarmenLog log_;
+  pose_wall_planar_pose sensor_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "planar/scan_inputs.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <system_error>
+
+#include "config_file/key_table.hpp"
+#include "language/language.hpp"
+#include "planar/carmen_scans.hpp"
+#include "planar/cloud_scans.hpp"
+#include "planar/setting_words.hpp"
+#include "terminal/did_you_mean.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+void require_log_alone(const FrameOptions& options, const std::vector<std::string>& verb_settings) {
+  if (options.inputs.size() > 1) {
+    throw std::invalid_argument(say("{}: give a log of CARMEN alone", options.inputs.front()));
+  }
+  if (!options.config_file.empty()) {
+    throw std::invalid_argument(tr("--config is for frames; a log of CARMEN holds scans"));
+  }
+  for (const std::string& setting : options.settings) {
+    const std::string name = setting.substr(0, setting.find('='));
+    throw std::invalid_argument(
+        say("--set {}: no setting for scans of a log{}", name, did_you_mean(name, verb_settings)));
+  }
+}
+
+// A name that no table has may be meant for one of the planar library: the config's own answer knows only its keys.
+void compare_settings(const std::vector<std::string>& words, const std::vector<std::string>& verb_settings) {
+  std::vector<std::string> planar = scanner_setting_names();
+  planar.insert(planar.end(), verb_settings.begin(), verb_settings.end());
+  const std::vector<std::string> keys = config_key_names();
+  for (const std::string& word : words) {
+    const std::string name = named_value(word).name;
+    const std::string meant = nearest_word(name, planar);
+    if (meant.empty() || std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
+    const std::string key = nearest_word(name, keys);
+    if (!key.empty() && edit_distance(name, key) <= edit_distance(name, meant)) continue;
+    throw std::invalid_argument(say("--set {}: there is no such setting{}", name, did_you_mean(name, planar)));
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<ScanSource> open_scans(const FrameOptions& options, const std::vector<std::string>& verb_settings) {
+  const auto& inputs = options.inputs;
+  const auto log = std::find_if(inputs.begin(), inputs.end(), [](const std::string& input) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(input, ignored) && is_carmen_log(input);
+  });
+  if (log == inputs.end()) {
+    FrameOptions for_engine = options;
+    const pose_wall_planar_scanner_settings settings = take_scanner_settings(&for_engine.settings);
+    compare_settings(for_engine.settings, verb_settings);
+    return std::make_unique<CloudScans>(for_engine, settings);
+  }
+  require_log_alone(options, verb_settings);
+  return std::make_unique<CarmenScans>(*log);
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Settings of the SLAM as `--set KEY=VALUE` gives them.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pose_wall_planar_slam.h"
+
+namespace pose_wall::tools {
+
+// "keyframe_m" and so on.
+std::vector<std::string> slam_setting_names();
+
+// The defaults, with the settings that `words` holds; these are taken out of it, the others stay. Throws
+// std::invalid_argument that names the setting and its range.
+pose_wall_planar_slam_settings take_slam_settings(std::vector<std::string>* words);
+
+}  // namespace pose_wall::tools
