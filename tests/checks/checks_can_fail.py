@@ -514,8 +514,8 @@ class Pages(BrokenProject):
 
     def setUp(self):
         super().setUp()
-        for header in ("pose_wall", "pose_wall_motion", "pose_wall_runtime"):
-            self.write(f"include/{header}.h", (CHECKS.parents[1] / f"include/{header}.h").read_text(encoding="utf-8"))
+        for header in (CHECKS.parents[1] / "include").glob("pose_wall*.h"):
+            self.write(f"include/{header.name}", header.read_text(encoding="utf-8"))
         checks = "pose_wall_check(house COMMAND x)\npose_wall_check(header_${h} COMMAND x)\n"
         self.write("tests/checks/CMakeLists.txt", checks)
         self.write("CONTRIBUTING.md", "| you change | guards |\n| --- | --- |\n| `x` | `house`, `header_*` |\n")
