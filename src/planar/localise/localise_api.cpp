@@ -159,13 +159,14 @@ void write_result(const Localiser& own, Where where, std::int64_t stamp_ns, pose
   *result = out;
 }
 
+constexpr const char* kStates[] = {"searching", "unknown", "ambiguous", "unique", "doubtful"};
+
 }  // namespace
 
 extern "C" {
 
 POSE_WALL_EXPORT const char* pose_wall_planar_localise_state_name(uint32_t state) {
-  constexpr const char* kNames[] = {"searching", "unknown", "ambiguous", "unique", "doubtful"};
-  return state < sizeof(kNames) / sizeof(kNames[0]) ? kNames[state] : "?";
+  return state < sizeof(kStates) / sizeof(kStates[0]) ? kStates[state] : "?";
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_init(pose_wall_planar_localise_settings* settings) {
