@@ -21,7 +21,7 @@ struct Normal {
   double squares = 0.0;
   std::uint32_t explained = 0, seen = 0, all = 0;
 
-  Eigen::Matrix3d H() const {
+  Eigen::Matrix3d whole() const {
     Eigen::Matrix3d out;
     out << xx, xy, xt, xy, yy, yt, xt, yt, tt;
     return out;
@@ -153,7 +153,7 @@ Fit fit_pose(const PlaceMap& map, const Look& look, const Pose2& start, const Fi
     const Eigen::Vector3d off(out.pose.x_m - rule.prior.x_m, out.pose.y_m - rule.prior.y_m,
                               wrapped(out.pose.yaw_rad - rule.prior.yaw_rad));
     // A metre's information: directions without any stay where they are.
-    const Eigen::Matrix3d H = normal.H() + rule.weight + Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d H = normal.whole() + rule.weight + Eigen::Matrix3d::Identity();
     const Eigen::Vector3d g(normal.x, normal.y, normal.t);
     const Eigen::Vector3d step = H.inverse() * (g + rule.weight * off);
     if (!(step.squaredNorm() < 4.0)) break;
@@ -161,7 +161,7 @@ Fit fit_pose(const PlaceMap& map, const Look& look, const Pose2& start, const Fi
     if (std::abs(step.x()) < kStill_m && std::abs(step.y()) < kStill_m && std::abs(step.z()) < kStill_rad) break;
   }
   const Normal normal = sum_up(map, look, out.pose, rule);
-  out.information = normal.H();
+  out.information = normal.whole();
   out.points = normal.seen;
   out.seen = normal.all > 0 ? static_cast<double>(normal.seen) / normal.all : 0.0;
   out.explained = normal.seen > 0 ? static_cast<double>(normal.explained) / normal.seen : 0.0;

@@ -53,7 +53,7 @@ Refined Recent::match(Span<const ScanPoint> points, const BeamScan& scan, const 
                       const Matcher& matcher) const {
   constexpr double kGood = 0.85, kFar_m = 0.6, kFar_rad = 0.6;
   constexpr std::uint32_t kNodes = 128;
-  const Refined near = matcher.refine(points, near_, prior.pose, prior, scan.sigma_m);
+  Refined near = matcher.refine(points, near_, prior.pose, prior, scan.sigma_m);
   if (near.is_valid && near.explained > kGood) return near;
   const Found found = matcher.search(points, near_, {prior.pose, kFar_m, kFar_rad, kNodes});
   const Refined far =
