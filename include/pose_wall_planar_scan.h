@@ -158,8 +158,8 @@ typedef struct pose_wall_planar_scan_view {
   const float* clear_from_m; /* NaN: no guarantee */
   const float* clear_m;
   const uint16_t* returns; /* of the beam's nearest surface; 0: no range, or one from the neighbours */
-  uint32_t points_in;
-  uint32_t dropped; /* not finite, no-returns, nearer than range_min of the config, beyond 1000 m */
+  uint32_t points_in;      /* this and all below are 0 without a floor */
+  uint32_t dropped;        /* not finite, no-returns, nearer than range_min of the config, beyond 1000 m */
   uint32_t of_body;
   uint32_t of_floor; /* and below it */
   uint32_t of_low;

@@ -6,33 +6,13 @@
  * with status 1. Only a struct with pointers may have gaps, and only where these have 32 bits: nothing ever compares or
  * sums its bytes. */
 
-#include <stdio.h>
-
+#include "abi_layout.h"
 #include "pose_wall.h"
 #include "pose_wall_box.h"
 #include "pose_wall_motion.h"
 #include "pose_wall_runtime.h"
 
-static size_t filled = 0;
-
-static void member(const char* name, size_t offset, size_t bytes) {
-  printf("  %-30s %5u %5u\n", name, (unsigned)offset, (unsigned)bytes);
-  filled += bytes;
-}
-
-static int struct_end(const char* name, size_t bytes) {
-  printf("%s %u\n", name, (unsigned)bytes);
-  if (filled != bytes) printf("%s: members fill %u bytes only\n", name, (unsigned)filled);
-  const int padded = filled != bytes;
-  filled = 0;
-  return padded;
-}
-
-static int struct_with_pointers_end(const char* name, size_t bytes) {
-  return struct_end(name, bytes) && sizeof(void*) == 8;
-}
-
-#define MEMBER(type, name) member(#name, offsetof(type, name), sizeof(((type*)0)->name))
+int planar_layout(void); /* abi_layout_planar.c */
 
 static int config_layout(void) {
   MEMBER(pose_wall_config, struct_size);
@@ -407,6 +387,6 @@ int main(void) {
   int padded = config_layout() + cloud_layout() + value_layout() + plane_layout() + result_layout();
   padded += pointers_layout() + image_layout();
   padded += publication_layout() + runtime_options_layout() + runtime_times_layout() + runtime_statistics_layout() +
-            box_info_layout() + box_record_layout() + self_test_layout() + motion_layout();
+            box_info_layout() + box_record_layout() + self_test_layout() + motion_layout() + planar_layout();
   return padded == 0 ? 0 : 1;
 }

@@ -25,7 +25,8 @@ max_len_of() {
     sequence | motion | memento) echo 400 ;;
     config) echo 512 ;;
     work) echo 64 ;;
-    image | frame) echo 2048 ;;
+    planar_scans | planar_clouds | route) echo 400 ;;
+    image | frame | pgm | carmen_log) echo 2048 ;;
     kitti | text_points | csv | hesai_angles) echo 1024 ;;
     config_file) echo 4096 ;;
     *) echo 14336 ;;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fuzz/road_from_input.hpp"
+#include "fuzz/seed_planar.hpp"
 #include "fuzz/seed_recordings.hpp"
 #include "support/runtime_under_test.hpp"
 
@@ -252,6 +253,40 @@ void plain_points() {
   write("text_points", "\xEF\xBB\xBF\"X\",\"Y\",\"Z\",time\n1,2,3,0.01\n\n// c\n4,5,6,0.02");
 }
 
+// Drives, clouds and routes that make use of every byte; then what the planar library saves.
+void planar() {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Text drive("\x60\x40\x40", 3);
+    drive += static_cast<char>(seed);
+    for (std::uint64_t event = 0; event < 10; ++event) {
+      drive += static_cast<char>(seed % 3 == 0 ? event % 8 : event == 6 ? 6 : 0);  // a map in the middle
+      drive += Text("\0\x40", 2);                                                  // the next stamp, beams
+      drive += chance(seed * 64 + event, 2) + "\x10";                              // way and turn, with odometry
+    }
+    write("planar_scans", drive);
+    Text clouds(3, '\0');  // config, scanner and settings
+    for (std::uint64_t event = 0; event < 6; ++event) {
+      clouds += static_cast<char>((seed * 3 + event) % 8);
+      clouds += '\0';
+      clouds += chance(seed * 32 + event, 20);
+    }
+    write("planar_clouds", clouds);
+    // A route on a free grid with a few blocks, and the tracker's steps along it.
+    Text route("\1\xff\xff\xff\x20", 5);
+    route += Text("\x60\x60\x20\x20\x10\x20\0\x20\x80\xff\xff\x80\x80", 13) + static_cast<char>(seed % 8);
+    route += chance(seed, 1 + 4 * (seed % 3)) + Text("\0\x20\x20\x80\0\xd0\xd0\x80", 8) + chance(seed + 99, 80);
+    write("route", route);
+  }
+  using namespace pose_wall::test::seeds;
+  for (const char mended : {'\0', '\4'}) {
+    write("planar_saved", mended + saved_trail());
+    write("planar_saved", static_cast<char>(mended + 1) + saved_map(false));
+    write("planar_saved", static_cast<char>(mended + 2) + saved_map(true));
+  }
+  for (const Text& log : carmen_logs()) write("carmen_log", log);
+  for (const Text& image : pgm_images()) write("pgm", image);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -273,5 +308,6 @@ int main(int argc, char** argv) {
   texts();
   packets();
   plain_points();
+  planar();
   return 0;
 }

@@ -105,8 +105,8 @@ void Scanner::end_beams() {
   for (std::uint32_t beam = 0; beam < settings_.beams; ++beam) {
     float& range_m = ranges_.range_m[beam];
     float& free_m = evidence_.free_m[beam];
-    const bool is_thing = range_m < kNothing_m;  // NaN fails
-    if (is_thing) free_m = range_m;
+    const bool is_thing = range_m < kNothing_m;              // NaN fails
+    if (is_thing) free_m = range_m > 0.0F ? range_m : 0.0F;  // its bias may be longer than a tiny range
     if (free_m > most_m) free_m = most_m;
     if (is_thing && !(range_m >= nearest_m)) {
       range_m = nan;
@@ -117,7 +117,10 @@ void Scanner::end_beams() {
     float& overhead_m = evidence_.overhead_m[beam];
     if (!(low_m < kNothing_m)) low_m = nan;
     if (!(overhead_m < kNothing_m)) overhead_m = nan;
-    if (!is_thing || range_m != range_m) ranges_.returns[beam] = 0;
+    if (range_m < kNothing_m) continue;  // a range, for NaN and infinity fail
+    ranges_.returns[beam] = 0;
+    ranges_.bias_m[beam] = 0.0F;
+    ranges_.sigma_m[beam] = nan;
   }
 }
 
