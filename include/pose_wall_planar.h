@@ -28,6 +28,7 @@
 #include "pose_wall_planar_grid.h"
 #include "pose_wall_planar_localise.h"
 #include "pose_wall_planar_map.h"
+#include "pose_wall_planar_match.h"
 #include "pose_wall_planar_plan.h"
 #include "pose_wall_planar_scan.h"
 #include "pose_wall_planar_slam.h"

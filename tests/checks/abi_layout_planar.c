@@ -116,6 +116,32 @@ static int planar_scan_layout(void) {
   return padded;
 }
 
+static int planar_match_layout(void) {
+  int padded = 0;
+  MEMBER(pose_wall_planar_match_input, struct_size);
+  MEMBER(pose_wall_planar_match_input, has_prior);
+  MEMBER(pose_wall_planar_match_input, guess);
+  MEMBER(pose_wall_planar_match_input, reach_m);
+  MEMBER(pose_wall_planar_match_input, reach_rad);
+  MEMBER(pose_wall_planar_match_input, covariance);
+  padded += struct_end("pose_wall_planar_match_input", sizeof(pose_wall_planar_match_input));
+  MEMBER(pose_wall_planar_match_result, struct_size);
+  MEMBER(pose_wall_planar_match_result, state);
+  MEMBER(pose_wall_planar_match_result, pose);
+  MEMBER(pose_wall_planar_match_result, covariance);
+  MEMBER(pose_wall_planar_match_result, explained);
+  MEMBER(pose_wall_planar_match_result, misfit_m);
+  MEMBER(pose_wall_planar_match_result, slide_m);
+  MEMBER(pose_wall_planar_match_result, slide_rad);
+  MEMBER(pose_wall_planar_match_result, score);
+  MEMBER(pose_wall_planar_match_result, second_score);
+  MEMBER(pose_wall_planar_match_result, second);
+  MEMBER(pose_wall_planar_match_result, is_whole);
+  MEMBER(pose_wall_planar_match_result, points);
+  padded += struct_end("pose_wall_planar_match_result", sizeof(pose_wall_planar_match_result));
+  return padded;
+}
+
 static int planar_slam_layout(void) {
   int padded = 0;
   MEMBER(pose_wall_planar_slam_settings, struct_size);
@@ -420,7 +446,7 @@ static int planar_stop_layout(void) {
 }
 
 int planar_layout(void) {
-  return planar_types_layout() + planar_grid_layout() + planar_scan_layout() + planar_slam_layout() +
-         planar_map_layout() + planar_localise_layout() + planar_plan_layout() + planar_track_layout() +
-         planar_stop_layout();
+  return planar_types_layout() + planar_grid_layout() + planar_scan_layout() + planar_match_layout() +
+         planar_slam_layout() + planar_map_layout() + planar_localise_layout() + planar_plan_layout() +
+         planar_track_layout() + planar_stop_layout();
 }

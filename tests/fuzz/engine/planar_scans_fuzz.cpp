@@ -2,14 +2,15 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Fuzz target: what reads planar scans. A drive through a hall, garbage, silence and odometry that is anything go to
-// SLAM, map and localisation. What is refused changes nothing. Every result keeps the contract of its header, and a
-// second SLAM on another block gives the same bits. The localisation's map is the trail, at whatever moment.
+// SLAM, map, match and localisation. What is refused changes nothing. Every result keeps the contract of its header,
+// and a second SLAM on another block gives the same bits. The localisation's map is the trail, at whatever moment.
 
 #include "fuzz/fuzz_target.hpp"
 #include "fuzz/scans_from_input.hpp"
 #include "fuzz/stamps_from_input.hpp"
 #include "pose_wall_planar_localise.h"
 #include "pose_wall_planar_map.h"
+#include "pose_wall_planar_match.h"
 #include "pose_wall_planar_slam.h"
 
 namespace {
@@ -23,6 +24,7 @@ struct Parts {
   pose_wall_planar_slam *slam, *other;
   pose_wall_planar_map* map;
   pose_wall_planar_localise* localise;
+  pose_wall_planar_matcher* matcher;
   bool is_placed;  // the localisation has a map
   std::uint32_t saves, saves_refused_every;
 };
@@ -66,6 +68,14 @@ pose_wall_planar_localise* open_localise(KeptBlock* block) {
   settings.work = 5000;
   return opened<pose_wall_planar_localise>(settings, pose_wall_planar_localise_memory_needed,
                                            pose_wall_planar_localise_open, block, 0xA5);
+}
+
+pose_wall_planar_matcher* open_match(KeptBlock* block) {
+  std::uint64_t bytes = 0;
+  pose_wall_planar_matcher* matcher = nullptr;
+  require_ok(pose_wall_planar_match_memory_needed(&bytes), "memory needed");
+  require_ok(pose_wall_planar_match_open(block->filled(bytes, 0xA5), bytes, &matcher), "open");
+  return matcher;
 }
 
 std::int32_t take_tile(void* context, const pose_wall_planar_tile* tile) {
@@ -148,6 +158,33 @@ void to_localise(Parts* parts, const pose_wall_planar_scan& scan, const pose_wal
   require_candidates(parts->localise, result.candidates);
 }
 
+// The scan is matched with itself, from a guess and by a prior that may be anything.
+void to_match(Input* input, Parts* parts, const pose_wall_planar_scan& scan, const pose_wall_planar_pose& base) {
+  if (pose_wall_planar_match_begin(parts->matcher, base.x_m, base.y_m) != POSE_WALL_OK) return;
+  const std::int32_t added = pose_wall_planar_match_add(parts->matcher, &scan, &base);
+  require(added == POSE_WALL_OK || added == POSE_WALL_E_SCAN || added == POSE_WALL_E_POSE, "a known refusal");
+  pose_wall_planar_match_input how;
+  require_ok(pose_wall_planar_match_input_init(&how), "input");
+  const std::uint8_t with = input->byte();
+  how.guess = with % 16U == 15U ? any_pose(input) : base;
+  how.reach_m = input->between(0.0, 2.0);
+  how.has_prior = (with & 16U) != 0 ? 1 : 0;
+  for (double& value : how.covariance) value = (with & 32U) != 0 ? input->take<double>() : 0.0;
+  if ((with & 64U) != 0) how.covariance[0] = how.covariance[4] = how.covariance[8] = input->between(0.0, 1.0);
+  pose_wall_planar_match_result result{};
+  result.struct_size = sizeof result;
+  const std::int32_t status = pose_wall_planar_match_scan(parts->matcher, &scan, &how, &result);
+  require(status == POSE_WALL_OK || status == POSE_WALL_E_SCAN || status == POSE_WALL_E_POSE, "a known refusal");
+  if (status != POSE_WALL_OK) return;
+  const bool found = result.state == POSE_WALL_PLANAR_MATCH_FOUND;
+  require(found ? is_result(result.pose) : is_none(result.pose), "a pose iff it is found");
+  for (int k = 0; k < 3; ++k) {
+    const double variance = result.covariance[4 * k];
+    require(found ? variance > 0.0 && std::isfinite(variance) : std::isnan(variance), "a covariance iff it is found");
+  }
+  require(result.explained >= 0.0 && result.explained <= 1.0, "a share");
+}
+
 // The trail as it is becomes the localisation's map.
 void place(Parts* parts) {
   static float xy_m[2 * POSE_WALL_PLANAR_BEAMS_MAX];
@@ -195,6 +232,7 @@ void scan_event(Input* input, Parts* parts, Drive* drive, bool garbage) {
   to_slam(parts, drive->seen.scan, given, drive);
   to_map(parts, drive->seen.scan, odometry);
   to_localise(parts, drive->seen.scan, given);
+  if ((with & 32U) != 0) to_match(input, parts, drive->seen.scan, odometry);
 }
 
 void event(Input* input, Parts* parts, Drive* drive) {
@@ -219,12 +257,13 @@ void event(Input* input, Parts* parts, Drive* drive) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static KeptBlock blocks[4];
+  static KeptBlock blocks[5];
   Input input(data, size);
   Parts parts{open_slam(&blocks[0], 0xA5),
               open_slam(&blocks[1], 0x00),
               open_map(&blocks[2]),
               open_localise(&blocks[3]),
+              open_match(&blocks[4]),
               false,
               0,
               1 + input.below(4)};

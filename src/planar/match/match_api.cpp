@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The only extern "C" file of the scan match: checks arguments, translates, calls.
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "base/math/finite.hpp"
+#include "export.hpp"
+#include "planar/held.hpp"
+#include "planar/match/matcher.hpp"
+#include "pose_wall_planar_match.h"
+
+namespace {
+
+using pose_wall::not_a_number;
+using pose_wall::planar::Beam;
+using pose_wall::planar::BeamScan;
+using pose_wall::planar::check_scan;
+using pose_wall::planar::even_points;
+using pose_wall::planar::Found;
+using pose_wall::planar::kMatchPointsMost;
+using pose_wall::planar::Matcher;
+using pose_wall::planar::pose_for_caller;
+using pose_wall::planar::pose_of;
+using pose_wall::planar::Prior;
+using pose_wall::planar::read_beams;
+using pose_wall::planar::Refined;
+using pose_wall::planar::ScanPoint;
+using pose_wall::planar::Slide;
+using pose_wall::planar::SurfaceMap;
+
+constexpr double kSpacing_m = 0.05;  // of matched points along a surface, as in SLAM
+
+// What lives in the block.
+struct Body {
+  Matcher matcher;
+  SurfaceMap map;
+  pose_wall::Span<Beam> beams;
+  pose_wall::Span<ScanPoint> points;
+  bool has_begun, is_finished;
+
+  void lay_out(pose_wall::Arena& arena) {
+    matcher.lay_out(arena);
+    map.lay_out(arena);
+    beams = arena.take<Beam>(POSE_WALL_PLANAR_BEAMS_MAX);
+    points = arena.take<ScanPoint>(kMatchPointsMost);
+  }
+};
+
+using Opened = pose_wall::planar::Held<Body, 0x6863746D6E616C70ULL>;
+
+// Bodies of calls about an opened matcher. call(body) gives the status.
+template <typename Call>
+std::int32_t inside(const pose_wall_planar_matcher* matcher, Call call) {
+  if (matcher == nullptr) return POSE_WALL_E_NULL;
+  const Opened::Inside held(reinterpret_cast<const Opened*>(matcher));
+  return held.status() == POSE_WALL_OK ? call(held.body()) : held.status();
+}
+
+bool is_within(double value, double least, double most) {
+  return value >= least && value <= most;
+}
+
+constexpr double kFarthest_m = 1e6, kMost_rad = 10000.0;  // as the header says
+
+bool is_pose(const pose_wall_planar_pose& pose) {
+  return is_within(pose.x_m, -kFarthest_m, kFarthest_m) && is_within(pose.y_m, -kFarthest_m, kFarthest_m) &&
+         is_within(pose.yaw_rad, -kMost_rad, kMost_rad);
+}
+
+// Symmetric and positive. Its scale may be anything that an inverse can hold.
+bool is_covariance(const double (&c)[9]) {
+  for (const double value : c) {
+    if (!is_within(value, -1e12, 1e12)) return false;
+  }
+  const double most = std::max({c[0], c[4], c[8]});
+  for (const int at : {1, 2, 5}) {
+    const int across = at == 5 ? 7 : 3 * at;
+    const double off = c[at] - c[across];
+    if (!is_within(off, -1e-9 * most, 1e-9 * most)) return false;
+  }
+  constexpr double kLeast = 1e-12;  // a micrometre, squared
+  const double minor = c[0] * c[4] - c[1] * c[3];
+  const double all =
+      c[0] * (c[4] * c[8] - c[5] * c[7]) - c[1] * (c[3] * c[8] - c[5] * c[6]) + c[2] * (c[3] * c[7] - c[4] * c[6]);
+  return c[0] >= kLeast && c[4] >= kLeast && c[8] >= kLeast && minor > 0.0 && all > 0.0;
+}
+
+std::int32_t check_input(const pose_wall_planar_match_input* input) {
+  constexpr double kReach_m = 38.0, kReach_rad = 3.14159265358979;  // what Matcher::search looks through
+  if (input == nullptr) return POSE_WALL_E_NULL;
+  if (input->struct_size != sizeof(*input)) return POSE_WALL_E_STRUCT_SIZE;
+  if (input->has_prior > 1) return POSE_WALL_E_VALUE_RANGE;
+  if (!is_pose(input->guess)) return POSE_WALL_E_POSE;
+  if (!is_within(input->reach_m, 0.0, kReach_m) || !is_within(input->reach_rad, 0.0, kReach_rad)) {
+    return POSE_WALL_E_VALUE_RANGE;
+  }
+  return input->has_prior == 0 || is_covariance(input->covariance) ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_POSE;
+}
+
+Prior prior_of(const pose_wall_planar_match_input& input) {
+  Prior prior{pose_of(input.guess), Eigen::Matrix3d::Zero()};
+  if (input.has_prior == 0) return prior;
+  Eigen::Matrix3d covariance;
+  for (int k = 0; k < 9; ++k) covariance(k / 3, k % 3) = input.covariance[k];
+  prior.information = covariance.inverse();
+  return prior;
+}
+
+// What scan and prior hold together. Where neither holds anything, the reach does.
+Eigen::Matrix3d covariance_of(const Body& body, const Refined& match, const Slide& slide, const Prior& prior,
+                              const pose_wall_planar_match_input& input) {
+  constexpr double kOpen_m = 3.2;  // the last shift of Matcher::slide: what slides so far may slide on
+  Slide open = slide;
+  if (open.reach_m >= kOpen_m) open.reach_m = std::max(open.reach_m, input.reach_m);
+  Eigen::Matrix3d information = body.matcher.information(match, open) + prior.information;
+  const double place_m = std::max(kOpen_m, input.reach_m), turn_rad = std::max(0.1, input.reach_rad);
+  information.diagonal() +=
+      Eigen::Vector3d(1.0 / (place_m * place_m), 1.0 / (place_m * place_m), 1.0 / (turn_rad * turn_rad));
+  return information.inverse();
+}
+
+pose_wall_planar_match_result no_match() {
+  const double none = not_a_number();
+  pose_wall_planar_match_result out{};
+  out.struct_size = sizeof(out);
+  out.state = POSE_WALL_PLANAR_MATCH_NONE;
+  out.pose = out.second = {none, none, none};
+  for (double& value : out.covariance) value = none;
+  out.misfit_m = out.slide_m = out.slide_rad = out.score = none;
+  return out;
+}
+
+pose_wall_planar_match_result match(const Body& body, const BeamScan& scan, const pose_wall_planar_match_input& input) {
+  pose_wall_planar_match_result out = no_match();
+  const auto points = even_points(scan, kSpacing_m, body.points);
+  const Prior prior = prior_of(input);
+  pose_wall::planar::Pose2 start = prior.pose;
+  if ((input.reach_m > 0.0 || input.reach_rad > 0.0) && points.size() > 0) {
+    const Found found = body.matcher.search(
+        points, body.map, {start, input.reach_m, input.reach_rad, pose_wall::planar::kSearchNodesMost});
+    start = found.pose;
+    out.score = found.score;
+    out.second_score = found.second_score;
+    if (found.second_score > 0.0) out.second = pose_for_caller(found.second);
+    out.is_whole = found.is_whole ? 1 : 0;
+  }
+  const Refined refined = body.matcher.refine(points, body.map, start, prior, scan.sigma_m);
+  out.explained = refined.explained;
+  out.points = refined.points;
+  if (!refined.is_valid) return out;
+  const Slide slide = body.matcher.slide(points, body.map, refined, scan.sigma_m);
+  const Eigen::Matrix3d covariance = covariance_of(body, refined, slide, prior, input);
+  out.state = POSE_WALL_PLANAR_MATCH_FOUND;
+  out.pose = pose_for_caller(refined.pose);
+  for (int k = 0; k < 9; ++k) out.covariance[k] = covariance(k / 3, k % 3);
+  out.misfit_m = refined.rms_m;
+  out.slide_m = slide.reach_m;
+  out.slide_rad = pose_wall::arc_tangent2(slide.direction.y(), slide.direction.x());
+  return out;
+}
+
+}  // namespace
+
+extern "C" {
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_match_memory_needed(uint64_t* bytes) {
+  if (bytes == nullptr) return POSE_WALL_E_NULL;
+  *bytes = Opened::bytes();
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_match_open(void* block, uint64_t block_bytes,
+                                                     pose_wall_planar_matcher** matcher) {
+  if (block == nullptr || matcher == nullptr) return POSE_WALL_E_NULL;
+  Opened* placed = nullptr;
+  const std::int32_t status = Opened::place(block, block_bytes, &placed);
+  if (status != POSE_WALL_OK) return status;
+  placed->body().map.open();
+  placed->body().has_begun = placed->body().is_finished = false;
+  *matcher = reinterpret_cast<pose_wall_planar_matcher*>(placed);
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_match_begin(pose_wall_planar_matcher* matcher, double x_m, double y_m) {
+  if (!is_within(x_m, -kFarthest_m, kFarthest_m) || !is_within(y_m, -kFarthest_m, kFarthest_m)) return POSE_WALL_E_POSE;
+  return inside(matcher, [&](Body& body) {
+    body.map.begin({x_m, y_m});
+    body.has_begun = true;
+    body.is_finished = false;
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_match_add(pose_wall_planar_matcher* matcher,
+                                                    const pose_wall_planar_scan* scan,
+                                                    const pose_wall_planar_pose* base) {
+  if (base == nullptr) return POSE_WALL_E_NULL;
+  const std::int32_t status = check_scan(scan);
+  if (status != POSE_WALL_OK) return status;
+  if (!is_pose(*base)) return POSE_WALL_E_POSE;
+  return inside(matcher, [&](Body& body) {
+    if (!body.has_begun || body.is_finished) return std::int32_t{POSE_WALL_E_ORDER};
+    body.map.add(even_points(read_beams(*scan, body.beams), kSpacing_m, body.points), pose_of(*base), true);
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_match_input_init(pose_wall_planar_match_input* input) {
+  if (input == nullptr) return POSE_WALL_E_NULL;
+  *input = {};
+  input->struct_size = sizeof(*input);
+  input->reach_m = 0.3;
+  input->reach_rad = 0.1;
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_match_scan(pose_wall_planar_matcher* matcher,
+                                                     const pose_wall_planar_scan* scan,
+                                                     const pose_wall_planar_match_input* input,
+                                                     pose_wall_planar_match_result* result) {
+  if (result == nullptr) return POSE_WALL_E_NULL;
+  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  std::int32_t status = check_scan(scan);
+  if (status == POSE_WALL_OK) status = check_input(input);
+  if (status != POSE_WALL_OK) return status;
+  return inside(matcher, [&](Body& body) {
+    if (!body.has_begun) return std::int32_t{POSE_WALL_E_ORDER};
+    if (!body.is_finished) body.map.finish();
+    body.is_finished = true;
+    *result = match(body, read_beams(*scan, body.beams), *input);
+    return std::int32_t{POSE_WALL_OK};
+  });
+}
+
+}  // extern "C"
