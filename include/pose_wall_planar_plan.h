@@ -128,7 +128,7 @@ typedef struct pose_wall_planar_plan_result {
  * is the start and the last is the goal. Set result->struct_size first. That there is no route is an outcome, no error.
  * The grid is read during the call only. Fails iff: NULL (poses may be NULL with capacity 0), a struct_size of another
  * version, POSE_WALL_E_GRID (also: another resolution, or larger than the settings say), POSE_WALL_E_POSE for a start
- * or goal that is not finite, not open, POSE_WALL_E_BUSY. */
+ * or goal that is none (pose_wall_planar_types.h), not open, POSE_WALL_E_BUSY. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_plan(pose_wall_planar_planner* planner, const pose_wall_planar_grid* grid,
                                                 const pose_wall_planar_pose* start, const pose_wall_planar_pose* goal,
                                                 pose_wall_planar_path_pose* poses, uint32_t capacity,
@@ -140,7 +140,7 @@ const char* pose_wall_planar_plan_outcome_name(uint32_t outcome);
 const char* pose_wall_planar_plan_outcome_text(uint32_t outcome);
 
 /* Distance in metres from a point of the grid last planned on to the nearest cell that is not driven on, or to the edge
- * of the grid; at most 5. NaN before the first plan and for a point that is not finite. A tracker's callback. */
+ * of the grid; at most 5. NaN before the first plan and for a place that is none. A tracker's callback. */
 double pose_wall_planar_plan_clearance(const pose_wall_planar_planner* planner, double x_m, double y_m);
 
 #ifdef __cplusplus

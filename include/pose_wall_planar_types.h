@@ -31,6 +31,11 @@ enum pose_wall_planar_status {
 /* One English sentence, also for the codes of pose_wall.h; static storage. */
 const char* pose_wall_planar_status_text(int32_t status);
 
+/* Poses that callers give are refused (POSE_WALL_E_POSE) if they are not finite, or beyond these: places of 1 nm and
+ * turns of 1e-12 rad are told apart within them. */
+#define POSE_WALL_PLANAR_FARTHEST_M 1e6
+#define POSE_WALL_PLANAR_TURNED_MOST_RAD 1e4
+
 /* A pose in the plane: a point p of base lies at R(yaw) p + (x, y) in the frame that the pose belongs to. */
 typedef struct pose_wall_planar_pose {
   double x_m;

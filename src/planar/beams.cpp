@@ -16,11 +16,7 @@ namespace {
 
 constexpr StructSizes kScanSizes = {0, offsetof(pose_wall_planar_scan, free_m), sizeof(pose_wall_planar_scan)};
 
-bool is_within(double value, double least, double most) {
-  return value >= least && value <= most;
-}
-
-bool is_pose(const pose_wall_planar_pose& pose) {
+bool is_mount(const pose_wall_planar_pose& pose) {
   constexpr double kFarthest_m = 100.0;  // no sensor hangs further from its machine than this
   return is_within(pose.x_m, -kFarthest_m, kFarthest_m) && is_within(pose.y_m, -kFarthest_m, kFarthest_m) &&
          is_within(pose.yaw_rad, -2.0 * kPi, 2.0 * kPi);
@@ -35,7 +31,7 @@ std::int32_t check_scan(const pose_wall_planar_scan* scan) {
   if (scan->range_m == nullptr) return POSE_WALL_E_NULL;
   constexpr double kTurn_rad = 2.0 * kPi, kRangeMost_m = 1000.0;  // as the header says
   const double step_rad = scan->angle_step_rad < 0.0 ? -scan->angle_step_rad : scan->angle_step_rad;
-  const bool fits = scan->beams >= 1 && scan->beams <= POSE_WALL_PLANAR_BEAMS_MAX && is_pose(scan->sensor) &&
+  const bool fits = scan->beams >= 1 && scan->beams <= POSE_WALL_PLANAR_BEAMS_MAX && is_mount(scan->sensor) &&
                     is_within(scan->angle_min_rad, -kTurn_rad, kTurn_rad) && step_rad > 0.0 &&
                     (scan->beams - 1.0) * step_rad <= kTurn_rad + 1e-6 && scan->range_min_m >= 0.0 &&
                     scan->range_max_m > scan->range_min_m && scan->range_max_m <= kRangeMost_m &&

@@ -13,7 +13,7 @@
 
 namespace pose_wall::planar {
 
-// The same angle in (-pi, pi]. For any finite angle: whole turns come off by a division.
+// The same angle in (-pi, pi], of one up to POSE_WALL_PLANAR_TURNED_MOST_RAD: whole turns come off by a division.
 inline double wrapped(double angle_rad) {
   const double turns = std::floor((angle_rad + kPi) / (2.0 * kPi));
   const double inside = angle_rad - turns * (2.0 * kPi);
@@ -25,6 +25,20 @@ struct Pose2 {
 
   Eigen::Vector2d place() const { return {x_m, y_m}; }
 };
+
+inline bool is_within(double value, double least, double most) {
+  return value >= least && value <= most;
+}
+
+// A caller's place or pose is one: NaN fails.
+inline bool is_place(double x_m, double y_m) {
+  constexpr double kFarthest_m = POSE_WALL_PLANAR_FARTHEST_M;
+  return is_within(x_m, -kFarthest_m, kFarthest_m) && is_within(y_m, -kFarthest_m, kFarthest_m);
+}
+inline bool is_pose(const pose_wall_planar_pose& pose) {
+  constexpr double kMost_rad = POSE_WALL_PLANAR_TURNED_MOST_RAD;
+  return is_place(pose.x_m, pose.y_m) && is_within(pose.yaw_rad, -kMost_rad, kMost_rad);
+}
 
 inline Pose2 pose_of(const pose_wall_planar_pose& pose) {
   return {pose.x_m, pose.y_m, pose.yaw_rad};

@@ -187,7 +187,7 @@ TEST(Plan, WithoutARouteTheReasonIsGiven) {
   EXPECT_EQ(planner.plan(wall, left, right).outcome, POSE_WALL_PLAN_NOT_CONNECTED);
   EXPECT_EQ(planner.plan(wall, {20.0, 20.0, 0.0}, right).outcome, POSE_WALL_PLAN_START_BLOCKED);
   EXPECT_EQ(planner.plan(wall, left, {20.0, 20.0, 0.0}).outcome, POSE_WALL_PLAN_GOAL_BLOCKED);
-  EXPECT_EQ(planner.plan(wall, {1e9, 20.0, 0.0}, right).outcome, POSE_WALL_PLAN_START_BLOCKED);
+  EXPECT_EQ(planner.plan(wall, {9e5, 20.0, 0.0}, right).outcome, POSE_WALL_PLAN_START_BLOCKED);
 
   // A gap of 1 m is too narrow for 1.2 m and two margins.
   DrawnGrid gap = wall;
@@ -282,7 +282,8 @@ TEST(Plan, WrongArgumentsAreRefusedAndChangeNothing) {
   EXPECT_EQ(with([](auto&, auto&) {}), POSE_WALL_OK);
   EXPECT_EQ(with([&](auto&, auto& p) { p.x_m = nan; }), POSE_WALL_E_POSE);
   EXPECT_EQ(with([&](auto&, auto& p) { p.yaw_rad = std::numeric_limits<double>::infinity(); }), POSE_WALL_E_POSE);
-  EXPECT_EQ(with([](auto&, auto& p) { p.yaw_rad = 1e300; }), POSE_WALL_OK);
+  EXPECT_EQ(with([](auto&, auto& p) { p.yaw_rad = 1.1e4; }), POSE_WALL_E_POSE);
+  EXPECT_EQ(with([](auto&, auto& p) { p.x_m = 1.1e6; }), POSE_WALL_E_POSE);
   EXPECT_EQ(with([](auto& g, auto&) { g.width = 0; }), POSE_WALL_E_GRID);
   EXPECT_EQ(with([](auto& g, auto&) { g.width = 801; }), POSE_WALL_E_GRID);
   EXPECT_EQ(with([](auto& g, auto&) { g.resolution_m = 0.1; }), POSE_WALL_E_GRID);

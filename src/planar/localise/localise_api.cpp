@@ -15,6 +15,9 @@ namespace {
 
 using pose_wall::planar::CandidatePlace;
 using pose_wall::planar::check_scan;
+using pose_wall::planar::is_place;
+using pose_wall::planar::is_pose;
+using pose_wall::planar::is_within;
 using pose_wall::planar::Localiser;
 using pose_wall::planar::LocaliseSettings;
 using pose_wall::planar::PlaceMap;
@@ -36,16 +39,6 @@ struct Body {
 using Opened = pose_wall::planar::Held<Body, 0x65736C6163636F6CULL>;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-bool is_within(double value, double least, double most) {
-  return value >= least && value <= most;
-}
-
-bool is_pose(const pose_wall_planar_pose& pose) {
-  constexpr double kFarthest_m = 1e6, kMost_rad = 10000.0;  // as the header says; a turn is exact to 1e-12 there
-  return is_within(pose.x_m, -kFarthest_m, kFarthest_m) && is_within(pose.y_m, -kFarthest_m, kFarthest_m) &&
-         is_within(pose.yaw_rad, -kMost_rad, kMost_rad);
-}
 
 pose_wall_planar_localise_settings defaults() {
   const LocaliseSettings own;
@@ -100,10 +93,9 @@ bool add_points(PlaceMap* map, const Pose2& pose, const float* xy_m, std::uint32
 }
 
 bool is_grid(const pose_wall_planar_grid& grid) {
-  constexpr double kFarthest_m = 1e6;
   return grid.width >= 1 && grid.width <= POSE_WALL_PLANAR_GRID_SIDE_MAX && grid.height >= 1 &&
          grid.height <= POSE_WALL_PLANAR_GRID_SIDE_MAX && is_within(grid.resolution_m, 0.01, 1.0) &&
-         is_within(grid.origin_x_m, -kFarthest_m, kFarthest_m) && is_within(grid.origin_y_m, -kFarthest_m, kFarthest_m);
+         is_place(grid.origin_x_m, grid.origin_y_m);
 }
 
 bool add_cells(PlaceMap* map, const pose_wall_planar_grid& grid) {

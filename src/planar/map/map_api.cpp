@@ -13,6 +13,7 @@ namespace {
 
 using pose_wall::planar::BeamLine;
 using pose_wall::planar::GridMap;
+using pose_wall::planar::is_within;
 using pose_wall::planar::MapPlace;
 using pose_wall::planar::MapWork;
 using pose_wall::planar::Turn2;
@@ -26,17 +27,13 @@ const Map* map_of(const pose_wall_planar_map* map) {
   return reinterpret_cast<const Map*>(map);
 }
 
-bool is_within(double value, double least, double most) {
-  return value >= least && value <= most;
-}
-
 bool is_place(double x_m, double y_m) {
   constexpr double kReach_m = POSE_WALL_PLANAR_MAP_REACH_M;  // as the header says
   return is_within(x_m, -kReach_m, kReach_m) && is_within(y_m, -kReach_m, kReach_m);
 }
 
 bool is_angle(double angle_rad) {
-  constexpr double kMost_rad = 10000.0;  // as the header says: a turn is exact to 1e-12 there
+  constexpr double kMost_rad = POSE_WALL_PLANAR_TURNED_MOST_RAD;
   return is_within(angle_rad, -kMost_rad, kMost_rad);
 }
 

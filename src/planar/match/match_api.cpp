@@ -20,6 +20,9 @@ using pose_wall::planar::BeamScan;
 using pose_wall::planar::check_scan;
 using pose_wall::planar::even_points;
 using pose_wall::planar::Found;
+using pose_wall::planar::is_place;
+using pose_wall::planar::is_pose;
+using pose_wall::planar::is_within;
 using pose_wall::planar::kMatchPointsMost;
 using pose_wall::planar::Matcher;
 using pose_wall::planar::pose_for_caller;
@@ -57,17 +60,6 @@ std::int32_t inside(const pose_wall_planar_matcher* matcher, Call call) {
   if (matcher == nullptr) return POSE_WALL_E_NULL;
   const Opened::Inside held(reinterpret_cast<const Opened*>(matcher));
   return held.status() == POSE_WALL_OK ? call(held.body()) : held.status();
-}
-
-bool is_within(double value, double least, double most) {
-  return value >= least && value <= most;
-}
-
-constexpr double kFarthest_m = 1e6, kMost_rad = 10000.0;  // as the header says
-
-bool is_pose(const pose_wall_planar_pose& pose) {
-  return is_within(pose.x_m, -kFarthest_m, kFarthest_m) && is_within(pose.y_m, -kFarthest_m, kFarthest_m) &&
-         is_within(pose.yaw_rad, -kMost_rad, kMost_rad);
 }
 
 // Symmetric and positive. Its scale may be anything that an inverse can hold.
@@ -185,7 +177,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_open(void* block, uint64_t block
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_match_begin(pose_wall_planar_matcher* matcher, double x_m, double y_m) {
-  if (!is_within(x_m, -kFarthest_m, kFarthest_m) || !is_within(y_m, -kFarthest_m, kFarthest_m)) return POSE_WALL_E_POSE;
+  if (!is_place(x_m, y_m)) return POSE_WALL_E_POSE;
   return inside(matcher, [&](Body& body) {
     body.map.begin({x_m, y_m});
     body.has_begun = true;

@@ -7,11 +7,10 @@
 #include <cstring>
 
 #include "base/math/finite.hpp"
+#include "planar/pose2.hpp"
 
 namespace pose_wall::planar::route {
 namespace {
-
-constexpr double kFarthest_m = 1e7;  // an origin beyond it leaves a double no room for millimetres
 
 // Eight cells as eight bits, cell 0 lowest. As bytes unknown cells are 255, so one comparison sees to all.
 std::uint64_t blocked_of_eight(const std::int8_t* cells, std::uint64_t lift) {
@@ -31,11 +30,9 @@ std::int32_t check_grid(const pose_wall_planar_grid* grid) {
   if (grid == nullptr) return POSE_WALL_E_NULL;
   if (grid->struct_size != sizeof(*grid)) return POSE_WALL_E_STRUCT_SIZE;
   if (grid->cells == nullptr) return POSE_WALL_E_NULL;
-  const auto is_near = [](double m) { return m >= -kFarthest_m && m <= kFarthest_m; };
   const bool fits = grid->width >= 1 && grid->width <= POSE_WALL_PLANAR_GRID_SIDE_MAX && grid->height >= 1 &&
                     grid->height <= POSE_WALL_PLANAR_GRID_SIDE_MAX && grid->resolution_m >= 0.01 &&
-                    grid->resolution_m <= 1.0 && is_near(grid->origin_x_m) && is_near(grid->origin_y_m) &&
-                    grid->reserved == 0;
+                    grid->resolution_m <= 1.0 && is_place(grid->origin_x_m, grid->origin_y_m) && grid->reserved == 0;
   return fits ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_GRID};
 }
 

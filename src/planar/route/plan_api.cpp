@@ -11,6 +11,7 @@
 
 namespace {
 
+using pose_wall::planar::is_pose;
 using pose_wall::planar::route::Planner;
 using HeldPlanner = pose_wall::planar::Held<Planner, 0x6E616C506D614C50ULL>;
 
@@ -19,10 +20,6 @@ HeldPlanner* held_of(pose_wall_planar_planner* planner) {
 }
 const HeldPlanner* held_of(const pose_wall_planar_planner* planner) {
   return reinterpret_cast<const HeldPlanner*>(planner);
-}
-
-bool is_pose(const pose_wall_planar_pose& pose) {
-  return pose_wall::is_finite(pose.x_m) && pose_wall::is_finite(pose.y_m) && pose_wall::is_finite(pose.yaw_rad);
 }
 
 pose_wall::planar::Pose2 taken(const pose_wall_planar_pose& pose) {
@@ -126,7 +123,7 @@ POSE_WALL_EXPORT const char* pose_wall_planar_plan_outcome_text(uint32_t outcome
 
 POSE_WALL_EXPORT double pose_wall_planar_plan_clearance(const pose_wall_planar_planner* planner, double x_m,
                                                         double y_m) {
-  if (planner == nullptr || !pose_wall::is_finite(x_m) || !pose_wall::is_finite(y_m)) return pose_wall::not_a_number();
+  if (planner == nullptr || !pose_wall::planar::is_place(x_m, y_m)) return pose_wall::not_a_number();
   const HeldPlanner::Inside inside(held_of(planner));
   return inside.status() == POSE_WALL_OK ? inside.body().clearance_m({x_m, y_m}) : pose_wall::not_a_number();
 }

@@ -12,6 +12,7 @@
 namespace {
 
 using pose_wall::is_finite;
+using pose_wall::planar::is_pose;
 using pose_wall::planar::route::Tracker;
 using HeldTracker = pose_wall::planar::Held<Tracker, 0x6B6361725440504CULL>;
 
@@ -23,9 +24,8 @@ std::int32_t check_route(const pose_wall_planar_path_pose* poses, std::uint32_t 
   double along_m = 0.0;
   for (std::uint32_t k = 0; k < count; ++k) {
     const pose_wall_planar_path_pose& at = poses[k];
-    const bool is_whole = is_finite(at.pose.x_m) && is_finite(at.pose.y_m) && is_finite(at.pose.yaw_rad) &&
-                          is_finite(at.curvature_1_m) && is_finite(at.along_m) && at.along_m >= along_m &&
-                          at.drive >= -1 && at.drive <= 1;
+    const bool is_whole = is_pose(at.pose) && is_finite(at.curvature_1_m) && is_finite(at.along_m) &&
+                          at.along_m >= along_m && at.drive >= -1 && at.drive <= 1;
     if (!is_whole) return POSE_WALL_E_POSE;
     along_m = at.along_m;
   }

@@ -66,10 +66,7 @@ double Tracker::step_seconds(std::int64_t now_ns) {
 }
 
 bool Tracker::is_good(const pose_wall_planar_track_input& input, double age_s) const {
-  constexpr double kFarthest_m = 1e7;
-  const pose_wall_planar_pose& pose = input.pose;
-  return input.has_pose == 1 && magnitude(pose.x_m) <= kFarthest_m && magnitude(pose.y_m) <= kFarthest_m &&
-         magnitude(pose.yaw_rad) <= 1e6 && input.pose_level_m >= 0.0 &&
+  return input.has_pose == 1 && is_pose(input.pose) && input.pose_level_m >= 0.0 &&
          input.pose_level_m <= settings_.pose_level_max_m && age_s >= 0.0 && age_s <= settings_.pose_age_max_s;
 }
 

@@ -13,6 +13,8 @@ namespace {
 
 using pose_wall::planar::check_scan;
 using pose_wall::planar::Edge;
+using pose_wall::planar::is_pose;
+using pose_wall::planar::is_within;
 using pose_wall::planar::Keyframe;
 using pose_wall::planar::Pose2;
 using pose_wall::planar::pose_for_caller;
@@ -39,16 +41,6 @@ using Opened = pose_wall::planar::Held<Body, 0x6D616C736C6E616CULL>;
 
 const Opened* opened(const pose_wall_planar_slam* slam) {
   return reinterpret_cast<const Opened*>(slam);
-}
-
-bool is_within(double value, double least, double most) {
-  return value >= least && value <= most;
-}
-
-bool is_pose(const pose_wall_planar_pose& pose) {
-  constexpr double kFarthest_m = 1e6, kMost_rad = 10000.0;  // as the header says; a turn is exact to 1e-12 there
-  return is_within(pose.x_m, -kFarthest_m, kFarthest_m) && is_within(pose.y_m, -kFarthest_m, kFarthest_m) &&
-         is_within(pose.yaw_rad, -kMost_rad, kMost_rad);
 }
 
 pose_wall_planar_slam_settings defaults() {
