@@ -9,6 +9,7 @@
     bench/instructions/count.py build/arm64 --dear     # clouds that cost most, beside a road of as many points
     bench/instructions/count.py build/arm64 --growth   # how they grow with the points of a frame, and the worst frame
     bench/instructions/count.py build/arm64 --motion   # frames of the motion library, against motion_figures.csv
+    bench/instructions/count.py build/arm64 --planar   # scan, match, map and stop, against planar_figures.csv
     bench/instructions/count.py build/arm64 --functions --sensors os1-64   # which functions a frame's are spent in
 
 Fails where a stage costs more than 5 % above the noted figure, or a frame of motion more than twice the typical one.
@@ -39,10 +40,14 @@ DEAR_ROADS = 2.5
 MOTION_SCENES = ["rough", "nominal"]
 MOTION_FRAMES = 12
 MOTION_WORST = 2.0  # typical frames
+PLANAR_SCENE = "rough"
+PLANAR_FRAMES = 12
+PLANAR_PARTS = ["engine", "scan", "match", "map", "stop"]
 STEP_LEAST, STEP_MOST = 5, 20  # instructions
 HERE = pathlib.Path(__file__).resolve().parent
 FIGURES = HERE / "figures.csv"
 MOTION_FIGURES = HERE / "motion_figures.csv"
+PLANAR_FIGURES = HERE / "planar_figures.csv"
 
 
 def build_plugin(folder):
@@ -191,6 +196,30 @@ def motion(plugin, program, folder, note):
         sys.exit("\n".join(worse))
 
 
+def planar(plugin, program, folder, note):
+    """Instructions of each part of the planar library, mean and worst frame."""
+    frames, lines = run(plugin, program, [PLANAR_SCENE, PLANAR_FRAMES], folder)
+    marks = [int(line) for line in lines]
+    per_frame = len(PLANAR_PARTS) + 1
+    if len(frames) != PLANAR_FRAMES or len(marks) != PLANAR_FRAMES * per_frame:
+        sys.exit(f"{len(frames)} frames, {len(marks)} marks; expected {PLANAR_FRAMES} and {PLANAR_FRAMES * per_frame}")
+    rows = []
+    for k, part in enumerate(PLANAR_PARTS):
+        costs = [marks[f * per_frame + k + 1] - marks[f * per_frame + k] for f in range(PLANAR_FRAMES)]
+        rows.append({"part": part, "mean": sum(costs) // len(costs), "worst": max(costs)})
+    print_head(["part", "mean", "worst"])
+    for r in rows:
+        print_row([r["part"], millions(r["mean"]), millions(r["worst"])])
+    if note:
+        write_figures(PLANAR_FIGURES, rows)
+    with PLANAR_FIGURES.open(newline="") as file:
+        noted = {r["part"]: int(r["mean"]) for r in csv.DictReader(file)}
+    worse = [f"{r['part']}: {millions(r['mean'])} a frame, noted are {millions(noted[r['part']])}"
+             for r in rows if r["mean"] > noted[r["part"]] * (1 + TOLERANCE)]
+    if worse:
+        sys.exit("\n".join(worse))
+
+
 def write_figures(path, rows):
     with path.open("w", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]), lineterminator="\n")
@@ -218,16 +247,21 @@ def main():
     parser.add_argument("--growth", action="store_true", help="count frames of 5,000 to 260,000 points instead")
     parser.add_argument("--dear", action="store_true", help="count clouds that cost most instead")
     parser.add_argument("--motion", action="store_true", help="count frames of the motion library instead")
+    parser.add_argument("--planar", action="store_true", help="count the parts of the planar library instead")
     parser.add_argument("--functions", action="store_true", help="count by function instead, down to a hundredth")
     parser.add_argument("--sensors", default=",".join(SENSORS), help="names, separated by commas")
     options = parser.parse_args()
-    program = options.build / ("pose_wall_marked_motion" if options.motion else "pose_wall_marked_frames")
+    counted = "motion" if options.motion else "planar" if options.planar else "frames"
+    program = options.build / f"pose_wall_marked_{counted}"
     if not program.exists():
         sys.exit(f"{program} is missing: configure with -DPOSE_WALL_BUILD_BENCH=ON")
     with tempfile.TemporaryDirectory() as folder:
         plugin = build_plugin(folder)
         if options.motion:
             motion(plugin, program, folder, options.note)
+            return
+        if options.planar:
+            planar(plugin, program, folder, options.note)
             return
         if options.growth:
             show_growth(plugin, program, folder)

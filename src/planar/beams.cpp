@@ -46,12 +46,21 @@ BeamScan read_beams(const pose_wall_planar_scan& scan, Span<Beam> beams) {
   out.sigma_m = scan.sigma_m;
   const float* const free_m = scan.struct_size >= sizeof(scan) ? scan.free_m : nullptr;
   const auto nearest_m = static_cast<float>(scan.range_min_m), farthest_m = static_cast<float>(scan.range_max_m);
+  // A direction is the one before, turned by a step. So many steps add rounding errors of 1e-14, a float has 6e-8.
+  constexpr std::uint32_t kTurnsMost = 64;
+  const Turn2 step(scan.angle_step_rad);
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero();
   for (std::uint32_t k = 0; k < scan.beams; ++k) {
-    const double angle_rad = scan.sensor.yaw_rad + scan.angle_min_rad + k * scan.angle_step_rad;
     const float range_m = scan.range_m[k];
     Beam& beam = beams[k];
-    beam.direction_x = static_cast<float>(cosine(angle_rad));
-    beam.direction_y = static_cast<float>(sine(angle_rad));
+    if (k % kTurnsMost == 0) {
+      const Turn2 turn(scan.sensor.yaw_rad + scan.angle_min_rad + k * scan.angle_step_rad);
+      direction = {turn.c, turn.s};
+    } else {
+      direction = step * direction;
+    }
+    beam.direction_x = static_cast<float>(direction.x());
+    beam.direction_y = static_cast<float>(direction.y());
     beam.range_m = 0.0F;
     beam.end = BeamEnd::unknown;
     if (range_m > 0.0F && range_m >= nearest_m && range_m <= farthest_m) {

@@ -20,8 +20,8 @@ namespace pose_wall::planar {
 constexpr std::uint32_t kSearchNodesMost = 512;
 constexpr int kRefineRounds = 12;  // of Gauss and Newton
 
-// Points of one surface err alike: of so many one counts. Errors of matched pairs of scans on recorded logs of
-// buildings, over what their points promise (bench/planar.md).
+// Points of one surface err alike: of so many one counts. An estimate on the safe side, from recorded logs; in the
+// simulator one of two would do (README.md).
 constexpr double kAlike = 10.0;
 
 struct SearchWindow {
