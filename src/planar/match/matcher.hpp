@@ -21,7 +21,7 @@ constexpr std::uint32_t kSearchNodesMost = 512;
 constexpr int kRefineRounds = 12;  // of Gauss and Newton
 
 // Points of one surface err alike: of so many one counts. An estimate on the safe side, from recorded logs; in the
-// simulator one of two would do (README.md).
+// simulator each would count (README.md).
 constexpr double kAlike = 10.0;
 
 struct SearchWindow {
