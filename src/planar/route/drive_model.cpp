@@ -3,6 +3,9 @@
 
 #include "planar/route/drive_model.hpp"
 
+#include <cmath>
+
+#include "planar/route/clamped.hpp"
 #include "planar/route/footprint.hpp"
 
 namespace pose_wall::planar::route {
@@ -11,14 +14,6 @@ namespace {
 constexpr double kLearnEach_m = 0.4;  // way between two lessons: noise of poses counts less over a longer one
 constexpr double kLearn = 0.3;        // share of a lesson
 constexpr double kKeptLeast = 0.5, kKeptMost = 1.2, kDriftMost_1_m = 0.5;
-
-double magnitude(double a) {
-  return a < 0.0 ? -a : a;
-}
-double clamped(double a, double least, double most) {
-  if (a < least) return least;
-  return a < most ? a : most;
-}
 
 }  // namespace
 
@@ -49,7 +44,7 @@ void DriveModel::follow(Drive* drive, const Rates& command, double step_s) const
 
 Rates DriveModel::real(const Rates& rates) const {
   const double speed_m_s = kept_ * rates.speed_m_s;
-  return {speed_m_s, kept_ * rates.turn_rad_s + drift_1_m_ * magnitude(speed_m_s)};
+  return {speed_m_s, kept_ * rates.turn_rad_s + drift_1_m_ * std::abs(speed_m_s)};
 }
 
 void DriveModel::advance(double step_s) {
@@ -100,7 +95,7 @@ Pose2 DriveModel::predicted(const Pose2& then, double age_s) const {
 bool DriveModel::stands() const {
   constexpr double kStill_m_s = 0.004, kStill_rad_s = 0.004;
   const Drive now = replay(kept_s_ - delay_s_, [](const Rates&, double) {});
-  if (!(magnitude(now.rates.speed_m_s) < kStill_m_s && magnitude(now.rates.turn_rad_s) < kStill_rad_s)) return false;
+  if (!(std::abs(now.rates.speed_m_s) < kStill_m_s && std::abs(now.rates.turn_rad_s) < kStill_rad_s)) return false;
   double ago_s = kept_s_;
   for (std::uint32_t k = 0; k < count_; ++k) {
     const Rates& rates = given(k).rates;
@@ -113,11 +108,11 @@ bool DriveModel::stands() const {
 // A lesson begins with a mark and ends with the next one. A stop, or a turn on the spot, breaks it off.
 void DriveModel::learn(const Pose2& pose, double age_s) {
   const Drive now = replay(seconds_to(age_s), [](const Rates&, double) {});
-  const double way_m = magnitude(now.way_m - drive_at_mark_.way_m);
+  const double way_m = std::abs(now.way_m - drive_at_mark_.way_m);
   if (has_mark_ && !(way_m >= kLearnEach_m)) return;
   if (has_mark_) {
     const double chord_m = (pose.place() - mark_.place()).norm();
-    const double turned_rad = wrapped(pose.yaw_rad - mark_.yaw_rad), half_rad = 0.5 * magnitude(turned_rad);
+    const double turned_rad = wrapped(pose.yaw_rad - mark_.yaw_rad), half_rad = 0.5 * std::abs(turned_rad);
     const double came_m = half_rad > 1e-3 && half_rad < 1.5 ? chord_m * half_rad / sine(half_rad) : chord_m;
     kept_ = clamped(kept_ + kLearn * (came_m / way_m - kept_), kKeptLeast, kKeptMost);
     const double meant_rad = kept_ * (now.turn_rad - drive_at_mark_.turn_rad);

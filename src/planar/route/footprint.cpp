@@ -13,9 +13,6 @@ namespace {
 double smaller_of(double a, double b) {
   return a < b ? a : b;
 }
-double magnitude(double a) {
-  return a < 0.0 ? -a : a;
-}
 
 }  // namespace
 
@@ -73,10 +70,10 @@ Piece hull_of(Eigen::Vector2d (&points)[Piece::kCornersMost]) {
 // centre by the cosine of half a step, the chords touch the bulges.
 ArcSteps arc_steps(const Footprint& f, double along_m, double turn_rad) {
   constexpr double kTooWide_m = 0.003;  // by at most so much
-  const double centre_m = along_m / turn_rad, far_m = magnitude(centre_m) + f.reach_m();
+  const double centre_m = along_m / turn_rad, far_m = std::abs(centre_m) + f.reach_m();
   const double half_most_rad = std::sqrt(2.0 * kTooWide_m / far_m);
   ArcSteps steps;
-  steps.count = static_cast<std::uint32_t>(0.5 * magnitude(turn_rad) / half_most_rad) + 1;
+  steps.count = static_cast<std::uint32_t>(0.5 * std::abs(turn_rad) / half_most_rad) + 1;
   const double half_rad = 0.5 * turn_rad / steps.count;
   const Turn2 turn(half_rad);
   for (std::uint32_t half = 0; half < 2; ++half) {
@@ -160,7 +157,7 @@ bool Sweeps::is_pose_free(const Pose2& at) {
 bool Sweeps::is_straight_free(const Pose2& from, double along_m) {
   constexpr double kProbe_m = 0.5;
   const Turn2 turn(from.yaw_rad);
-  const auto probes = static_cast<std::uint32_t>(magnitude(along_m) / kProbe_m);
+  const auto probes = static_cast<std::uint32_t>(std::abs(along_m) / kProbe_m);
   rows_ += probes;
   for (std::uint32_t k = 1; k < probes; ++k) {
     const Eigen::Vector2d at = grid_->in_cells(from.place() + along_m * k / probes * Eigen::Vector2d(turn.c, turn.s));
@@ -173,8 +170,8 @@ bool Sweeps::is_straight_free(const Pose2& from, double along_m) {
 
 bool Sweeps::is_arc_free(const Pose2& from, double along_m, double turn_rad) {
   constexpr double kMostTurn_rad = 4.0 * kPi;
-  if (!(magnitude(turn_rad) <= kMostTurn_rad)) return false;
-  if (magnitude(turn_rad) < 1e-9) return is_straight_free(from, along_m);
+  if (!(std::abs(turn_rad) <= kMostTurn_rad)) return false;
+  if (std::abs(turn_rad) < 1e-9) return is_straight_free(from, along_m);
   const ArcSteps steps = arc_steps(footprint_, along_m, turn_rad);
   for (std::uint32_t k = 0; k < steps.count; ++k) {
     const double part = (k + 0.5) / steps.count;
@@ -187,7 +184,7 @@ bool Sweeps::is_arc_free(const Pose2& from, double along_m, double turn_rad) {
 Pose2 along_arc(const Pose2& from, double along_m, double turn_rad) {
   const double half_rad = 0.5 * turn_rad;
   // The chord: along sin(half) / half, at half the turn.
-  const double ratio = magnitude(half_rad) > 1e-4 ? sine(half_rad) / half_rad : 1.0 - half_rad * half_rad / 6.0;
+  const double ratio = std::abs(half_rad) > 1e-4 ? sine(half_rad) / half_rad : 1.0 - half_rad * half_rad / 6.0;
   const Turn2 middle(from.yaw_rad + half_rad);
   return {from.x_m + along_m * ratio * middle.c, from.y_m + along_m * ratio * middle.s, from.yaw_rad + turn_rad};
 }

@@ -3,16 +3,14 @@
 
 #include "planar/route/poses.hpp"
 
+#include <cmath>
+
 namespace pose_wall::planar::route {
 namespace {
 
 constexpr double kTurnMostRounded_rad = 2.3;  // a sharper corner is no curve
 constexpr double kTurnLeast_rad = 1e-4;       // less is no turn: a tenth of a millimetre at a metre
 constexpr double kSpotStep_rad = 0.5;         // poses of a turn on the spot
-
-double magnitude(double a) {
-  return a < 0.0 ? -a : a;
-}
 
 // The arc in place of a corner begins cut_m before it and ends cut_m behind it. cut_m 0: a turn on the spot.
 struct Curve {
@@ -50,7 +48,7 @@ class Writer {
     } else {
       at_.x_m = corner.x_m;
       at_.y_m = corner.y_m;
-      if (magnitude(corner.turn_rad) > kTurnLeast_rad) turn(corner.turn_rad);
+      if (std::abs(corner.turn_rad) > kTurnLeast_rad) turn(corner.turn_rad);
       const bool is_cusp = k > 0 && corner.gear * corners_[k - 1].gear < 0;
       if (is_cusp) stop(POSE_WALL_PATH_CUSP);
       written_.cusps += is_cusp ? 1 : 0;
@@ -62,7 +60,7 @@ class Writer {
   Curve curve_at(std::uint32_t k, double cut_behind_m) {
     if (k + 1 >= corners_.size()) return {};
     const Corner& corner = corners_[k];
-    const double turn_rad = magnitude(corner.turn_rad);
+    const double turn_rad = std::abs(corner.turn_rad);
     if (corner.gear != corners_[k - 1].gear || !(turn_rad > kTurnLeast_rad && turn_rad < kTurnMostRounded_rad))
       return {};
     const double before_m = (corner.place() - corners_[k - 1].place()).norm() - cut_behind_m;
@@ -92,13 +90,13 @@ class Writer {
       written_.length_m = begin_m + part * length_m;
       add(curvature_1_m, gear, 0);
     }
-    written_.turning_rad += magnitude(turn_rad);
+    written_.turning_rad += std::abs(turn_rad);
     written_.cost_m += costs_.of_stretch(length_m, gear) + costs_.of_turn(turn_rad);
   }
 
   void turn(double turn_rad) {
     stop(0);
-    const auto steps = static_cast<std::uint32_t>(magnitude(turn_rad) / kSpotStep_rad) + 1;
+    const auto steps = static_cast<std::uint32_t>(std::abs(turn_rad) / kSpotStep_rad) + 1;
     const double from_rad = at_.yaw_rad;
     for (std::uint32_t k = 1; k <= steps; ++k) {
       at_.yaw_rad = from_rad + k * turn_rad / steps;
@@ -106,7 +104,7 @@ class Writer {
     }
     stop(0);
     ++written_.spot_turns;
-    written_.turning_rad += magnitude(turn_rad);
+    written_.turning_rad += std::abs(turn_rad);
     written_.cost_m += costs_.of_turn(turn_rad);
   }
 

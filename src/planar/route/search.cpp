@@ -3,12 +3,10 @@
 
 #include "planar/route/search.hpp"
 
+#include <cmath>
+
 namespace pose_wall::planar::route {
 namespace {
-
-double magnitude(double a) {
-  return a < 0.0 ? -a : a;
-}
 
 std::uint32_t units(double cost_m) {
   const double whole = cost_m / kUnits_m + 0.5;
@@ -147,7 +145,7 @@ void Search::reach(std::uint32_t entry, std::uint32_t heading, std::uint32_t gea
 // Far places by a slight turn, those around by any.
 bool Search::is_worth_joining(double length_m, double turn_rad) const {
   constexpr double kSlight_rad = 0.6;
-  return magnitude(turn_rad) <= kSlight_rad || length_m <= 1.5 * task_.lattice->step_m();
+  return std::abs(turn_rad) <= kSlight_rad || length_m <= 1.5 * task_.lattice->step_m();
 }
 
 // From the start straight to a place nearby and on the spot to the two headings about that direction.
@@ -183,7 +181,7 @@ bool Search::is_about(const Pose2& pose, std::int32_t column, std::int32_t row) 
   if (!wide.holds(column, row)) return false;
   const double step = task_.lattice->step_cells();
   const Eigen::Vector2d off = task_.grid.exact->in_map(column * step, row * step) - pose.place();
-  return magnitude(Turn2(pose.yaw_rad).back(off).y()) <= 0.75 * task_.lattice->step_m();
+  return std::abs(Turn2(pose.yaw_rad).back(off).y()) <= 0.75 * task_.lattice->step_m();
 }
 
 void Search::start_from() {
@@ -274,7 +272,7 @@ void Search::arrive(const State& state, std::uint32_t cost, std::int32_t gear) {
   const double heading_rad = task_.lattice->heading(state.heading).yaw_rad;
   const double yaw_rad = driving_yaw(from, task_.goal.place(), gear, heading_rad);
   const double turn_rad = wrapped(yaw_rad - heading_rad), last_rad = wrapped(task_.goal.yaw_rad - yaw_rad);
-  if (!(magnitude(turn_rad) <= kAbout_rad)) return;
+  if (!(std::abs(turn_rad) <= kAbout_rad)) return;
   const double length_m = (task_.goal.place() - from).norm();
   if (!is_worth_joining(length_m, last_rad)) return;
   double more_m =
@@ -352,7 +350,7 @@ std::uint32_t Search::write(Span<Corner> corners) const {
       gear = move == kForward ? 1 : -1;
       const Eigen::Vector2d from = place_m(place_of_entry_[parent.entry]);
       yaw_rad = task_.lattice->heading(parent.heading).yaw_rad;
-      const bool goes_on = corners[first].gear == gear && magnitude(corners[first].turn_rad) < 1e-9;
+      const bool goes_on = corners[first].gear == gear && std::abs(corners[first].turn_rad) < 1e-9;
       if (!goes_on && first < 2) return 0;
       if (!goes_on) --first;
       corners[first] = {from.x(), from.y(), yaw_rad, 0.0, gear, 0};

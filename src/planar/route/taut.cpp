@@ -3,6 +3,8 @@
 
 #include "planar/route/taut.hpp"
 
+#include <cmath>
+
 namespace pose_wall::planar::route {
 namespace {
 
@@ -11,10 +13,6 @@ constexpr double kStepFirst_m = 0.8, kStepLast_m = 0.02;
 constexpr double kCutFirst_m = 3.0, kCutLast_m = 0.1;  // from a corner along its stretches
 constexpr double kCutTurn_rad = 0.05;                  // a corner that turns by less is not cut
 constexpr std::uint32_t kRounds = 4, kSweepsOfMoves = 3;
-
-double magnitude(double a) {
-  return a < 0.0 ? -a : a;
-}
 
 double length_of(const Corner& a, const Corner& b) {
   return (b.place() - a.place()).norm();
@@ -170,7 +168,7 @@ bool Taut::cut_corners() {
   for (std::uint32_t k = 1; k + 1 < count_ && !is_spent(); ++k) {
     const double before_m = length_of(corners_[k - 1], corners_[k]);
     const double behind_m = length_of(corners_[k], corners_[k + 1]);
-    const bool may_be_cut = corners_[k].gear == corners_[k - 1].gear && magnitude(corners_[k].turn_rad) > kCutTurn_rad;
+    const bool may_be_cut = corners_[k].gear == corners_[k - 1].gear && std::abs(corners_[k].turn_rad) > kCutTurn_rad;
     for (double cut_m = kCutFirst_m; may_be_cut && cut_m > kCutLast_m; cut_m *= 0.6) {
       const double a = cut_m < 0.5 * before_m ? cut_m : 0.5 * before_m;
       const double b = cut_m < 0.5 * behind_m ? cut_m : 0.5 * behind_m;

@@ -3,6 +3,8 @@
 
 #include "planar/route/track_path.hpp"
 
+#include <cmath>
+
 #include "planar/route/footprint.hpp"
 
 namespace pose_wall::planar::route {
@@ -10,10 +12,6 @@ namespace {
 
 constexpr std::uint32_t kStretchesMost = 64;  // searched in one step
 constexpr double kBeyond_m = 1.0;             // no machine comes further in one step
-
-double magnitude(double a) {
-  return a < 0.0 ? -a : a;
-}
 
 }  // namespace
 
@@ -84,10 +82,10 @@ double TrackPath::left_to_turn(const Leg& leg, double yaw_rad) const {
 }
 
 double TrackPath::sharpest_1_m(const Leg& leg, const OnPath& at, double ahead_m) const {
-  double sharpest = magnitude(at.curvature_1_m);
+  double sharpest = std::abs(at.curvature_1_m);
   for (std::uint32_t k = at.index + 1, count = 0; k < leg.last && count < kStretchesMost; ++k, ++count) {
     if (poses_[k].along_m > at.along_m + ahead_m) break;
-    const double curvature = magnitude(poses_[k + 1].curvature_1_m);
+    const double curvature = std::abs(poses_[k + 1].curvature_1_m);
     if (curvature > sharpest) sharpest = curvature;
   }
   return sharpest;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/math/finite.hpp"
+#include "planar/route/clamped.hpp"
 
 namespace pose_wall::planar::route {
 namespace {
@@ -17,13 +18,6 @@ constexpr double kSettled = 4.744;        // (1 + x) exp(-x) is a twentieth: bot
 constexpr double kCorrectMost_rad = 0.6;  // a cross error asks for no steeper heading towards the route
 constexpr double kBrake = 0.7;            // share of speed_change that stops are planned with
 
-double magnitude(double a) {
-  return a < 0.0 ? -a : a;
-}
-double clamped(double a, double least, double most) {
-  if (a < least) return least;
-  return a < most ? a : most;
-}
 double towards(double from, double to, double most) {
   return from + clamped(to - from, -most, most);
 }
@@ -101,7 +95,7 @@ void Tracker::step(const pose_wall_planar_track_input& input, pose_wall_planar_t
     if (leg_.drive == 0 || phase_ != Phase::leg) model_.learn_anew();
     last_pose_ns_ = input.pose_ns;
     constexpr double kStill_m_s = 0.03;
-    seen_to_move_ = magnitude(input.speed_m_s) > kStill_m_s;
+    seen_to_move_ = std::abs(input.speed_m_s) > kStill_m_s;
     drive(pose, age_s, step_s, command);
   }
   model_.command(now_);
@@ -124,8 +118,8 @@ void Tracker::drive(const Pose2& given, double age_s, double step_s, pose_wall_p
     const OnPath at = path_.nearest(leg_, index_, given);
     if (leg_.drive != 0) index_ = at.index;
     report(at, command);
-    const bool is_on = magnitude(at.cross_m) <= settings_.off_path_m &&
-                       (leg_.drive == 0 || magnitude(at.heading_rad) <= settings_.off_path_rad);
+    const bool is_on = std::abs(at.cross_m) <= settings_.off_path_m &&
+                       (leg_.drive == 0 || std::abs(at.heading_rad) <= settings_.off_path_rad);
     const bool is_before = leg_.drive == 0 || at.along_m <= path_.end_m(leg_) + settings_.off_path_m;
     if (phase_ != Phase::done && !(is_on && is_before)) phase_ = Phase::off_path;
   }
@@ -176,7 +170,7 @@ void Tracker::follow(const Pose2& ahead, double step_s, pose_wall_planar_track_c
   const OnPath at = path_.nearest(leg_, index_ahead_, ahead);
   index_ahead_ = at.index;
   // What the lag lets the machine roll on is way that is left no more.
-  const double rolls_m = magnitude(now_.speed_m_s) * (1.0 - model_.slip()) * settings_.lag_s;
+  const double rolls_m = std::abs(now_.speed_m_s) * (1.0 - model_.slip()) * settings_.lag_s;
   const double left_m = path_.end_m(leg_) - at.along_m - rolls_m;
   command->state = POSE_WALL_TRACK_FOLLOWING;
   if (left_m <= 0.5 * settings_.stop_within_m) {
@@ -188,11 +182,11 @@ void Tracker::follow(const Pose2& ahead, double step_s, pose_wall_planar_track_c
   }
   double speed_m_s = allowed_speed(at, ahead, left_m, &command->slowed_by);
   const double curvature_1_m = steering(at);
-  if (magnitude(curvature_1_m) * speed_m_s > settings_.turn_max_rad_s) {
-    speed_m_s = settings_.turn_max_rad_s / magnitude(curvature_1_m);
+  if (std::abs(curvature_1_m) * speed_m_s > settings_.turn_max_rad_s) {
+    speed_m_s = settings_.turn_max_rad_s / std::abs(curvature_1_m);
     command->slowed_by = POSE_WALL_SLOWED_BY_CURVE;
   }
-  const double before_m_s = magnitude(now_.speed_m_s);
+  const double before_m_s = std::abs(now_.speed_m_s);
   speed_m_s = towards(before_m_s, speed_m_s, settings_.speed_change_m_s2 * step_s);
   now_.speed_m_s = leg_.drive * speed_m_s;
   const double turn_rad_s = clamped(curvature_1_m * speed_m_s, -settings_.turn_max_rad_s, settings_.turn_max_rad_s);
@@ -203,7 +197,7 @@ void Tracker::turn(const Pose2& ahead, double step_s, pose_wall_planar_track_com
   const double rolls_rad = now_.turn_rad_s * (1.0 - model_.slip()) * settings_.lag_s;
   const double left_rad = path_.left_to_turn(leg_, ahead.yaw_rad) - rolls_rad;
   command->state = POSE_WALL_TRACK_TURNING;
-  if (magnitude(left_rad) <= 0.5 * settings_.stop_within_rad) {
+  if (std::abs(left_rad) <= 0.5 * settings_.stop_within_rad) {
     halt();
     next_leg();
     phase_ = Phase::stopping;
@@ -212,7 +206,7 @@ void Tracker::turn(const Pose2& ahead, double step_s, pose_wall_planar_track_com
   }
   constexpr double kSlowest = 0.08;  // of turn_max: slower, tracks stick
   const double brake_rad_s2 = kBrake * settings_.turn_change_rad_s2;
-  const double rate_rad_s = clamped(std::sqrt(brake_rad_s2 * magnitude(left_rad)), kSlowest * settings_.turn_max_rad_s,
+  const double rate_rad_s = clamped(std::sqrt(brake_rad_s2 * std::abs(left_rad)), kSlowest * settings_.turn_max_rad_s,
                                     settings_.turn_max_rad_s);
   now_.speed_m_s = 0.0;
   now_.turn_rad_s =
