@@ -17,8 +17,10 @@
  * UNIQUE    every other place of the map is excluded, patch by patch of a square metre, and the one that is left fits
  *           at the level of noise: by its relief, by what is seen through, and along the road. While a road's walls
  *           are smooth and parallel, places along it are not told apart, and the answer stays AMBIGUOUS.
- * LIMITS    a place that is not in the map, but has the same rock to a few centimetres as one that is, is taken for
- *           that one. So is the twin of a smooth junction. No scan can tell them apart.
+ * WHOLE     if the map may lack roads, unique needs relief, too: of smooth walls and corners there may be others like
+ *           them, which the map lacks. The one candidate then stays AMBIGUOUS. map_is_whole = 1: the map lacks none.
+ * LIMITS    a place that is not in the map, but has the same relief to a few centimetres as one that is, is taken for
+ *           that one. No scan can tell them apart.
  * ODOMETRY  a pose of base in any frame that may drift, at the scan's time. Without it, scans are matched with each
  *           other: from one to the next the machine then moves less than 0.6 m and 0.6 rad.
  * KIDNAPPED three scans in a row that contradict the map at the tracked place, or 8 m of doubt, and it is lost: the
@@ -52,9 +54,9 @@ typedef struct pose_wall_planar_localise_settings {
   uint32_t struct_size; /* sizeof(pose_wall_planar_localise_settings) */
   uint32_t tiles_most; /* 1024: tiles of 6.4 m that the map may have; 16 to 16384. A kilometre of road takes some 300 */
   uint32_t work;       /* 40000: steps of search in a call; 1000 to 1000000000 */
-  uint32_t reserved;   /* 0 */
-  double odometry_m;   /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
-  double odometry_rad; /* 0.3: standard deviation of odometry's turn, by the turn; 0 to 1 */
+  uint32_t map_is_whole; /* 0; 1: the machine can only be where the map is, so smooth walls can be unique, too */
+  double odometry_m;     /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
+  double odometry_rad;   /* 0.3: standard deviation of odometry's turn, by the turn; 0 to 1 */
 } pose_wall_planar_localise_settings;
 
 /* The defaults. Fails iff: NULL. */

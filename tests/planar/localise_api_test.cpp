@@ -29,6 +29,7 @@ class Opened {
     EXPECT_EQ(pose_wall_planar_localise_settings_init(&settings), POSE_WALL_OK);
     settings.tiles_most = 64;
     settings.work = 1000000000;
+    settings.map_is_whole = 1;  // a chamber with smooth walls
     std::uint64_t bytes = 0;
     EXPECT_EQ(pose_wall_planar_localise_memory_needed(&settings, &bytes), POSE_WALL_OK);
     block_.reset(static_cast<unsigned char*>(std::aligned_alloc(POSE_WALL_BLOCK_ALIGNMENT, bytes)));

@@ -53,6 +53,7 @@ pose_wall_planar_localise_settings defaults() {
   out.struct_size = sizeof(out);
   out.tiles_most = own.tiles_most;
   out.work = own.work;
+  out.map_is_whole = own.map_is_whole ? 1 : 0;
   out.odometry_m = own.odometry_m;
   out.odometry_rad = own.odometry_rad;
   return out;
@@ -65,6 +66,7 @@ std::int32_t take_settings(const pose_wall_planar_localise_settings* from, Local
     if (status != POSE_WALL_OK) return status;
     out->tiles_most = from->tiles_most;
     out->work = from->work;
+    out->map_is_whole = from->map_is_whole == 1;
     out->odometry_m = from->odometry_m;
     out->odometry_rad = from->odometry_rad;
   }
@@ -185,7 +187,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_check(const pose_wal
   } rows[] = {
       {static_cast<double>(settings->tiles_most), 16, 16384, "tiles_most", "tiles_most must be from 16 to 16384"},
       {static_cast<double>(settings->work), 1000, 1e9, "work", "work must be from 1000 to 1000000000"},
-      {static_cast<double>(settings->reserved), 0, 0, "reserved", "reserved must be 0"},
+      {static_cast<double>(settings->map_is_whole), 0, 1, "map_is_whole", "map_is_whole must be 0 or 1"},
       {settings->odometry_m, 0, 1, "odometry_m", "odometry_m must be from 0 to 1"},
       {settings->odometry_rad, 0, 1, "odometry_rad", "odometry_rad must be from 0 to 1"}};
   for (const auto& row : rows) {

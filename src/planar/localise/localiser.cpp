@@ -22,6 +22,7 @@ void Localiser::lay_out(Arena& arena, const LocaliseSettings& settings) {
   beams_ = arena.take<Beam>(POSE_WALL_PLANAR_BEAMS_MAX);
   scan_points_ = arena.take<ScanPoint>(kMatchPointsMost);
   room_ = arena.take<PatchCosts>(2);
+  walls_ = arena.take<PatchWall>(kPatchesMost);
 }
 
 void Localiser::open(const LocaliseSettings& settings) {
@@ -88,7 +89,7 @@ Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, cons
   }
   if (!search_.is_under_way() || !search_.go_on(map_, look_, settings_.work)) return where_;
   ++searches_;
-  judge(map_, look_, search_, &verdict_);
+  judge(map_, look_, search_, settings_.map_is_whole, walls_, &verdict_);
   if (verdict_.finding == Finding::unknown) return Where::unknown;
   if (verdict_.finding == Finding::ambiguous || !settle(points, scan, odometry)) return Where::ambiguous;
   is_tracking_ = true;

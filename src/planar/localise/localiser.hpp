@@ -17,6 +17,7 @@ namespace pose_wall::planar {
 struct LocaliseSettings {
   std::uint32_t tiles_most = 1024;
   std::uint32_t work = 40000;  // steps of search in a call
+  bool map_is_whole = false;
   double odometry_m = 0.1, odometry_rad = 0.3;
 };
 
@@ -30,6 +31,7 @@ class Localiser {
   const PlaceMap& map() const { return map_; }
   Span<Beam> beams() const { return beams_; }
   void set_work(std::uint32_t work) { settings_.work = work; }
+  void set_whole(bool map_is_whole) { settings_.map_is_whole = map_is_whole; }
 
   Where process(const BeamScan& scan, const Pose2* odometry);
   // Base stands here, as somebody says; scans can contradict.
@@ -64,6 +66,7 @@ class Localiser {
   Span<Beam> beams_;
   Span<ScanPoint> scan_points_;
   Span<PatchCosts> room_;
+  Span<PatchWall> walls_;
   Pose2 looked_from_;
   double looked_at_m_ = 0.0, looked_at_rad_ = 0.0;
   Where where_ = Where::searching;

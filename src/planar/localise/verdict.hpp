@@ -28,6 +28,7 @@ struct Evidence {
   double fits = 0.0, explained = 0.0, seen = 0.0, rms_m = 0.0, through = 0.0, slide_m = 0.0;
   double rival = 0.0;  // standard errors by which the best other place fits worse
   std::uint32_t patches = 0;
+  std::uint32_t relief = 0;  // patches with relief of their own
 };
 
 struct Verdict {
@@ -38,6 +39,9 @@ struct Verdict {
   Evidence best;
 };
 
-void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, Verdict* out);
+// map_is_whole: the machine cannot be where the map has nothing. Otherwise one place needs relief, too: of walls
+// without any there may be others, which the map lacks. `walls`: room for kPatchesMost.
+void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, bool map_is_whole, Span<PatchWall> walls,
+           Verdict* out);
 
 }  // namespace pose_wall::planar
