@@ -120,9 +120,34 @@ enum pose_wall_planar_localise_state {
 /* "unique"; static storage. */
 const char* pose_wall_planar_localise_state_name(uint32_t state);
 
+/* What keeps the place from being UNIQUE: the first that does, in this order. */
+enum pose_wall_planar_localise_reason {
+  POSE_WALL_PLANAR_LOCALISE_NONE = 0,      /* it is */
+  POSE_WALL_PLANAR_LOCALISE_NO_SEARCH = 1, /* SEARCHING: the first search goes on */
+  POSE_WALL_PLANAR_LOCALISE_NO_FIT = 2,    /* UNKNOWN: no place fits with 60 % of the patches */
+  /* AMBIGUOUS */
+  POSE_WALL_PLANAR_LOCALISE_SEVERAL = 3, /* several places fit */
+  POSE_WALL_PLANAR_LOCALISE_CROWDED = 4, /* more places were likely than the search has room for */
+  POSE_WALL_PLANAR_LOCALISE_MISFIT =
+      5, /* the one place fits with less than 85 %, a tracked one with 75 %: moved things? */
+  POSE_WALL_PLANAR_LOCALISE_UNSEEN = 6,        /* more than a quarter of what is seen is new to the map */
+  POSE_WALL_PLANAR_LOCALISE_THROUGH = 7,       /* more than 10 % of the lines of sight pass through surfaces */
+  POSE_WALL_PLANAR_LOCALISE_FEW = 8,           /* too few patches of a square metre are seen */
+  POSE_WALL_PLANAR_LOCALISE_SLIDES = 9,        /* along the road the place is not certain */
+  POSE_WALL_PLANAR_LOCALISE_SMOOTH = 10,       /* walls without relief, and the map may lack a twin: map_is_whole */
+  POSE_WALL_PLANAR_LOCALISE_SCAN_DIFFERS = 11, /* the last metres fit, the present scan does not */
+  /* DOUBTFUL: MISFIT, FEW, SLIDES, and */
+  POSE_WALL_PLANAR_LOCALISE_CONTRADICTED = 12, /* the scan fits with less than half of its patches */
+  POSE_WALL_PLANAR_LOCALISE_REASONS = 13
+};
+/* "slides"; static storage. */
+const char* pose_wall_planar_localise_reason_name(uint32_t reason);
+
 typedef struct pose_wall_planar_localise_result {
   uint32_t struct_size;       /* sizeof(pose_wall_planar_localise_result): set it before the call */
   uint32_t state;             /* pose_wall_planar_localise_state */
+  uint32_t reason;            /* pose_wall_planar_localise_reason */
+  uint32_t reserved;          /* 0 */
   int64_t stamp_ns;           /* the scan's */
   pose_wall_planar_pose pose; /* of base in map: UNIQUE and DOUBTFUL. NaN otherwise */
   double covariance[9];       /* of x, y, yaw in the axes of map; row by row. NaN without a pose */

@@ -91,6 +91,7 @@ TEST(LocaliseRestart, APlainCorridorStaysAmbiguous) {
   scan.range_m = ranges.data();
   EXPECT_EQ(localiser->process(read_beams(scan, localiser->beams()), nullptr), Where::ambiguous);
   EXPECT_GE(localiser->verdict().all, 2U);
+  EXPECT_EQ(localiser->why(), Why::several);
   EXPECT_GE(localiser->verdict().best.slide_m, 1.6);
   double weight = 0.0;
   for (std::uint32_t k = 0; k < localiser->verdict().count; ++k) weight += localiser->verdict().candidates[k].weight;

@@ -24,6 +24,7 @@ using pose_wall::planar::pose_of;
 using pose_wall::planar::read_beams;
 using pose_wall::planar::ScanPoint;
 using pose_wall::planar::Where;
+using pose_wall::planar::Why;
 
 // What lives in the block: the localiser and its settings, for clear().
 struct Body {
@@ -149,6 +150,7 @@ void write_result(const Localiser& own, Where where, std::int64_t stamp_ns, pose
   pose_wall_planar_localise_result out{};
   out.struct_size = sizeof(out);
   out.state = static_cast<std::uint32_t>(where);
+  out.reason = static_cast<std::uint32_t>(own.why());
   out.stamp_ns = stamp_ns;
   write_place(own, &out);
   const auto& verdict = own.verdict();
@@ -162,6 +164,12 @@ void write_result(const Localiser& own, Where where, std::int64_t stamp_ns, pose
 }
 
 constexpr const char* kStates[] = {"searching", "unknown", "ambiguous", "unique", "doubtful"};
+// In the order of Why.
+constexpr const char* kReasons[] = {"none",   "searching",    "no_fit",      "several", "crowded",
+                                    "misfit", "unseen",       "through",     "few",     "slides",
+                                    "smooth", "scan_differs", "contradicted"};
+static_assert(sizeof(kReasons) / sizeof(kReasons[0]) == POSE_WALL_PLANAR_LOCALISE_REASONS);
+static_assert(static_cast<std::uint32_t>(Why::contradicted) + 1 == POSE_WALL_PLANAR_LOCALISE_REASONS);
 
 }  // namespace
 
@@ -169,6 +177,10 @@ extern "C" {
 
 POSE_WALL_EXPORT const char* pose_wall_planar_localise_state_name(uint32_t state) {
   return state < sizeof(kStates) / sizeof(kStates[0]) ? kStates[state] : "?";
+}
+
+POSE_WALL_EXPORT const char* pose_wall_planar_localise_reason_name(uint32_t reason) {
+  return reason < POSE_WALL_PLANAR_LOCALISE_REASONS ? kReasons[reason] : "?";
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_init(pose_wall_planar_localise_settings* settings) {

@@ -40,6 +40,8 @@ class Localiser {
   void forget();
 
   Where where() const { return where_; }
+  // Why it is not unique.
+  Why why() const { return is_tracking_ ? tracking_ : verdict_.why; }
   const Tracker& tracker() const { return tracker_; }
   bool is_tracking() const { return is_tracking_; }
   const Verdict& verdict() const { return verdict_; }
@@ -70,6 +72,7 @@ class Localiser {
   Pose2 looked_from_;
   double looked_at_m_ = 0.0, looked_at_rad_ = 0.0;
   Where where_ = Where::searching;
+  Why tracking_ = Why::none;  // of the tracked place
   bool is_tracking_ = false, has_looked_ = false;
   std::uint32_t searches_ = 0, lost_ = 0, scans_since_look_ = 0;
 };

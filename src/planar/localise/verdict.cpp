@@ -45,11 +45,16 @@ bool has_relief(const Look& look, const Evidence& best) {
   return best.relief >= kReliefLeast && best.relief >= kRelief * judged;
 }
 
-bool holds(const Verdict& verdict, const PlaceSearch& search) {
+// none: it is the one place.
+Why doubt_of(const Verdict& verdict, const PlaceSearch& search) {
   const Evidence& best = verdict.best;
-  return search.is_whole() && verdict.all == 1 && best.fits >= kFits && best.seen >= kSeen &&
-         best.through <= kThroughMost && best.slide_m <= kHolds_m && best.patches >= kPatchesLeast &&
-         verdict.candidates[0].spread_m <= kHolds_m;
+  if (verdict.all != 1) return Why::several;
+  if (!search.is_whole()) return Why::crowded;
+  if (best.patches < kPatchesLeast) return Why::few;
+  if (!(best.fits >= kFits)) return Why::misfit;
+  if (!(best.seen >= kSeen)) return Why::unseen;
+  if (!(best.through <= kThroughMost)) return Why::through;
+  return best.slide_m <= kHolds_m && verdict.candidates[0].spread_m <= kHolds_m ? Why::none : Why::slides;
 }
 
 }  // namespace
@@ -57,6 +62,7 @@ bool holds(const Verdict& verdict, const PlaceSearch& search) {
 void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, bool map_is_whole, Span<PatchWall> walls,
            Verdict* out) {
   *out = Verdict();
+  out->why = Why::no_fit;
   const Span<const Hypothesis> all = search.hypotheses();
   if (all.size() == 0) return;
   const Hypothesis& best = all[0];
@@ -87,8 +93,9 @@ void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, boo
     out->finding = Finding::unknown;
     return;
   }
-  out->finding =
-      holds(*out, search) && (map_is_whole || has_relief(look, out->best)) ? Finding::unique : Finding::ambiguous;
+  out->why = doubt_of(*out, search);
+  if (out->why == Why::none && !map_is_whole && !has_relief(look, out->best)) out->why = Why::smooth;
+  out->finding = out->why == Why::none ? Finding::unique : Finding::ambiguous;
 }
 
 }  // namespace pose_wall::planar

@@ -13,6 +13,23 @@ namespace pose_wall::planar {
 
 enum class Finding : std::uint32_t { unknown, ambiguous, unique };
 
+// What keeps a place from being unique, the first that does; as pose_wall_planar_localise_reason.
+enum class Why : std::uint32_t {
+  none,
+  searching,
+  no_fit,
+  several,
+  crowded,
+  misfit,
+  unseen,
+  through,
+  few,
+  slides,
+  smooth,
+  scan_differs,
+  contradicted
+};
+
 struct CandidatePlace {
   Pose2 pose;             // of base when the look was taken
   double weight = 0.0;    // all together 1
@@ -33,6 +50,7 @@ struct Evidence {
 
 struct Verdict {
   Finding finding = Finding::unknown;
+  Why why = Why::searching;
   CandidatePlace candidates[kCandidatesMost];
   std::uint32_t count = 0;
   std::uint32_t all = 0;  // also those that had no room
