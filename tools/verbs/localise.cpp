@@ -18,6 +18,7 @@
 #include "angles.hpp"
 #include "frames/text_cursor.hpp"
 #include "frames/whole_file.hpp"
+#include "info/wide_text.hpp"
 #include "language/language.hpp"
 #include "planar/localised_picture.hpp"
 #include "planar/localised_rows.hpp"
@@ -171,8 +172,6 @@ std::string candidate_table(const std::vector<pose_wall_planar_candidate>& candi
 
 std::string summary_text(const KnownMap& map, const MapLocaliser& localiser, const LocaliseWork& work,
                          const LocaliseFigures& figures) {
-  TextTable states({tr("state"), tr("scans"), tr("share"), tr("mostly because")});
-  for (const std::vector<std::string>& row : state_table(figures)) states.add_row(row);
   std::vector<NamedFigure> rows = named_figures(figures);
   rows.insert(rows.begin(), {tr("map"), map.trail ? say("{} keyframes, {:.1f} m of travel", map.trail->keyframes(),
                                                         map.trail->travel_m())
@@ -181,7 +180,8 @@ std::string summary_text(const KnownMap& map, const MapLocaliser& localiser, con
   rows.emplace_back(tr("processor time a scan, mean"), fmt::format("{:.2f} ms", localiser.mean_ms()));
   rows.emplace_back(tr("processor time a scan, worst"), fmt::format("{:.2f} ms", localiser.worst_ms()));
   rows.emplace_back(tr("memory"), fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(localiser.block_bytes())));
-  std::string text = states.text() + "\n" + table_of(tr("localisation"), rows);
+  std::string text = wrapped_table({tr("state"), tr("scans"), tr("share"), tr("mostly because")}, state_table(figures));
+  text += "\n" + table_of(tr("localisation"), rows);
   if (!work.way.candidates.empty()) text += "\n" + candidate_table(work.way.candidates);
   return text;
 }
