@@ -145,15 +145,12 @@ std::vector<NamedFigure> named_figures(const LocaliseFigures& figures) {
   std::vector<NamedFigure> out = {{tr("scans"), std::to_string(figures.scans)},
                                   {tr("travel"), fmt::format("{:.1f} m", figures.travel_m)}};
   std::vector<double> found_m, open_m;
-  std::size_t standing = 0;
   for (const FoundAgain& restart : figures.restarts) {
     (restart.is_found ? found_m : open_m).push_back(restart.after_m);
-    standing += restart.is_found && restart.after_m < 0.1 ? 1U : 0U;
   }
   if (!figures.restarts.empty()) {
     out.emplace_back(tr("restarts"), std::to_string(figures.restarts.size()));
     out.emplace_back(tr("unique before the next restart"), std::to_string(found_m.size()));
-    out.emplace_back(tr("of these within 0.1 m"), std::to_string(standing));
   }
   if (!found_m.empty()) out.emplace_back(tr("travel until unique"), spread_text(found_m));
   if (!open_m.empty()) out.emplace_back(tr("travel without it, in the others"), spread_text(open_m));
