@@ -176,6 +176,7 @@ Json texts_of(const std::vector<ReportPart>& parts) {
   for (const ReportPart& part : parts) sections.push_back({{"title", part.name}, {"tables", tables_of(part)}});
   return {{"other_language", tr("中文 (ZH)")},
           {"theme", tr("Dark / light")},
+          {"report", tr("pose_wall report")},
           {"subtitle", say("maps, localisation and routes, by pose_wall {}", pose_wall_version())},
           {"sections", sections}};
 }

@@ -317,26 +317,24 @@ void add_localise(CLI::App& app, int& exit_code) {
   verb->add_option("--relations", options->relations,
                    tr("File of relations between poses (t1 t2 x y z roll pitch yaw): errors against these"))
       ->check(existing_file());
-  verb->footer(
-      tr("Examples:\n"
-         "  pose_wall map -o aces --poses aces.tum aces.clf\n"
-         "  pose_wall localise aces aces.clf --restart 20 --truth aces.tum -o found -s map_is_whole=1\n"
-         "  pose_wall localise map -c road/pose_wall.yaml --start 12,3,90 road/frames\n"
-         "INPUT is frames as for `run`, or one log of CARMEN, as for `map`.\n"
-         "The answer to a scan is a state, a reason, and a pose only where there is one:\n"
-         "  unique     every other place of the map is excluded; pose and covariance hold\n"
-         "  doubtful   a place is tracked, but this scan does not prove it; the covariance says how far it may be off\n"
-         "  ambiguous  several places fit, or one that is not certain: the candidates\n"
-         "  unknown    no place of the map fits\n"
-         "  searching  the first search since the restart goes on\n"
-         "Smooth walls alone are never unique, for the map may lack a place like this one. --set map_is_whole=1 says "
-         "that\n"
-         "the machine can only be where the map is. Also --set work (40000, steps of search in a scan), odometry_m "
-         "(0.1, by\n"
-         "the way) and odometry_rad (0.3, by the turn).\n"
-         "localise.csv holds base's pose; --poses that of the scanner for a log, as `map` does.\n"
-         "Exit status: 0 done, 1 the map or an input could not be read, or a file not written, 2 bad usage or config,\n"
-         "3 the place of the last scan is not unique, 130 interrupted by Ctrl-C: files show the scans so far."));
+  verb->footer(tr(
+      "Examples:\n"
+      "  pose_wall map -o aces --poses aces.tum aces.clf\n"
+      "  pose_wall localise aces aces.clf --restart 20 --truth aces.tum -o found -s map_is_whole=1\n"
+      "  pose_wall localise map -c road/pose_wall.yaml --start 12,3,90 road/frames\n"
+      "INPUT is as for `map`.\n"
+      "The answer to a scan is a state, a reason, and a pose only where there is one.\n"
+      "  Unique     Every other place of the map is excluded; pose and covariance hold.\n"
+      "  Doubtful   A place is tracked, but this scan does not prove it. The covariance says how far it may be off.\n"
+      "  Ambiguous  Several places fit, or one that is not certain: the candidates.\n"
+      "  Unknown    No place of the map fits.\n"
+      "  Searching  The first search since the restart goes on.\n"
+      "Smooth walls alone are never unique, for the map may lack a place like this one.\n"
+      "--set map_is_whole=1 says that the machine can only be where the map is. Also --set work (40000, steps of\n"
+      "search in a scan), odometry_m (0.1, by the way) and odometry_rad (0.3, by the turn).\n"
+      "localise.csv holds base's pose; --poses that of the scanner for a log, as `map` does.\n"
+      "Exit status: 0 done, 1 map or input unreadable or a file not written, 2 bad usage or config,\n"
+      "3 the place of the last scan is not unique, 130 interrupted by Ctrl-C: files show the scans so far."));
   verb->callback(
       [options, &exit_code] { exit_code = done_or_complaint("localise", [&] { return localise_scans(*options); }); });
 }

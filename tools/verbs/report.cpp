@@ -235,7 +235,7 @@ void add_report(CLI::App& app, int& exit_code) {
       "  pose_wall report -c road/pose_wall.yaml --truth road/truth.csv -o road.html road/frames\n"
       "  pose_wall report --truth road/truth.csv -o way.html motion.csv\n"
       "  pose_wall report -o map.html map found route.csv\n"
-      "The third example reads a table of `pose_wall motion` (.csv). Its page shows the path from above, the states\n"
+      "The third example reads a table of `motion`. Its page shows the path from above, the states\n"
       "along the road, travel and steps. The last one reads the folders of `map -o` and `localise -o` and a table of\n"
       "`plan`. Its page shows their pictures (SVG) and figures.\n"
       "The page is one file in English and Chinese and needs no network. It shows a verdict, every frame from above\n"

@@ -47,6 +47,7 @@ function section_of(content, pictures) {
 function show_all() {
   const texts = report.texts[language];
   document.documentElement.lang = language;
+  document.title = `${report.title} – ${texts.report}`;
   document.getElementById('title').textContent = report.title;
   for (const [id, words] of [['subtitle', texts.subtitle], ['language', texts.other_language], ['theme', texts.theme]]) {
     document.getElementById(id).textContent = words;
