@@ -17,8 +17,10 @@
  * UNIQUE    every other place of the map is excluded, patch by patch of a square metre, and the one that is left fits
  *           at the level of noise: by its relief, by what is seen through, and along the road. While a road's walls
  *           are smooth and parallel, places along it are not told apart, and the answer stays AMBIGUOUS.
- * LIMITS    a place that is not in the map, but has the same rock to a few centimetres as one that is, is taken for
- *           that one. So is the twin of a smooth junction. No scan can tell them apart.
+ * WHOLE     if the map may lack roads, unique needs relief, too: of smooth walls and corners there may be others like
+ *           them, which the map lacks. The one candidate then stays AMBIGUOUS. map_is_whole = 1: the map lacks none.
+ * LIMITS    a place that is not in the map, but has the same relief to a few centimetres as one that is, is taken for
+ *           that one. No scan can tell them apart.
  * ODOMETRY  a pose of base in any frame that may drift, at the scan's time. Without it, scans are matched with each
  *           other: from one to the next the machine then moves less than 0.6 m and 0.6 rad.
  * KIDNAPPED three scans in a row that contradict the map at the tracked place, or 8 m of doubt, and it is lost: the
@@ -52,9 +54,9 @@ typedef struct pose_wall_planar_localise_settings {
   uint32_t struct_size; /* sizeof(pose_wall_planar_localise_settings) */
   uint32_t tiles_most; /* 1024: tiles of 6.4 m that the map may have; 16 to 16384. A kilometre of road takes some 300 */
   uint32_t work;       /* 40000: steps of search in a call; 1000 to 1000000000 */
-  uint32_t reserved;   /* 0 */
-  double odometry_m;   /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
-  double odometry_rad; /* 0.3: standard deviation of odometry's turn, by the turn; 0 to 1 */
+  uint32_t map_is_whole; /* 0; 1: the machine can only be where the map is, so smooth walls can be unique, too */
+  double odometry_m;     /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
+  double odometry_rad;   /* 0.3: standard deviation of odometry's turn, by the turn; 0 to 1 */
 } pose_wall_planar_localise_settings;
 
 /* The defaults. Fails iff: NULL. */
@@ -118,9 +120,34 @@ enum pose_wall_planar_localise_state {
 /* "unique"; static storage. */
 const char* pose_wall_planar_localise_state_name(uint32_t state);
 
+/* What keeps the place from being UNIQUE: the first that does, in this order. */
+enum pose_wall_planar_localise_reason {
+  POSE_WALL_PLANAR_LOCALISE_NONE = 0,      /* it is */
+  POSE_WALL_PLANAR_LOCALISE_NO_SEARCH = 1, /* SEARCHING: the first search goes on */
+  POSE_WALL_PLANAR_LOCALISE_NO_FIT = 2,    /* UNKNOWN: no place fits with 60 % of the patches */
+  /* AMBIGUOUS */
+  POSE_WALL_PLANAR_LOCALISE_SEVERAL = 3, /* several places fit */
+  POSE_WALL_PLANAR_LOCALISE_CROWDED = 4, /* more places were likely than the search has room for */
+  POSE_WALL_PLANAR_LOCALISE_MISFIT =
+      5, /* the one place fits with less than 85 %, a tracked one with 75 %: moved things? */
+  POSE_WALL_PLANAR_LOCALISE_UNSEEN = 6,        /* more than a quarter of what is seen is new to the map */
+  POSE_WALL_PLANAR_LOCALISE_THROUGH = 7,       /* more than 10 % of the lines of sight pass through surfaces */
+  POSE_WALL_PLANAR_LOCALISE_FEW = 8,           /* too few patches of a square metre are seen */
+  POSE_WALL_PLANAR_LOCALISE_SLIDES = 9,        /* along the road the place is not certain */
+  POSE_WALL_PLANAR_LOCALISE_SMOOTH = 10,       /* walls without relief, and the map may lack a twin: map_is_whole */
+  POSE_WALL_PLANAR_LOCALISE_SCAN_DIFFERS = 11, /* the last metres fit, the present scan does not */
+  /* DOUBTFUL: MISFIT, FEW, SLIDES, and */
+  POSE_WALL_PLANAR_LOCALISE_CONTRADICTED = 12, /* the scan fits with less than half of its patches */
+  POSE_WALL_PLANAR_LOCALISE_REASONS = 13
+};
+/* "slides"; static storage. */
+const char* pose_wall_planar_localise_reason_name(uint32_t reason);
+
 typedef struct pose_wall_planar_localise_result {
   uint32_t struct_size;       /* sizeof(pose_wall_planar_localise_result): set it before the call */
   uint32_t state;             /* pose_wall_planar_localise_state */
+  uint32_t reason;            /* pose_wall_planar_localise_reason */
+  uint32_t reserved;          /* 0 */
   int64_t stamp_ns;           /* the scan's */
   pose_wall_planar_pose pose; /* of base in map: UNIQUE and DOUBTFUL. NaN otherwise */
   double covariance[9];       /* of x, y, yaw in the axes of map; row by row. NaN without a pose */

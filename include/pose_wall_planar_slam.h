@@ -152,6 +152,9 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_slam_edge(const pose_wall_planar_slam
 
 /* ---------------------------------------------------------------------------------------------- saved */
 
+/* Of the bytes that pose_wall_planar_slam_save writes. They begin with "PWTL" and this number, 4 bytes each. */
+#define POSE_WALL_PLANAR_TRAIL_VERSION 1
+
 /* Bytes that pose_wall_planar_slam_save writes now. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_slam_save_bytes(const pose_wall_planar_slam* slam, uint64_t* bytes);
 

@@ -68,6 +68,7 @@ constexpr Example kExamples[] = {
     {"pose_wall run -c road/pose_wall.yaml -o out.csv road/frames", translatable("measure a folder of frames")},
     {"pose_wall motion -c road/pose_wall.yaml -o motion.csv road/frames", translatable("travel of the machine")},
     {"pose_wall map -o map --poses poses.tum aces.clf.gz", translatable("a map of planar scans")},
+    {"pose_wall localise map --restart 20 aces.clf.gz", translatable("the place in a map, after restarts")},
     {"pose_wall plan map/map.yaml --from 0,0,0 --to 12,3,90", translatable("a route through a map")},
     {"pose_wall report -c road/pose_wall.yaml -o report.html road/frames",
      translatable("the same as a page for a browser")},
@@ -93,6 +94,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_motion(app, exit_code);
   add_scan(app, exit_code);
   add_map(app, exit_code);
+  add_localise(app, exit_code);
   add_plan(app, exit_code);
   add_doctor(app, exit_code);
   add_sim(app, exit_code);

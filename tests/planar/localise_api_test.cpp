@@ -24,11 +24,13 @@ struct Free {
 
 class Opened {
  public:
-  Opened() {
+  // map_is_whole 1: a chamber with smooth walls can be unique.
+  explicit Opened(std::uint32_t map_is_whole = 1) {
     pose_wall_planar_localise_settings settings;
     EXPECT_EQ(pose_wall_planar_localise_settings_init(&settings), POSE_WALL_OK);
     settings.tiles_most = 64;
     settings.work = 1000000000;
+    settings.map_is_whole = map_is_whole;
     std::uint64_t bytes = 0;
     EXPECT_EQ(pose_wall_planar_localise_memory_needed(&settings, &bytes), POSE_WALL_OK);
     block_.reset(static_cast<unsigned char*>(std::aligned_alloc(POSE_WALL_BLOCK_ALIGNMENT, bytes)));
@@ -103,6 +105,7 @@ void expect_found(pose_wall_planar_localise* own, double tolerance_m) {
   EXPECT_NEAR(result.pose.y_m, 1.2, tolerance_m);
   EXPECT_NEAR(result.pose.yaw_rad, 2.0, 0.01);
   EXPECT_EQ(result.stamp_ns, 5);
+  EXPECT_EQ(result.reason, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_NONE});
   EXPECT_EQ(result.searches, 1U);
   EXPECT_EQ(result.candidates, 0U);
   EXPECT_EQ(result.progress, 1.0);
@@ -126,6 +129,37 @@ TEST(LocaliseApi, FindsAPlaceAmongKeyframes) {
   ASSERT_EQ(pose_wall_planar_localise_process(opened.get(), &scan, nullptr, &result), POSE_WALL_OK);
   EXPECT_EQ(result.state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_UNIQUE});
   EXPECT_NEAR(result.pose.x_m, -1.5, 0.01);
+}
+
+// Walls without relief: the map may lack a chamber like it. Somebody who knows better may take the candidate.
+TEST(LocaliseApi, AReasonStandsBesideAPlaceThatIsNotUnique) {
+  const Opened opened(0);
+  add_chamber(opened.get());
+  ASSERT_EQ(pose_wall_planar_localise_finish(opened.get()), POSE_WALL_OK);
+  std::vector<float> ranges;
+  const pose_wall_planar_scan scan = scan_from(-1.5, 1.2, 2.0, &ranges);
+  pose_wall_planar_localise_result result{};
+  result.struct_size = sizeof(result);
+  ASSERT_EQ(pose_wall_planar_localise_process(opened.get(), &scan, nullptr, &result), POSE_WALL_OK);
+  EXPECT_EQ(result.state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_AMBIGUOUS});
+  EXPECT_STREQ(pose_wall_planar_localise_reason_name(result.reason), "smooth");
+  ASSERT_EQ(result.candidates, 1U);
+  pose_wall_planar_candidate candidate{};
+  candidate.struct_size = sizeof(candidate);
+  ASSERT_EQ(pose_wall_planar_localise_candidate(opened.get(), 0, &candidate), POSE_WALL_OK);
+  ASSERT_EQ(pose_wall_planar_localise_place(opened.get(), &candidate.pose, 0.1, 0.05), POSE_WALL_OK);
+  ASSERT_EQ(pose_wall_planar_localise_process(opened.get(), &scan, nullptr, &result), POSE_WALL_OK);
+  EXPECT_EQ(result.state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_UNIQUE});
+  EXPECT_EQ(result.reason, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_NONE});
+  // Another room contradicts it at once.
+  std::vector<float> near(kBeams, 1.0F);
+  pose_wall_planar_scan other = scan;
+  other.range_m = near.data();
+  ASSERT_EQ(pose_wall_planar_localise_process(opened.get(), &other, nullptr, &result), POSE_WALL_OK);
+  EXPECT_EQ(result.state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_DOUBTFUL});
+  EXPECT_TRUE(result.reason == POSE_WALL_PLANAR_LOCALISE_CONTRADICTED || result.reason == POSE_WALL_PLANAR_LOCALISE_FEW)
+      << pose_wall_planar_localise_reason_name(result.reason);
+  EXPECT_STREQ(pose_wall_planar_localise_reason_name(POSE_WALL_PLANAR_LOCALISE_REASONS), "?");
 }
 
 TEST(LocaliseApi, FindsAPlaceAmongCells) {
@@ -200,6 +234,7 @@ TEST(LocaliseApi, RefusesWhatItsHeaderSays) {
     scan.range_m = blind.data();
     ASSERT_EQ(pose_wall_planar_localise_process(own, &scan, nullptr, &result), POSE_WALL_OK);
     EXPECT_LT(result.state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_UNIQUE});
+    EXPECT_NE(result.reason, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_NONE});
     EXPECT_TRUE(std::isnan(result.pose.x_m));
   }
   ASSERT_EQ(pose_wall_planar_localise_forget(own), POSE_WALL_OK);

@@ -144,17 +144,20 @@ struct Counts {
 class World {
  public:
   World(int kind, std::uint64_t seed) : World(kind, seed, lengths(seed), 768) {}
-  World(int kind, std::uint64_t seed, double length_m, std::uint32_t tiles_most, bool by_slam = false)
+  World(int kind, std::uint64_t seed, double length_m, std::uint32_t tiles_most, bool by_slam = false,
+        bool is_whole = false)
       : random_seed_(seed), network_(plan_of(kind, length_m), seed), localiser_(settings(tiles_most)) {
     sensor_.noise_m = 0.015;
-    // In every second network one of the roads is not in the map.
+    // In half of the networks one of the roads is not in the map.
     const sim::NetworkGraph& graph = network_.graph();
     sim::Random random(seed, 77);
     is_hidden_.assign(graph.edges.size(), false);
-    if (seed % 2 == 1 && kind != 5) {  // the twin of a place that is not in the map is that place to any scanner
+    if (random.chance(0.5) && kind != 5 &&
+        !is_whole) {  // the twin of a place that is not in the map is that place to any scanner
       for (std::size_t e = 0; e < graph.edges.size(); ++e)
         is_hidden_[e] = graph.edges[e].road == 0 || random.chance(0.15);
     }
+    localiser_->set_whole(is_whole);
     by_slam ? draw_map_by_slam() : draw_map();
   }
 
@@ -350,11 +353,11 @@ class World {
     }
     std::printf(
         "  %.2f m: state %u, %u seeds, %u hypotheses, %u candidates; best cost %.2f fits %.2f seen %.2f (%u) expl %.2f "
-        "rms %.3f through %.2f slide %.1f rival %.2f; truth %.2f m cost %.2f fits %.2f whole %d\n",
+        "rms %.3f through %.2f slide %.1f rival %.2f rough %u; truth %.2f m cost %.2f fits %.2f whole %d\n",
         driven_m, static_cast<unsigned>(where), own.search().seeds(), all.size(), own.verdict().all,
         all.size() > 0 ? all[0].verdict.cost / std::max(1U, all[0].verdict.judged) : 0.0, best.fits, best.seen,
-        best.patches, best.explained, best.rms_m, best.through, best.slide_m, best.rival, nearest_m, nearest_cost,
-        nearest_fits, own.search().is_whole());
+        best.patches, best.explained, best.rms_m, best.through, best.slide_m, best.rival, best.relief, nearest_m,
+        nearest_cost, nearest_fits, own.search().is_whole());
   }
 
  private:

@@ -14,6 +14,7 @@
 #include "config_file/motion_settings.hpp"
 #include "explain/gate_list.hpp"
 #include "planar/cloud_scans.hpp"
+#include "planar/map_localiser.hpp"
 #include "planar/planned_route.hpp"
 #include "planar/slam_settings.hpp"
 #include "sim/parameters.hpp"
@@ -78,6 +79,7 @@ bool is_number(const std::string& type) {
 ValueKind key_kind(const std::string& verb) {
   if (verb == "sim") return ValueKind::kSimulatorKey;
   if (verb == "plan") return ValueKind::kPlannerKey;
+  if (verb == "localise") return ValueKind::kLocaliseKey;
   if (verb == "scan") return ValueKind::kScanKey;
   return verb == "map" ? ValueKind::kMapKey : ValueKind::kEngineKey;
 }
@@ -192,6 +194,9 @@ std::vector<std::string> value_words(const OptionGrammar& option) {
       return joined(config_words(), with_equals(scanner_setting_names()));
     case ValueKind::kMapKey:
       return joined(joined(config_words(), with_equals(scanner_setting_names())), with_equals(slam_setting_names()));
+    case ValueKind::kLocaliseKey:
+      return joined(joined(config_words(), with_equals(scanner_setting_names())),
+                    with_equals(localise_setting_names()));
     case ValueKind::kGate:
       return names_of(explain::gate_list(), "=");
     case ValueKind::kScene:

@@ -22,8 +22,9 @@ enum class ValueKind {
   kEngineKey,
   kSimulatorKey,
   kPlannerKey,
-  kScanKey,  // of the engine and of planar scans
-  kMapKey,   // these, and of the SLAM
+  kScanKey,      // of the engine and of planar scans
+  kMapKey,       // these, and of the SLAM
+  kLocaliseKey,  // those of kScanKey, and of localisation
   kGate,
   kScene,
   kSensor

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -37,6 +39,16 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
   std::filesystem::remove(part, ignored);
   throw std::runtime_error(
       say("{}: cannot be written{}", file.string(), error ? ": " + system_error_text(error.value()) : ""));
+}
+
+std::string read_whole_file(const std::filesystem::path& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in.is_open() || in.bad() || (bytes.empty() && errno != 0)) {
+    throw std::runtime_error(say("{}: cannot be read: {}", file.string(), system_error_text(errno)));
+  }
+  return bytes;
 }
 
 }  // namespace pose_wall::tools

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Files that are there whole or not at all, whatever stops the program.
+// Files as a whole: read at once; written so that they are there whole or not at all, whatever stops the program.
 
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace pose_wall::tools {
@@ -15,5 +16,8 @@ std::filesystem::path part_of(const std::filesystem::path& file);
 
 // Writes its part, which then takes the file's place. Throws std::runtime_error that names the file.
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
+
+// Throws std::runtime_error that names the file.
+std::string read_whole_file(const std::filesystem::path& file);
 
 }  // namespace pose_wall::tools

@@ -5,18 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string_view>
 
 #include "config_file/yaml_entries.hpp"
 #include "frames/whole_file.hpp"
 #include "language/language.hpp"
-#include "language/system_errors.hpp"
 #include "planar/pgm_image.hpp"
 
 namespace pose_wall::tools {
@@ -28,13 +24,11 @@ constexpr double kOccupiedThreshold = 0.65, kFreeThreshold = 0.196;
 constexpr std::int8_t kThing = 100, kFree = 0;
 
 std::string text_of(const std::filesystem::path& file) {
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in.is_open() || in.bad() || (bytes.empty() && errno != 0)) {
-    throw MapFileError(say("{}: cannot be read: {}", file.string(), system_error_text(errno)));
+  try {
+    return read_whole_file(file);
+  } catch (const std::runtime_error& error) {
+    throw MapFileError(error.what());
   }
-  return bytes;
 }
 
 bool parse_number(std::string_view text, double* number) {

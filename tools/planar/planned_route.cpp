@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <stdexcept>
 
 #include "csv/csv_table.hpp"
 #include "language/language.hpp"
 #include "planar/plane_pose.hpp"
 #include "planar/setting_words.hpp"
+#include "planar/thread_clock.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -41,12 +41,6 @@ constexpr SettingWord<PlanSettings> kPlanWords[] = {
     {"hurry_after", nullptr, &PlanSettings::hurry_after},
     {"occupied_from", nullptr, &PlanSettings::occupied_from},
 };
-
-double thread_ms() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
 
 const char* turn_word(std::uint32_t flags) {
   if ((flags & POSE_WALL_PATH_TURN_LEFT) != 0) return "left";

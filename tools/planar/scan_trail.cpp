@@ -4,11 +4,11 @@
 #include "planar/scan_trail.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
 #include "language/language.hpp"
 #include "planar/plane_pose.hpp"
+#include "planar/thread_clock.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -21,6 +21,8 @@ std::uint64_t bytes_for(const pose_wall_planar_slam_settings& settings) {
   return bytes;
 }
 
+}  // namespace
+
 pose_wall_planar_keyframe keyframe_of(const pose_wall_planar_slam* slam, std::uint32_t number) {
   pose_wall_planar_keyframe keyframe{};
   keyframe.struct_size = sizeof keyframe;
@@ -28,14 +30,15 @@ pose_wall_planar_keyframe keyframe_of(const pose_wall_planar_slam* slam, std::ui
   return keyframe;
 }
 
-// Of this thread: a busy machine does not change it.
-double processor_ms() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+std::vector<Closure> closures_of(const pose_wall_planar_slam* slam) {
+  std::vector<Closure> closures;
+  pose_wall_planar_edge edge{};
+  edge.struct_size = sizeof edge;
+  for (std::uint32_t k = 0; pose_wall_planar_slam_edge(slam, k, &edge) == POSE_WALL_OK; ++k) {
+    if (edge.is_closure != 0 && edge.information[0] > 0.0) closures.push_back({edge.from, edge.to});
+  }
+  return closures;
 }
-
-}  // namespace
 
 ScanTrail::ScanTrail(const pose_wall_planar_slam_settings& settings) : block_(bytes_for(settings)) {
   require_ok(pose_wall_planar_slam_open(&settings, block_.data(), block_.bytes(), &slam_),
@@ -46,9 +49,9 @@ ScanTrail::ScanTrail(const pose_wall_planar_slam_settings& settings) : block_(by
 const pose_wall_planar_slam_result& ScanTrail::add(const pose_wall_planar_scan& scan,
                                                    const pose_wall_planar_pose* odometry,
                                                    const pose_wall_planar_pose& place, std::string time) {
-  const double started_ms = processor_ms();
+  const double started_ms = thread_ms();
   const std::int32_t status = pose_wall_planar_slam_process(slam_, &scan, odometry, &last_);
-  const double ms = processor_ms() - started_ms;
+  const double ms = thread_ms() - started_ms;
   require_ok(status, translatable("the scan"));
   ms_sum_ += ms;
   worst_ms_ = std::max(worst_ms_, ms);
@@ -88,16 +91,6 @@ std::vector<pose_wall_planar_pose> ScanTrail::kept_poses() const {
 
 double ScanTrail::travel_m() const {
   return last_.keyframes == 0 ? 0.0 : keyframe_of(slam_, last_.keyframes - 1).travel_m;
-}
-
-std::vector<Closure> ScanTrail::closures() const {
-  std::vector<Closure> closures;
-  pose_wall_planar_edge edge{};
-  edge.struct_size = sizeof edge;
-  for (std::uint32_t k = 0; pose_wall_planar_slam_edge(slam_, k, &edge) == POSE_WALL_OK; ++k) {
-    if (edge.is_closure != 0 && edge.information[0] > 0.0) closures.push_back({edge.from, edge.to});
-  }
-  return closures;
 }
 
 std::size_t ScanTrail::count(std::uint32_t state) const {

@@ -45,6 +45,10 @@ struct Closure {
   std::uint32_t from = 0, to = 0;  // keyframes
 };
 
+// Of a SLAM of the library.
+pose_wall_planar_keyframe keyframe_of(const pose_wall_planar_slam* slam, std::uint32_t number);
+std::vector<Closure> closures_of(const pose_wall_planar_slam* slam);  // that are believed
+
 class ScanTrail {
  public:
   // Throws PlanarError.
@@ -65,7 +69,7 @@ class ScanTrail {
   std::vector<pose_wall_planar_pose> keyframe_poses() const;
   std::vector<pose_wall_planar_pose> scan_poses() const;
   double travel_m() const;
-  std::vector<Closure> closures() const;  // that are believed
+  std::vector<Closure> closures() const { return closures_of(slam_); }
   // For the map, with the pose of base at each: every scan while memory allows it, then those of keyframes.
   const std::vector<KeptScan>& kept_scans() const { return kept_scans_; }
   std::vector<pose_wall_planar_pose> kept_poses() const;

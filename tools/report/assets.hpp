@@ -15,5 +15,6 @@ struct Assets {
 Assets assets();         // of a report
 Assets live_assets();    // of the page of pose_walld, which shares most scripts
 Assets motion_assets();  // of the report on a motion table
+Assets map_assets();     // of the report on maps
 
 }  // namespace pose_wall::tools::report

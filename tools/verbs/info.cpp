@@ -19,6 +19,8 @@
 #include "info/next_steps.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "language/language.hpp"
+#include "planar/carmen_facts.hpp"
+#include "planar/carmen_scans.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/frame_options.hpp"
@@ -38,7 +40,8 @@ struct Looked {
   std::string json;  // empty: nothing could be read
   bool complete = false;
   SensorFacts sensor;
-  std::string topic;  // of a bag, the one that was looked at
+  std::string topic;    // of a bag, the one that was looked at
+  bool is_log = false;  // of CARMEN
 };
 
 // Each input is looked at by itself; topic, sensor and metadata have to be of one of them, not of each.
@@ -63,9 +66,24 @@ void gather(FrameSequence& frames, const std::string& input, const InfoOptions& 
   }
 }
 
+Looked look_at_log(const std::string& input, const InfoOptions& options) {
+  Looked looked;
+  try {
+    const CarmenLog log = read_carmen_log(input);
+    if (!options.json) fmt::print("{}\n{}\n", input, carmen_facts_text(log));
+    looked.json = carmen_facts_json(input, log);
+    looked.complete = log.skip(CarmenSkip::kBadLine).lines + log.skip(CarmenSkip::kNotFinite).lines == 0;
+    looked.is_log = true;
+  } catch (const CarmenError& error) {
+    fmt::print(stderr, "pose_wall info: {}\n", error.what());
+  }
+  return looked;
+}
+
 Looked look_at(const std::string& input, const InfoOptions& options) {
   std::error_code ignored;
   if (!std::filesystem::exists(input, ignored)) return not_there(input);
+  if (std::filesystem::is_regular_file(input, ignored) && is_carmen_log(input)) return look_at_log(input, options);
   InputOptions of_this = options.input;
   of_this.of_others = options.inputs.size() > 1;
   FrameSequence frames({input}, of_this);
@@ -82,8 +100,16 @@ Looked look_at(const std::string& input, const InfoOptions& options) {
   return {facts_json(input, about, facts), facts.unreadable() == 0, facts.sensor(), has_choice ? about.topic : ""};
 }
 
+std::string next_text_of_log(const std::string& log) {
+  return next_steps_text(
+      {{tr("make a map of it, with the pose of every scan"), {"map", "-o", "map", "--poses", "poses.tum", log}},
+       {tr("then try restarts in this map, every 20 m"),
+        {"localise", "map", log, "--restart", "20", "--truth", "poses.tum"}}});
+}
+
 // For one input, or for several of the same sensor.
 std::string next_text(const InfoOptions& options, const std::vector<Looked>& looked) {
+  if (looked.size() == 1 && looked.front().is_log) return next_text_of_log(options.inputs.front());
   const auto is_like_first = [&looked](const Looked& other) {
     return other.complete && other.sensor.returns > 0.0 && other.sensor.config == looked.front().sensor.config &&
            other.topic == looked.front().topic && !is_unit_doubtful(other.sensor.ranges);
@@ -131,13 +157,13 @@ int info(const InfoOptions& options) {
 void add_info(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<InfoOptions>();
   options->input.fullest_topic = true;
-  CLI::App* verb = app.add_subcommand("info", tr("Show what frame files, bags and captures hold"));
+  CLI::App* verb = app.add_subcommand("info", tr("Show what frame files, bags, captures and logs of CARMEN hold"));
   verb->add_option("INPUT", options->inputs, tr(kInputHelp))->required();
   add_input_options(verb, &options->input);
   verb->add_flag("--json", options->json, tr("A list with one object per input instead of tables"));
   verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
   verb->footer(
-      tr("Example:\n  pose_wall info road.bag frames/\n"
+      tr("Examples:\n  pose_wall info road.bag frames/\n  pose_wall info aces.clf\n"
          "A bag may have several topics of clouds. Then the fullest is taken; --topic names another.\n"
          "Exit status: 0 done, 1 an input or a frame could not be read, 2 bad usage, 130 interrupted."));
   verb->callback([options, &exit_code] { exit_code = info(*options); });

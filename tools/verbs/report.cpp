@@ -23,6 +23,7 @@
 #include "motion/motion_comparison.hpp"
 #include "motion/motion_table.hpp"
 #include "motion/pose_truth.hpp"
+#include "planar/map_report.hpp"
 #include "report/motion_page.hpp"
 #include "report/page.hpp"
 #include "results/frame_runner.hpp"
@@ -185,8 +186,31 @@ int report_motion(const ReportOptions& options) {
   return kExitDone;
 }
 
+// For what `map`, `localise` and `plan` wrote.
+int report_maps(const ReportOptions& options) {
+  const std::vector<std::string>& inputs = options.frames.inputs;
+  for (const std::string& input : inputs) {
+    if (!is_map_result(input)) {
+      throw std::invalid_argument(say("{}: give what map, localise or plan wrote alone, without other inputs", input));
+    }
+  }
+  if (!options.truth.empty()) {
+    throw std::invalid_argument(tr("--truth is for frames and motion; localise itself compares with a truth"));
+  }
+  const MapReport report = map_report(inputs, title_of(options));
+  OutputFile output(options.output, report.files);
+  output.write(report.page);
+  if (!options.frames.quiet) {
+    fmt::print(stderr, "{}",
+               say("{}: {:.1f} MB, {} pictures. Open it in a browser.\n", options.output,
+                   1e-6 * static_cast<double>(report.page.size()), report.pictures));
+  }
+  return kExitDone;
+}
+
 int report_inputs(const ReportOptions& options) {
   const std::vector<std::string>& inputs = options.frames.inputs;
+  if (std::any_of(inputs.begin(), inputs.end(), is_map_result)) return report_maps(options);
   return std::any_of(inputs.begin(), inputs.end(), is_table) ? report_motion(options) : report_frames(options);
 }
 
@@ -210,8 +234,10 @@ void add_report(CLI::App& app, int& exit_code) {
       "  pose_wall sim --scene nominal --frames 100 --output road\n"
       "  pose_wall report -c road/pose_wall.yaml --truth road/truth.csv -o road.html road/frames\n"
       "  pose_wall report --truth road/truth.csv -o way.html motion.csv\n"
-      "The last example reads a table of `pose_wall motion` (.csv). Its page shows the path from above, the states\n"
-      "along the road, travel and steps.\n"
+      "  pose_wall report -o map.html map found route.csv\n"
+      "The third example reads a table of `motion`. Its page shows the path from above, the states\n"
+      "along the road, travel and steps. The last one reads the folders of `map -o` and `localise -o` and a table of\n"
+      "`plan`. Its page shows their pictures (SVG) and figures.\n"
       "The page is one file in English and Chinese and needs no network. It shows a verdict, every frame from above\n"
       "and in section, and time series with protection levels and states. Values that are not valid are grey.\n"
       "Of a long recording it keeps the points of some 400 frames, and of frames in which a state changes.\n"

@@ -27,6 +27,7 @@ using pose_wall::planar::pose_of;
 using pose_wall::planar::read_beams;
 using pose_wall::planar::ScanPoint;
 using pose_wall::planar::Where;
+using pose_wall::planar::Why;
 
 // What lives in the block: the localiser and its settings, for clear().
 struct Body {
@@ -46,6 +47,7 @@ pose_wall_planar_localise_settings defaults() {
   out.struct_size = sizeof(out);
   out.tiles_most = own.tiles_most;
   out.work = own.work;
+  out.map_is_whole = own.map_is_whole ? 1 : 0;
   out.odometry_m = own.odometry_m;
   out.odometry_rad = own.odometry_rad;
   return out;
@@ -58,6 +60,7 @@ std::int32_t take_settings(const pose_wall_planar_localise_settings* from, Local
     if (status != POSE_WALL_OK) return status;
     out->tiles_most = from->tiles_most;
     out->work = from->work;
+    out->map_is_whole = from->map_is_whole == 1;
     out->odometry_m = from->odometry_m;
     out->odometry_rad = from->odometry_rad;
   }
@@ -139,6 +142,7 @@ void write_result(const Localiser& own, Where where, std::int64_t stamp_ns, pose
   pose_wall_planar_localise_result out{};
   out.struct_size = sizeof(out);
   out.state = static_cast<std::uint32_t>(where);
+  out.reason = static_cast<std::uint32_t>(own.why());
   out.stamp_ns = stamp_ns;
   write_place(own, &out);
   const auto& verdict = own.verdict();
@@ -152,6 +156,12 @@ void write_result(const Localiser& own, Where where, std::int64_t stamp_ns, pose
 }
 
 constexpr const char* kStates[] = {"searching", "unknown", "ambiguous", "unique", "doubtful"};
+// In the order of Why.
+constexpr const char* kReasons[] = {"none",   "searching",    "no_fit",      "several", "crowded",
+                                    "misfit", "unseen",       "through",     "few",     "slides",
+                                    "smooth", "scan_differs", "contradicted"};
+static_assert(sizeof(kReasons) / sizeof(kReasons[0]) == POSE_WALL_PLANAR_LOCALISE_REASONS);
+static_assert(static_cast<std::uint32_t>(Why::contradicted) + 1 == POSE_WALL_PLANAR_LOCALISE_REASONS);
 
 }  // namespace
 
@@ -159,6 +169,10 @@ extern "C" {
 
 POSE_WALL_EXPORT const char* pose_wall_planar_localise_state_name(uint32_t state) {
   return state < sizeof(kStates) / sizeof(kStates[0]) ? kStates[state] : "?";
+}
+
+POSE_WALL_EXPORT const char* pose_wall_planar_localise_reason_name(uint32_t reason) {
+  return reason < POSE_WALL_PLANAR_LOCALISE_REASONS ? kReasons[reason] : "?";
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_init(pose_wall_planar_localise_settings* settings) {
@@ -177,7 +191,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_check(const pose_wal
   } rows[] = {
       {static_cast<double>(settings->tiles_most), 16, 16384, "tiles_most", "tiles_most must be from 16 to 16384"},
       {static_cast<double>(settings->work), 1000, 1e9, "work", "work must be from 1000 to 1000000000"},
-      {static_cast<double>(settings->reserved), 0, 0, "reserved", "reserved must be 0"},
+      {static_cast<double>(settings->map_is_whole), 0, 1, "map_is_whole", "map_is_whole must be 0 or 1"},
       {settings->odometry_m, 0, 1, "odometry_m", "odometry_m must be from 0 to 1"},
       {settings->odometry_rad, 0, 1, "odometry_rad", "odometry_rad must be from 0 to 1"}};
   for (const auto& row : rows) {

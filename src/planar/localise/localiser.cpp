@@ -10,6 +10,13 @@ namespace {
 
 constexpr double kSpacing_m = 0.05;  // of points along a surface
 
+Why doubt_of(Track track) {
+  if (track == Track::tracked) return Why::none;
+  if (track == Track::blind) return Why::few;
+  if (track == Track::contradicted) return Why::contradicted;
+  return track == Track::loose ? Why::slides : Why::misfit;
+}
+
 }  // namespace
 
 void Localiser::lay_out(Arena& arena, const LocaliseSettings& settings) {
@@ -22,6 +29,7 @@ void Localiser::lay_out(Arena& arena, const LocaliseSettings& settings) {
   beams_ = arena.take<Beam>(POSE_WALL_PLANAR_BEAMS_MAX);
   scan_points_ = arena.take<ScanPoint>(kMatchPointsMost);
   room_ = arena.take<PatchCosts>(2);
+  walls_ = arena.take<PatchWall>(kPatchesMost);
 }
 
 void Localiser::open(const LocaliseSettings& settings) {
@@ -88,10 +96,15 @@ Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, cons
   }
   if (!search_.is_under_way() || !search_.go_on(map_, look_, settings_.work)) return where_;
   ++searches_;
-  judge(map_, look_, search_, &verdict_);
+  judge(map_, look_, search_, settings_.map_is_whole, walls_, &verdict_);
   if (verdict_.finding == Finding::unknown) return Where::unknown;
-  if (verdict_.finding == Finding::ambiguous || !settle(points, scan, odometry)) return Where::ambiguous;
+  if (verdict_.finding == Finding::ambiguous) return Where::ambiguous;
+  if (!settle(points, scan, odometry)) {
+    verdict_.why = Why::scan_differs;
+    return Where::ambiguous;
+  }
   is_tracking_ = true;
+  tracking_ = Why::none;
   return Where::unique;
 }
 
@@ -103,6 +116,7 @@ Where Localiser::track(Span<const ScanPoint> points, const BeamScan& scan, const
     forget();
     return wander(points, scan, odometry);
   }
+  tracking_ = doubt_of(track);
   return track == Track::tracked ? Where::unique : Where::doubtful;
 }
 

@@ -17,6 +17,7 @@ namespace pose_wall::planar {
 struct LocaliseSettings {
   std::uint32_t tiles_most = 1024;
   std::uint32_t work = 40000;  // steps of search in a call
+  bool map_is_whole = false;
   double odometry_m = 0.1, odometry_rad = 0.3;
 };
 
@@ -30,6 +31,7 @@ class Localiser {
   const PlaceMap& map() const { return map_; }
   Span<Beam> beams() const { return beams_; }
   void set_work(std::uint32_t work) { settings_.work = work; }
+  void set_whole(bool map_is_whole) { settings_.map_is_whole = map_is_whole; }
 
   Where process(const BeamScan& scan, const Pose2* odometry);
   // Base stands here, as somebody says; scans can contradict.
@@ -38,6 +40,8 @@ class Localiser {
   void forget();
 
   Where where() const { return where_; }
+  // Why it is not unique.
+  Why why() const { return is_tracking_ ? tracking_ : verdict_.why; }
   const Tracker& tracker() const { return tracker_; }
   bool is_tracking() const { return is_tracking_; }
   const Verdict& verdict() const { return verdict_; }
@@ -64,9 +68,11 @@ class Localiser {
   Span<Beam> beams_;
   Span<ScanPoint> scan_points_;
   Span<PatchCosts> room_;
+  Span<PatchWall> walls_;
   Pose2 looked_from_;
   double looked_at_m_ = 0.0, looked_at_rad_ = 0.0;
   Where where_ = Where::searching;
+  Why tracking_ = Why::none;  // of the tracked place
   bool is_tracking_ = false, has_looked_ = false;
   std::uint32_t searches_ = 0, lost_ = 0, scans_since_look_ = 0;
 };

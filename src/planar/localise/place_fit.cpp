@@ -233,6 +233,65 @@ double seen_through(const PlaceMap& map, const Look& look, const Pose2& pose) {
   return look.sight_count > 0 ? static_cast<double>(through) / look.sight_count : 0.0;
 }
 
+namespace {
+
+void find_walls(const Look& look, const Turn2& turn, Span<PatchWall> walls) {
+  std::fill(walls.begin(), walls.end(), PatchWall{});
+  for (std::uint32_t k = 0; k < look.point_count; ++k) {
+    if (look.patch[k] == kPatchesMost) continue;
+    PatchWall& own = walls[look.patch[k]];
+    const float x = look.points[k].x_m - std::floor(look.points[k].x_m);
+    const float y = look.points[k].y_m - std::floor(look.points[k].y_m);
+    own = {own.n + 1.0F, own.x + x, own.y + y, own.xx + x * x, own.xy + x * y, own.yy + y * y, 0.0F, 0.0F, 0.0F, 0.0F};
+  }
+  for (std::uint32_t at = 0; at < look.patches; ++at) {
+    PatchWall& own = walls[at];
+    const auto n = static_cast<double>(own.n);
+    const double mx = static_cast<double>(own.x) / n, my = static_cast<double>(own.y) / n;
+    const double half = 0.5 * (static_cast<double>(own.xx - own.yy) / n - mx * mx + my * my);
+    const double xy = static_cast<double>(own.xy) / n - mx * my;
+    const double along_rad = half * half + xy * xy > 0.0 ? 0.5 * arc_tangent2(xy, half) : 0.0;
+    const Eigen::Vector2d along = turn * Eigen::Vector2d(cosine(along_rad), sine(along_rad));
+    own.along_x = static_cast<float>(along.x());
+    own.along_y = static_cast<float>(along.y());
+  }
+}
+
+void move_along_walls(const PlaceMap& map, const Look& look, const Turn2& turn, const Eigen::Vector2d& place,
+                      Span<PatchWall> walls) {
+  constexpr double kShift_m = 0.4;
+  const double noise_m2 = look.sigma_m * look.sigma_m;
+  for (std::uint32_t k = 0; k < look.point_count; ++k) {
+    if (look.patch[k] == kPatchesMost) continue;
+    PatchWall& own = walls[look.patch[k]];
+    const Eigen::Vector2d p = turn * as_double(look.points[k]) + place;
+    const Eigen::Vector2d shift =
+        kShift_m * Eigen::Vector2d(static_cast<double>(own.along_x), static_cast<double>(own.along_y));
+    bool seen = false;
+    own.ahead += static_cast<float>(cost_of(map, p + shift, noise_m2, &seen));
+    own.behind += static_cast<float>(cost_of(map, p - shift, noise_m2, &seen));
+  }
+}
+
+}  // namespace
+
+std::uint32_t relief_patches(const PlaceMap& map, const Look& look, const Pose2& pose, PatchCosts* room,
+                             Span<PatchWall> walls) {
+  const Turn2 turn(pose.yaw_rad);
+  find_walls(look, turn, walls);
+  judge_patches(map, look, pose, room);
+  move_along_walls(map, look, turn, pose.place() - map.middle_m(), walls);
+  constexpr double kWorse = 0.4;  // noise makes less of it
+  std::uint32_t count = 0;
+  for (std::uint32_t at = 0; at < look.patches; ++at) {
+    if (look.in_patch[at] < kPatchPointsLeast) continue;
+    const double here = room->cost[at] * (kCostMost / 255.0);
+    const double moved = static_cast<double>(std::min(walls[at].ahead, walls[at].behind)) / look.in_patch[at];
+    if (moved > here + kWorse) ++count;
+  }
+  return count;
+}
+
 Slid slide_of(const PlaceMap& map, const Look& look, const Fit& fit, double excluded, PatchCosts* room) {
   Slid out;
   const Eigen::Matrix3d& H = fit.information;

@@ -82,6 +82,16 @@ struct Slid {
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  // unit, in the map: where the fit holds least
   double reach_m = 0.0;                                  // largest shift that patches do not exclude
 };
+// A patch's own wall, and what it costs to be moved along it.
+struct PatchWall {
+  float n, x, y, xx, xy, yy;  // sums from the corner of the square metre, for the sake of small numbers
+  float along_x, along_y;     // unit, in the map
+  float ahead, behind;        // sums of costs where it is moved
+};
+// How many patches have relief of their own: moved along their wall they fit worse, to either side. Rock is like that
+// nearly everywhere, smooth walls only at their corners. `room` for one, `walls` for kPatchesMost.
+std::uint32_t relief_patches(const PlaceMap& map, const Look& look, const Pose2& pose, PatchCosts* room,
+                             Span<PatchWall> walls);
 // A shift is excluded if the mean patch fits worse by so many standard errors. `room` for two.
 Slid slide_of(const PlaceMap& map, const Look& look, const Fit& fit, double excluded, PatchCosts* room);
 

@@ -179,7 +179,7 @@ Track Tracker::follow_to(const PlaceMap& map, const Look& look, const Pose2& pre
   }
   last_step_ = between(before, pose_);
   constexpr double kPlaced_m = 0.2;  // a place that is less certain is not one place
-  return track == Track::tracked && !(uncertain_along().sigma_m < kPlaced_m) ? Track::doubtful : track;
+  return track == Track::tracked && !(uncertain_along().sigma_m < kPlaced_m) ? Track::loose : track;
 }
 
 }  // namespace pose_wall::planar

@@ -11,7 +11,8 @@
 
 namespace pose_wall::planar {
 
-enum class Track : std::uint32_t { tracked, doubtful, blind, contradicted, lost };
+// loose: the scan fits, but the place is not certain along the road.
+enum class Track : std::uint32_t { tracked, loose, doubtful, blind, contradicted, lost };
 
 struct TrackRule {
   double odometry_m = 0.1, odometry_rad = 0.3;  // standard deviation of a step by its length and turn

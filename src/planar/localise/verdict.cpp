@@ -16,6 +16,9 @@ constexpr double kPlausible = 0.6;  // share of patches that fit, of a place tha
 // Of the one place: what share of patches fits, lies in seen parts; how many; how far it may slide.
 constexpr double kFits = 0.85, kSeen = 0.75, kThroughMost = 0.1, kHolds_m = 0.3;
 constexpr std::uint32_t kPatchesLeast = 16;
+// Patches with relief, and their share: rock has 0.4 to 0.9 of them, smooth walls up to 0.36, at corners and niches.
+constexpr std::uint32_t kReliefLeast = 8;
+constexpr double kRelief = 0.4;
 
 bool is_same(const CandidatePlace& candidate, const Pose2& pose) {
   constexpr double kChain_m = 0.7, kYaw_rad = 0.2;
@@ -36,17 +39,30 @@ void add(const Hypothesis& hypothesis, double worse, Verdict* out) {
   out->candidates[out->count++] = {hypothesis.pose, weight, worse, hypothesis.verdict.fits, 0.0};
 }
 
-bool holds(const Verdict& verdict, const PlaceSearch& search) {
+bool has_relief(const Look& look, const Evidence& best) {
+  std::uint32_t judged = 0;
+  for (std::uint32_t at = 0; at < look.patches; ++at) judged += look.in_patch[at] >= kPatchPointsLeast ? 1U : 0U;
+  return best.relief >= kReliefLeast && best.relief >= kRelief * judged;
+}
+
+// none: it is the one place.
+Why doubt_of(const Verdict& verdict, const PlaceSearch& search) {
   const Evidence& best = verdict.best;
-  return search.is_whole() && verdict.all == 1 && best.fits >= kFits && best.seen >= kSeen &&
-         best.through <= kThroughMost && best.slide_m <= kHolds_m && best.patches >= kPatchesLeast &&
-         verdict.candidates[0].spread_m <= kHolds_m;
+  if (verdict.all != 1) return Why::several;
+  if (!search.is_whole()) return Why::crowded;
+  if (best.patches < kPatchesLeast) return Why::few;
+  if (!(best.fits >= kFits)) return Why::misfit;
+  if (!(best.seen >= kSeen)) return Why::unseen;
+  if (!(best.through <= kThroughMost)) return Why::through;
+  return best.slide_m <= kHolds_m && verdict.candidates[0].spread_m <= kHolds_m ? Why::none : Why::slides;
 }
 
 }  // namespace
 
-void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, Verdict* out) {
+void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, bool map_is_whole, Span<PatchWall> walls,
+           Verdict* out) {
   *out = Verdict();
+  out->why = Why::no_fit;
   const Span<const Hypothesis> all = search.hypotheses();
   if (all.size() == 0) return;
   const Hypothesis& best = all[0];
@@ -58,7 +74,9 @@ void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, Ver
   out->best.through = seen_through(map, look, best.pose);
   PatchCosts room[2];
   const FitRule rule{look.sigma_m, 0.25, 1, 1, {}};
-  out->best.slide_m = slide_of(map, look, fit_pose(map, look, best.pose, rule), kExcluded, room).reach_m;
+  const Slid slid = slide_of(map, look, fit_pose(map, look, best.pose, rule), kExcluded, room);
+  out->best.slide_m = slid.reach_m;
+  out->best.relief = relief_patches(map, look, best.pose, room, walls);
   constexpr double kNoRival = 99.0;
   out->best.rival = kNoRival;
   for (std::uint32_t k = 0; k < all.size(); ++k) {
@@ -75,7 +93,9 @@ void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, Ver
     out->finding = Finding::unknown;
     return;
   }
-  out->finding = holds(*out, search) ? Finding::unique : Finding::ambiguous;
+  out->why = doubt_of(*out, search);
+  if (out->why == Why::none && !map_is_whole && !has_relief(look, out->best)) out->why = Why::smooth;
+  out->finding = out->why == Why::none ? Finding::unique : Finding::ambiguous;
 }
 
 }  // namespace pose_wall::planar

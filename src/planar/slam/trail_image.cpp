@@ -8,12 +8,13 @@
 
 #include "base/math/crc32.hpp"
 #include "base/math/finite.hpp"
+#include "pose_wall_planar_slam.h"
 
 namespace pose_wall::planar {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x4C545750U;  // "PWTL"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = POSE_WALL_PLANAR_TRAIL_VERSION;
 constexpr std::uint64_t kHead = 5 * 4, kKeyframe = 8 + 4 + 5 * 8, kPoint = 2 * 4, kEdge = 3 * 4 + 9 * 8, kTail = 4;
 
 class Writer {

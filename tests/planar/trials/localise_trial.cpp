@@ -23,7 +23,7 @@ using namespace pose_wall::planar::test;
 struct Options {
   int places = 200, per_network = 25, kind = -1, network = -1, restart = -1;
   std::uint64_t seed = 1;
-  bool verbose = false, kidnap = false, cost = false, slam = false;
+  bool verbose = false, kidnap = false, cost = false, slam = false, whole = false;
 };
 
 Options options_of(int argc, char** argv) {
@@ -38,6 +38,7 @@ Options options_of(int argc, char** argv) {
     if (name == "--network") out.network = std::atoi(value);  // this one alone, and one restart in it
     if (name == "--restart") out.restart = std::atoi(value);
     if (name == "--cost") out.cost = true;
+    if (name == "--whole") out.whole = true;
     if (name == "--slam") out.slam = true;
     if (name == "--kidnap") out.kidnap = true;
     if (name == "--verbose") out.verbose = true;
@@ -148,7 +149,7 @@ int main(int argc, char** argv) {
   for (std::uint64_t network = 0; done < options.places; ++network) {
     const int kind = options.kind >= 0 ? options.kind : static_cast<int>(network % kKinds);
     const std::uint64_t seed = options.seed * 100000 + network;
-    const World world(kind, seed, World::lengths(seed), 768, options.slam);
+    const World world(kind, seed, World::lengths(seed), 768, options.slam, options.whole);
     for (int k = 0; k < options.per_network && done < options.places; ++k, ++done) {
       const Restart restart = world.draw_restart(static_cast<std::uint64_t>(k));
       const Outcome outcome = world.run(restart, options.verbose);

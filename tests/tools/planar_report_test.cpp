@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: `pose_wall report` makes a page of what map, localise and plan wrote, in both languages, and `pose_wall info`
+// describes a log of CARMEN.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "planar_logs.hpp"
+#include "ran_command.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::command;
+using test::contains;
+using test::DrawnRoom;
+using test::Ran;
+using test::TempFolder;
+using test::text_of;
+
+nlohmann::json data_of(const std::string& page) {
+  const std::string begin = "<script id=\"data\" type=\"application/json\">";
+  const std::size_t from = page.find(begin) + begin.size();
+  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+// "keyframes" of a table whose head begins with `title`.
+std::string figure(const nlohmann::json& section, const std::string& title, const std::string& name) {
+  for (const auto& table : section.at("tables")) {
+    if (table.at("head").at(0) != title) continue;
+    for (const auto& row : table.at("rows")) {
+      if (row.at(0) == name) return row.at(1);
+    }
+  }
+  return "none";
+}
+
+TEST(MapReport, HoldsPicturesAndFiguresInBothLanguages) {
+  const TempFolder folder;
+  const std::string log = folder.write("room.clf", DrawnRoom::log(60)), map = folder.file("map"),
+                    page = folder.file("r.html");
+  ASSERT_EQ(command({"map", "-q", "-o", map, log}).exit_status, 0);
+  ASSERT_NE(command({"localise", "-q", "--start", "0,0,0", "-o", folder.file("found"), map, log}).exit_status, 1);
+  const std::string head = "pose,x_m,y_m,yaw_rad,curvature_1_m,along_m,drive,stop,cusp,turn\n";
+  const std::string route =
+      folder.write("route.csv", head + "0,0,0,0,0,0,1,0,0,\n1,1,0,0,0,1,0,0,1,left\n2,1,0,1,0,2.5,1,1,0,\n");
+  const Ran ran = command({"report", map, folder.file("found"), route, "-o", page});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "2 pictures")) << ran.errors;
+  const nlohmann::json data = data_of(text_of(page));
+  EXPECT_EQ(data.at("pictures").at(0).at(0).at("name"), "map.svg");
+  EXPECT_EQ(data.at("pictures").at(1).at(0).at("name"), "localise.svg");
+  const auto& english = data.at("texts").at("en").at("sections");
+  ASSERT_EQ(english.size(), 3U);
+  EXPECT_NE(figure(english.at(0), "map", "keyframes"), "none");
+  EXPECT_EQ(figure(english.at(1), "localisation", "scans"), "60");
+  EXPECT_EQ(figure(english.at(2), "route: route.csv", "length"), "2.50 m");
+  EXPECT_EQ(figure(english.at(2), "route: route.csv", "changes of direction"), "1");
+  EXPECT_EQ(figure(english.at(2), "route: route.csv", "turns on the spot"), "1");
+  EXPECT_NE(figure(data.at("texts").at("zh").at("sections").at(0), "地图", "关键帧"), "none");
+}
+
+TEST(MapReport, RefusesWhatItCannotShow) {
+  const TempFolder folder;
+  const std::string log = folder.write("room.clf", DrawnRoom::log(10)), map = folder.file("map");
+  ASSERT_EQ(command({"map", "-q", "-o", map, log}).exit_status, 0);
+  const Ran mixed = command({"report", map, log, "-o", folder.file("r.html")});
+  EXPECT_EQ(mixed.exit_status, 2);
+  EXPECT_TRUE(contains(mixed.errors, "without other inputs")) << mixed.errors;
+  const Ran onto = command({"report", map, "-o", map + "/map.svg"});
+  EXPECT_EQ(onto.exit_status, 2) << "an input is not overwritten";
+  folder.write("map/trail.pwt", "damaged");
+  const Ran damaged = command({"report", map, "-o", folder.file("r.html")});
+  EXPECT_EQ(damaged.exit_status, 1);
+  EXPECT_TRUE(contains(damaged.errors, "trail.pwt")) << damaged.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("r.html")));
+}
+
+TEST(InfoVerb, DescribesALogOfCarmen) {
+  const TempFolder folder;
+  const std::string text =
+      DrawnRoom::log(20) + "ODOM 1 2 3\nFLASER 3 1\nSYNC x\n" + DrawnRoom::line("976052899.0", DrawnRoom::pose(20));
+  const std::string log = folder.write("room.clf", text);
+  const Ran ran = command({"info", log});
+  EXPECT_EQ(ran.exit_status, 1) << "a line is bad";
+  for (const char* words : {"a log of CARMEN", "180 a scan, from -90.0° in steps of 1.00°: 179° of view",
+                            "2.0 m of travel", "longest step 97.600 s", "1, the first in line 23",
+                            "2, the first in line 22: ODOM 1, SYNC 1", "1, the first in line 1"}) {
+    EXPECT_TRUE(contains(ran.printed, words)) << words << " in " << ran.printed;
+  }
+  EXPECT_TRUE(contains(ran.printed, "pose_wall map -o map --poses poses.tum")) << ran.printed;
+  const auto page = nlohmann::json::parse(command({"info", "--json", log}).printed);
+  EXPECT_EQ(page.at(0).at("scans"), 21);
+  EXPECT_EQ(page.at(0).at("skipped").at("bad_line").at("lines"), 1);
+  EXPECT_NEAR(page.at(0).at("odometry").at("travel_m"), 2.0, 0.01);
+  EXPECT_EQ(command({"info", folder.write("good.clf", DrawnRoom::log(5))}).exit_status, 0);
+  const Ran none = command({"info", folder.write("none.clf", "# empty\n")});
+  EXPECT_EQ(none.exit_status, 1);
+  EXPECT_TRUE(contains(none.errors, "none.clf")) << none.errors;
+}
+
+}  // namespace
+}  // namespace pose_wall::tools
