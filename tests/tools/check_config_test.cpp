@@ -88,6 +88,7 @@ TEST(CheckConfig, EveryKeyHasItsMeaningInChinese) {
   for (const pose_wall_key_info& key : config_keys()) EXPECT_STRNE(tr(key.help), key.help) << key.name;
   for (const OutsideKey& key : motion_keys()) EXPECT_STRNE(tr(key.help), key.help) << key.name;
   for (const OutsideKey& key : live_keys()) EXPECT_STRNE(tr(key.help), key.help) << key.name;
+  for (const OutsideKey& key : planar_keys()) EXPECT_STRNE(tr(key.help), key.help) << key.name;
   choose_language(Language::kEnglish);
 }
 

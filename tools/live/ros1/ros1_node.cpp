@@ -91,8 +91,8 @@ void Ros1Node::subscribe(const std::string& topic, std::uint32_t queue, Take tak
   subscriptions_.push_back({topic, queue, std::move(take)});
 }
 
-std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type) {
-  advertised_.push_back({topic, &type});
+std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type, bool is_latched) {
+  advertised_.push_back({topic, &type, is_latched});
   subscribers_.push_back(0);
   return advertised_.size() - 1;
 }
@@ -181,6 +181,7 @@ void Ros1Node::open() {
   }
   for (const Advertised& topic : advertised_) {
     ros::AdvertiseOptions options(topic.topic, kQueueOut, topic.type->md5, topic.type->name, topic.type->definition);
+    options.latch = topic.is_latched;
     ros->publishers.push_back(ros->handle.advertise(options));
   }
   ++masters_seen_;

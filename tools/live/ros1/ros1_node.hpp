@@ -40,7 +40,8 @@ class Ros1Node {
   // Before start; a topic without a leading slash is one of the node's namespace. queue: older messages are lost.
   // Throws std::runtime_error for what ROS allows no topic to be called.
   void subscribe(const std::string& topic, std::uint32_t queue, Take take);
-  std::size_t advertise(const std::string& topic, const RosType& type);  // the number to publish by
+  // The number to publish by. is_latched: the last message goes to who comes later.
+  std::size_t advertise(const std::string& topic, const RosType& type, bool is_latched);
 
   // May be called twice. Waits for nobody: the master may come later.
   void start();
@@ -70,6 +71,7 @@ class Ros1Node {
   struct Advertised {
     std::string topic;
     const RosType* type;
+    bool is_latched;
   };
 
   void listen_where_allowed() const;
