@@ -21,30 +21,46 @@ struct Post {
   double x_m = 0.0, y_m = 0.0, radius_m = 0.2;
 };
 
-// The sensor stands 2.5 m above the floor, which is at z 0 of base; walls are 20 m off. number: clouds of two numbers
-// differ by a millimetre. post: a round thing from the floor to the roof.
-inline std::shared_ptr<tools::live::LiveFrame> hall_frame(std::int64_t stamp_ns, int number,
-                                                          const Post* post = nullptr) {
-  constexpr int kRings = 128, kColumns = 1024;
-  constexpr double kHeight_m = 2.5, kRoof_m = 4.0, kWall_m = 20.0;
+// Round things from the floor to the roof, and where base stands.
+struct Hall {
+  std::vector<Post> posts;
+  double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
+  double wall_m = 20.0;  // of the hall's middle, to all four sides
+
+  // Along a level direction from base to the first thing.
+  double range_m(double azimuth_rad) const {
+    const double dx = std::cos(azimuth_rad + yaw_rad), dy = std::sin(azimuth_rad + yaw_rad);
+    const auto to_wall = [this](double at, double step) {
+      return std::abs(step) < 1e-9 ? 1e9 : ((step > 0.0 ? wall_m : -wall_m) - at) / step;
+    };
+    double range = std::min(to_wall(x_m, dx), to_wall(y_m, dy));
+    for (const Post& post : posts) {
+      const double px = post.x_m - x_m, py = post.y_m - y_m;
+      const double along = px * dx + py * dy, aside = px * dy - py * dx;
+      if (along <= 0.0 || std::abs(aside) >= post.radius_m) continue;
+      range = std::min(range, along - std::sqrt(post.radius_m * post.radius_m - aside * aside));
+    }
+    return range;
+  }
+};
+
+// The sensor stands 2.5 m above the floor, which is at z 0 of base. number: clouds of two numbers differ by a
+// millimetre.
+inline std::shared_ptr<tools::live::LiveFrame> hall_frame(std::int64_t stamp_ns, int number, const Hall& hall = {},
+                                                          int rings = 128) {
+  constexpr int kColumns = 1024;
+  constexpr double kHeight_m = 2.5, kRoof_m = 4.0;
   std::vector<std::array<float, 4>> points;
-  points.reserve(kRings * kColumns);
-  for (int ring = 0; ring < kRings; ++ring) {
-    for (int column = 0; column < kColumns; ++column) {
-      const double elevation = (-80.0 + 95.0 * ring / (kRings - 1)) * M_PI / 180.0;
-      const double azimuth = 2.0 * M_PI * column / kColumns;
-      const double flat = std::cos(elevation);
-      const double x = flat * std::cos(azimuth), y = flat * std::sin(azimuth), z = std::sin(elevation);
-      double range = kWall_m / std::max({std::abs(x), std::abs(y), 1e-9});
-      range = std::min(range, z < 0.0 ? kHeight_m / -z : kRoof_m / std::max(z, 1e-9));
-      if (post != nullptr) {
-        const double along = (post->x_m * x + post->y_m * y) / (flat * flat);
-        const double aside = (post->x_m * y - post->y_m * x) / flat;
-        if (along > 0.0 && std::abs(aside) < post->radius_m) range = std::min(range, along - post->radius_m);
-      }
+  points.reserve(static_cast<std::size_t>(rings) * kColumns);
+  for (int column = 0; column < kColumns; ++column) {
+    const double azimuth = 2.0 * M_PI * column / kColumns, level_m = hall.range_m(azimuth);
+    for (int ring = 0; ring < rings; ++ring) {
+      const double elevation = (-80.0 + 95.0 * ring / (rings - 1)) * M_PI / 180.0;
+      const double flat = std::cos(elevation), z = std::sin(elevation);
+      double range = std::min(level_m / flat, z < 0.0 ? kHeight_m / -z : kRoof_m / std::max(z, 1e-9));
       range += 0.001 * (number % 7) / 7.0;
-      points.push_back(
-          {static_cast<float>(range * x), static_cast<float>(range * y), static_cast<float>(range * z), 9});
+      points.push_back({static_cast<float>(range * flat * std::cos(azimuth)),
+                        static_cast<float>(range * flat * std::sin(azimuth)), static_cast<float>(range * z), 9});
     }
   }
   tools::Bytes bytes(points.size() * sizeof points[0]);

@@ -21,9 +21,9 @@ namespace {
 
 using pose_wall::test::becomes_true;
 using pose_wall::test::fact;
+using pose_wall::test::Hall;
 using pose_wall::test::hall_frame;
 using pose_wall::test::hall_settings;
-using pose_wall::test::Post;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr auto kStop = static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP);
@@ -41,9 +41,9 @@ class StopGuardTest : public ::testing::Test {
   }
   void TearDown() override { guard_->stop(); }
 
-  void show(const Post* post = nullptr) {
+  void show(const Hall& hall = {}) {
     stamp_ns_ += kSecond_ns / 10;  // faster than the clock here: none of the frames is late
-    guard_->take(hall_frame(stamp_ns_, ++number_, post), *loaded_.config.get());
+    guard_->take(hall_frame(stamp_ns_, ++number_, hall), *loaded_.config.get());
   }
   bool drives() const { return guard_->stop_now().result.state != kStop; }
   // Frames until it permits driving: for restart_s the way must be clear.
@@ -101,9 +101,10 @@ TEST_F(StopGuardTest, FramesPermitAndSilenceStopsAsSoonAsTheNewestIsStale) {
 
 TEST_F(StopGuardTest, AThingInTheWayStopsWithItsPlace) {
   ASSERT_TRUE(is_brought_to_drive());
-  const Post post{1.2, 0.1, 0.2};
+  Hall hall;
+  hall.posts = {{1.2, 0.1, 0.2}};
   ASSERT_TRUE(becomes_true([&] {
-    show(&post);
+    show(hall);
     const StopNews news = guard_->stop_now();
     return news.result.state == kStop && (news.result.reasons & POSE_WALL_PLANAR_STOP_R_THING) != 0;
   }));

@@ -25,9 +25,6 @@ struct PlanarKeyRow {
 constexpr const char* kRoadwayGroup = translatable("Live: map of the roadway");
 constexpr const char* kStopGroup = translatable("Live: obstacle stop, and the machine that it stops");
 
-// A quarter of a degree, as planar scanners have it: a turn has 1440 beams.
-constexpr double kBeam_rad = 0.25 * kRadPerDeg;
-
 // The ranges lie within those of pose_wall_planar_stop.h, _scan.h and _map.h.
 const std::vector<PlanarKeyRow>& planar_key_rows() {
   static const std::vector<PlanarKeyRow> table = {
@@ -171,7 +168,6 @@ pose_wall_planar_scanner_settings scanner_settings_of(const PlanarSettings& sett
   static_cast<void>(pose_wall_planar_scanner_settings_init(&scanner));
   scanner.machine_height_m = settings.height_m;
   scanner.ground_clearance_m = settings.clearance_m;
-  scanner.angle_step_rad = kBeam_rad;
   return scanner;
 }
 

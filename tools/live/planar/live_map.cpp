@@ -13,8 +13,10 @@
 namespace pose_wall::tools::live {
 namespace {
 
-// Two looks free a cell (pose_wall_planar_map.h); a third one for what moved through the first.
-constexpr std::uint32_t kScansOfKeyframe = 3;
+// Two looks free a cell (pose_wall_planar_map.h).
+constexpr std::uint32_t kScansOfKeyframe = 2;
+// Of a turn: 2 cm apart at 10 m. A trail of 4096 keyframes then takes 0.1 GB.
+constexpr std::uint32_t kBeamsKept = POSE_WALL_PLANAR_BEAMS_MAX / 2;
 // Scans that a frame inserts anew at most: half a millisecond each.
 constexpr std::size_t kRebuiltAtOnce = 30;
 // 84,000 square metres of cells of 5 cm, in 39 MB.
@@ -33,6 +35,20 @@ std::uint64_t bytes_for(const pose_wall_planar_map_settings& settings) {
   std::uint64_t bytes = 0;
   require_ok(pose_wall_planar_map_memory_needed(&settings, &bytes), translatable("the settings of the map"));
   return bytes;
+}
+
+// With every second beam, third beam ..., so that few enough are left.
+KeptScan thinned(const pose_wall_planar_scan& scan, const pose_wall_planar_slam_result& placed) {
+  const std::uint32_t step = (scan.beams + kBeamsKept - 1) / kBeamsKept;
+  std::vector<float> range_m;
+  range_m.reserve(kBeamsKept);
+  for (std::uint32_t k = 0; k < scan.beams; k += step) range_m.push_back(scan.range_m[k]);
+  pose_wall_planar_scan few = scan;
+  few.beams = static_cast<std::uint32_t>(range_m.size());
+  few.angle_step_rad *= step;
+  few.range_m = range_m.data();
+  few.free_m = nullptr;
+  return KeptScan(few, placed);
 }
 
 }  // namespace
@@ -103,8 +119,7 @@ void LiveMap::add(const pose_wall_planar_scan& scan, const pose_wall_planar_slam
   // A full trail has no place for it for sure; a doubtful or blind scan has none either.
   const bool is_placed = placed.state == POSE_WALL_PLANAR_SLAM_FIRST || placed.state == POSE_WALL_PLANAR_SLAM_TRACKED;
   if (is_placed && placed.is_full == 0 && of_keyframe_ < kScansOfKeyframe) {
-    kept_.emplace_back(scan, placed);
-    kept_.back().scan.free_m = nullptr;
+    kept_.push_back(thinned(scan, placed));
     insert(shown_.get(), kept_.back(), slam);
     ++of_keyframe_;
     is_changed_ = true;

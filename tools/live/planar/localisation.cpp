@@ -27,7 +27,7 @@ namespace {
 // Travel between two places of the track that is shown.
 constexpr double kTrackStep_m = 0.3;
 // A kilometre of road takes some 300.
-constexpr std::uint32_t kTilesMost = 4096;
+constexpr std::uint32_t kTilesMost = 2048;
 
 pose_wall_planar_localise_settings settings_of_localisation() {
   pose_wall_planar_localise_settings settings{};

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <exception>
 #include <mutex>
@@ -88,6 +89,7 @@ class RoadwaySink final : public Sink {
     news->scan.struct_size = sizeof news->scan;
     require_ok(pose_wall_planar_scanner_process(scanner_, &result.frame->frame.cloud, &floor, &news->scan, &view),
                translatable("the scan"));
+    if (floor.measured != 0) floor_z_m_ = -floor.height_m;
     news->state = "no floor";
     if (view.floor_state == POSE_WALL_PLANAR_FLOOR_NONE) return;
     const pose_wall_planar_scan scan = news->scan;
@@ -116,20 +118,28 @@ class RoadwaySink final : public Sink {
     track_ = std::make_shared<const std::vector<pose_wall_planar_pose>>(finder_->track());
   }
 
+  // The stop goes by the key, and the engine measures: who has set it wrong shall read it.
+  bool is_floor_elsewhere() const {
+    constexpr double kFloorError_m = 0.3;
+    return std::abs(floor_z_m_ - planar_.floor_z_m) > kFloorError_m;
+  }
+
   void note(const RoadwayNews& news, const std::string& fault, std::int64_t took_ns) {
     const bool is_placed = news.pose.has_value();
     PartHealth health;
-    health.grade = fault.empty() && is_placed ? Grade::kGood : Grade::kWarning;
+    health.grade = fault.empty() && is_placed && !is_floor_elsewhere() ? Grade::kGood : Grade::kWarning;
     health.summary = !fault.empty()   ? "refused: " + fault
                      : !news.has_scan ? "no floor is measured: there is no scan"
                      : planar_.maps() ? (is_placed ? "maps" : "the scan fits the map badly")
                                       : "place: " + news.state;
+    if (is_floor_elsewhere()) health.summary += "; the floor is not at planar_floor_z";
     frames_ += 1;
     placed_ += is_placed ? 1 : 0;
     took_worst_ns_ = std::max(took_worst_ns_, took_ns);
     health.add("state", news.state);
     health.add("scans", frames_);
     health.add("scans with a place", placed_);
+    health.add("floor z m", fmt::format("{:.2f}", floor_z_m_));
     health.add("scan worst ms", fmt::format("{:.1f}", static_cast<double>(took_worst_ns_) * 1e-6));
     for (const auto& [name, value] : finder_->facts()) health.add(name, value);
     if (map_) health.add("map", fmt::format("{} x {} cells of {:g} m", map_->width, map_->height, map_->resolution_m));
@@ -149,6 +159,7 @@ class RoadwaySink final : public Sink {
   std::shared_ptr<const RoadwayMap> map_;
   std::shared_ptr<const std::vector<pose_wall_planar_pose>> track_;
   std::uint64_t frames_ = 0, placed_ = 0;
+  double floor_z_m_ = NAN;  // as last measured; before that it is nowhere else
   std::int64_t took_worst_ns_ = 0;
 
   mutable std::mutex lock_;
