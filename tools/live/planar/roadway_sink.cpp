@@ -4,6 +4,7 @@
 #include "live/planar/roadway_sink.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +49,7 @@ class RoadwaySink final : public Sink {
   bool wants_clouds() const override { return true; }
 
   void take(const LiveResult& result) override {
+    yield_to_others();
     if (result.publication.cause != POSE_WALL_RUNTIME_FRAME || !result.frame) return;
     const std::int64_t began_ns = monotonic_ns();
     auto news = std::make_shared<RoadwayNews>();
@@ -71,6 +73,13 @@ class RoadwaySink final : public Sink {
 
  private:
   static std::string part() { return "planar roadway"; }
+
+  // Once, in the sink's thread: engine and stop come first where there are too few cores. By Linux 0 is this thread.
+  void yield_to_others() {
+    constexpr int kNice = 5;
+    if (!yields_) setpriority(PRIO_PROCESS, 0, kNice);
+    yields_ = true;
+  }
 
   void open_scanner(const pose_wall_config& config) {
     scanner_ = nullptr;
@@ -156,6 +165,7 @@ class RoadwaySink final : public Sink {
   std::unique_ptr<PlaceFinder> finder_;
   std::uint64_t run_ = 0;  // of motion, at the last scan with odometry; 0: there was none
   std::int64_t renewed_ns_ = 0;
+  bool yields_ = false;
   std::shared_ptr<const RoadwayMap> map_;
   std::shared_ptr<const std::vector<pose_wall_planar_pose>> track_;
   std::uint64_t frames_ = 0, placed_ = 0;

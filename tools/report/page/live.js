@@ -91,6 +91,8 @@ function show_mount() {
 // The daemon speaks English. The page translates the texts that it knows and leaves the others as they are.
 function translated(kind, text) { return (words()[kind] || {})[text] || text; }
 function part_text_of(name) {
+  const whole = translated('part_names', name);
+  if (whole !== name) return whole;
   const [kind, ...rest] = name.split(' ');
   return [translated('part_names', kind), ...rest].join(' ');
 }

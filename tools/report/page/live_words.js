@@ -44,7 +44,7 @@ Object.assign(WORDS.zh, {
   stop_reasons: { stale: '没有新帧', blind: '前路有未见之处', invalid: '帧无效', frozen: '点云不变', missing: '运动未知', thing: '前路有物', low: '低矮', nearing: '可能靠近', speed: '超过允许速度', dust: '粉尘或细物', no_floor: '未见底板', restart: '畅通时间尚短' },
   place_states: { first: '开始建图', tracked: '已知', doubtful: '存疑', blind: '所见过少', searching: '正在搜索', unknown: '不在此图中', ambiguous: '不唯一', unique: '已知', 'no floor': '未测得底板' },
   // Of the daemon, which speaks English; what is not listed stays as it is.
-  part_names: { runtime: '运行时', source: '输入', sink: '输出', planar: '平面' },
+  part_names: { runtime: '运行时', source: '输入', sink: '输出', 'planar stop': '障碍停车', 'planar roadway': '巷道地图' },
   summaries: {
     measures: '正在测量', 'frames come, nothing is measured': '有帧到达，但均未测得', 'no frame yet': '尚无帧', 'no frame comes': '没有新的帧',
     'the worker hangs: results are old, and all values invalid': '计算线程停滞：结果陈旧，全部值无效', 'nothing is measured': '均未测得',
