@@ -370,6 +370,22 @@ class WithoutMaster(unittest.TestCase):
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn(complaint, done.stderr)
 
+    def test_a_map_that_was_there_before_the_master_is_latched(self):
+        program = live_peer.Program(*live_peer.replay_words(
+            POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--set", "ros1=1", "--set", "planar=map", "--set",
+            "planar_map_every_s=3600"))
+        self.addCleanup(program.kill)
+        self.assertTrue(program.says("planar roadway: maps"), program.log())
+        core = master()
+        self.addCleanup(core.kill)
+        self.assertTrue(live_peer.becomes_true(master_answers))
+        with tempfile.TemporaryDirectory() as folder:
+            bag = pathlib.Path(folder) / "map.bag"
+            subprocess.run(["rosbag", "record", "--duration=4", "-O", str(bag), "/map"], capture_output=True, timeout=60,
+                           check=True)
+            with rosbag.Bag(str(bag)) as read:
+                self.assertEqual(read.get_message_count("/map"), 1, program.log())
+
     def test_waits_for_the_master_and_comes_back_after_it_was_started_anew(self):
         program = live_peer.Program(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--set",
                                                             "ros1=1"))

@@ -12,6 +12,7 @@
 #include "config_file/key_table.hpp"
 #include "config_file/live_settings.hpp"
 #include "config_file/motion_settings.hpp"
+#include "config_file/planar_settings.hpp"
 #include "language/language.hpp"
 #include "ran_command.hpp"
 #include "terminal/text_table.hpp"

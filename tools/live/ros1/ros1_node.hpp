@@ -48,7 +48,8 @@ class Ros1Node {
   // Ends the threads within a second, whatever the master does; no message is taken after it.
   void stop();
 
-  // From any thread. Lost while there is no master; a slow subscriber loses what it has not taken.
+  // From any thread. Lost while there is no master, but for the newest one of a latched topic; a slow subscriber loses
+  // what it has not taken.
   void publish(std::size_t number, const std::string& message);
 
   bool has_master() const { return has_master_; }
@@ -72,6 +73,7 @@ class Ros1Node {
     std::string topic;
     const RosType* type;
     bool is_latched;
+    std::string before_master;  // the newest of a latched topic
   };
 
   void listen_where_allowed() const;
@@ -80,6 +82,7 @@ class Ros1Node {
   void open();
   void register_what_is_missing();
   void count_peers();
+  void send(std::size_t number, const std::string& message);  // under the lock, with ros_
 
   std::string name_, master_uri_;
   HostPort master_;
