@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """Modbus TCP of pose_walld, read by a client that others wrote (pymodbus). Of 10,000 images under load none is torn.
-The structured text of the project decodes what was read, and the obstacle stop. Writes and wrong ranges get exceptions. A client that sends
-garbage, half a request or nothing holds up nobody.
+The structured text of the project decodes what was read, and decides on the obstacle stop. Writes and wrong ranges get
+exceptions. A client that sends garbage, half a request or nothing holds up nobody.
 
 usage: modbus_peer.py ROOT POSE_WALL POSE_WALLD"""
 
@@ -174,8 +174,9 @@ class ObstacleStop(unittest.TestCase):
 
     def test_the_heartbeat_goes_on_and_ends_with_the_frames_and_with_the_daemon(self):
         port, road = live_peer.free_port(), live_peer.simulated_road(POSE_WALL)
-        daemon = live_peer.Program(POSE_WALLD, "--config", road / "pose_wall.yaml", "--replay", road / "frames", "--step",
-                                   "--set", "planar=map", "--modbus", f"127.0.0.1:{port}", stdin=subprocess.PIPE)
+        daemon = live_peer.Program(POSE_WALLD, "--config", road / "pose_wall.yaml", "--replay", road / "frames",
+                                   "--step", "--set", "planar=map", "--modbus", f"127.0.0.1:{port}",
+                                   stdin=subprocess.PIPE)
         self.addCleanup(daemon.kill)
         self.assertTrue(daemon.says("sink modbus"), daemon.log())
         client = ModbusTcpClient("127.0.0.1", port=port)

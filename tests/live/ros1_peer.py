@@ -142,8 +142,8 @@ class Tools(WithMaster):
         topics = ("/scan", "/map", "/pose", "/pose_wall/stop", "/pose_wall/stop_state", "/tf")
         with tempfile.TemporaryDirectory() as folder:
             bag = pathlib.Path(folder) / "planar.bag"
-            subprocess.run(["rosbag", "record", "--duration=3", "-O", str(bag), *topics], capture_output=True, timeout=60,
-                           check=True)
+            subprocess.run(["rosbag", "record", "--duration=3", "-O", str(bag), *topics], capture_output=True,
+                           timeout=60, check=True)
             with rosbag.Bag(str(bag)) as read:
                 told = {}
                 for topic, message, _ in read.read_messages():
@@ -381,8 +381,8 @@ class WithoutMaster(unittest.TestCase):
         self.assertTrue(live_peer.becomes_true(master_answers))
         with tempfile.TemporaryDirectory() as folder:
             bag = pathlib.Path(folder) / "map.bag"
-            subprocess.run(["rosbag", "record", "--duration=4", "-O", str(bag), "/map"], capture_output=True, timeout=60,
-                           check=True)
+            subprocess.run(["rosbag", "record", "--duration=4", "-O", str(bag), "/map"], capture_output=True,
+                           timeout=60, check=True)
             with rosbag.Bag(str(bag)) as read:
                 self.assertEqual(read.get_message_count("/map"), 1, program.log())
 
