@@ -44,6 +44,9 @@ TEST(PlanarSettings, RulesOverSeveralKeysNameThem) {
   EXPECT_EQ(planar_fault_of({"planar_tf=base", "planar_map_frame="}),
             "planar_tf: base needs names in planar_map_frame and planar_odom_frame");
   EXPECT_EQ(planar_fault_of({"planar_tf=off", "planar_map_frame="}), "");
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_map=map.yaml"}),
+            "planar_map: with planar: map the name must end in .pwt");
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_map=trail.pwt"}), "");
 }
 
 TEST(PlanarSettings, EveryValueInRangeIsOneThatTheLibraryTakes) {

@@ -9,15 +9,17 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <thread>
 
 #include "live/frame_catcher.hpp"
 #include "live/hall_frames.hpp"
 #include "live/planar/live_map.hpp"
-#include "planar/built_map.hpp"
-#include "planar/map_files.hpp"
 #include "planar/plane_pose.hpp"
-#include "planar/scan_trail.hpp"
 #include "tools/test_files.hpp"
 
 namespace pose_wall::tools::live {
@@ -139,23 +141,13 @@ TEST_F(RoadwaySinkTest, TheMapHasThingsWhereTheyStandAndFreeCellsBetween) {
 
 TEST_F(RoadwaySinkTest, ASavedMapIsWhereAMachineIsFoundAgain) {
   test::TempFolder folder;
-  open("map");
+  const std::string trail = folder.path() + "/trail.pwt";
+  open("map", {"planar_map=" + trail, "planar_map_every_s=1"});
   Hall hall = furnished_hall();
-  ScanTrail trail([] {
-    pose_wall_planar_slam_settings settings{};
-    static_cast<void>(pose_wall_planar_slam_settings_init(&settings));
-    return settings;
-  }());
-  for (int k = 0; k < 40; ++k) {
-    const RoadwayNews& news = drive(1, &hall);
-    pose_wall_planar_scan scan = news.scan;
-    scan.range_m = news.range_m.data();
-    trail.add(scan, nullptr, {}, std::to_string(k));
-  }
-  folder.write("trail.pwt", trail.saved());
-  // The cells beside it, as `pose_wall map` writes both.
-  const BuiltMap cells = build_map(trail.kept_scans(), trail.kept_poses(), 0.05);
-  write_map_files(folder.path() + "/map.yaml", cells.map.grid());
+  drive(39, &hall);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1010));  // planar_map_every_s
+  const std::uint32_t width = drive(1, &hall).map->width;
+  sink_->stop();
 
   Hall set_down = furnished_hall();
   set_down.x_m = 1.5, set_down.y_m = 0.6, set_down.yaw_rad = 0.7;
@@ -175,8 +167,22 @@ TEST_F(RoadwaySinkTest, ASavedMapIsWhereAMachineIsFoundAgain) {
     }
     EXPECT_TRUE(news->pose) << file << ": " << news->state;
     ASSERT_TRUE(news->map) << file;
-    EXPECT_EQ(news->map->width, cells.map.width);
+    EXPECT_EQ(news->map->width, width);
   }
+}
+
+TEST_F(RoadwaySinkTest, AMapThatIsThereAlreadyIsKeptAndAFolderThatIsMissingHurtsNobody) {
+  test::TempFolder folder;
+  folder.write("trail.pwt", "an earlier one");
+  Hall hall = furnished_hall();
+  for (const char* file : {"/trail.pwt", "/missing/trail.pwt"}) {
+    open("map", {"planar_map=" + folder.path() + file});
+    EXPECT_TRUE(drive(2, &hall).pose);
+    sink_->stop();
+  }
+  std::ifstream earlier(folder.path() + "/trail.pwt");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(earlier), {}), "an earlier one");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() + "/map.yaml"));
 }
 
 TEST_F(RoadwaySinkTest, MapsThatCannotBeReadAreNamed) {

@@ -33,7 +33,9 @@ const std::vector<PlanarKeyRow>& planar_key_rows() {
                      "map of planar_map. The obstacle stop works in both")},
        &PlanarSettings::mode},
       {{"planar_map", kRoadwayGroup, OutsideKey::Type::kText, "", 0, 0, "",
-        translatable("saved map for localise: trail.pwt of `pose_wall map -o FOLDER`, or map.yaml as Nav2 has it")},
+        translatable(
+            "localise: the map that is read, trail.pwt of `pose_wall map -o FOLDER` or of planar: map, or map.yaml as "
+            "Nav2 has it. map: where the map is saved, a name in .pwt; a file that is there already is kept")},
        &PlanarSettings::map},
       {{"planar_cell", kRoadwayGroup, OutsideKey::Type::kNumber, "m", 0.02, 0.5, "",
         translatable("side of a cell of the map")},
@@ -174,6 +176,12 @@ pose_wall_planar_scanner_settings scanner_settings_of(const PlanarSettings& sett
 std::string broken_planar_rule(const PlanarSettings& settings) {
   if (settings.mode == "localise" && settings.map.empty()) {
     return say("planar: localise needs planar_map, the file of a saved map");
+  }
+  const std::string ending = ".pwt";
+  const bool is_trail = settings.map.size() > ending.size() &&
+                        settings.map.compare(settings.map.size() - ending.size(), ending.size(), ending) == 0;
+  if (settings.maps() && !settings.map.empty() && !is_trail) {
+    return say("planar_map: with planar: map the name must end in .pwt");
   }
   if (settings.tf != "off" && (settings.map_frame.empty() || settings.odom_frame.empty())) {
     return say("planar_tf: {} needs names in planar_map_frame and planar_odom_frame", settings.tf);

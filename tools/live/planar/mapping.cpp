@@ -3,11 +3,17 @@
 
 // The SLAM as a finder of places.
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
+#include "frames/whole_file.hpp"
 #include "language/language.hpp"
+#include "live/log.hpp"
 #include "live/planar/live_map.hpp"
 #include "live/planar/place_finder.hpp"
+#include "planar/map_files.hpp"
 #include "planar/part_block.hpp"
 #include "pose_wall_planar_slam.h"
 
@@ -29,10 +35,13 @@ std::uint64_t bytes_for(const pose_wall_planar_slam_settings& settings) {
 class Mapping final : public PlaceFinder {
  public:
   explicit Mapping(const PlanarSettings& settings)
-      : settings_(default_slam_settings()), block_(bytes_for(settings_)), map_(settings.cell_m) {
+      : settings_(default_slam_settings()), block_(bytes_for(settings_)), map_(settings.cell_m), file_(settings.map) {
     require_ok(pose_wall_planar_slam_open(&settings_, block_.data(), block_.bytes(), &slam_),
                translatable("the settings of the map"));
     last_.struct_size = sizeof last_;
+    if (file_.empty() || !std::filesystem::exists(file_)) return;
+    log_line(Grade::kWarning, "planar", fmt::format("{} is there already: this map is not saved", file_.string()));
+    file_.clear();
   }
 
   void place(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry, RoadwayNews* news) override {
@@ -59,6 +68,20 @@ class Mapping final : public PlaceFinder {
     return poses;
   }
 
+  // Under another name first: whoever reads it, or a loss of power, finds a whole file.
+  void save(const RoadwayMap* map) override {
+    if (file_.empty() || last_.keyframes == 0) return;
+    std::uint64_t bytes = 0;
+    require_ok(pose_wall_planar_slam_save_bytes(slam_, &bytes), translatable("the trail"));
+    std::string saved(static_cast<std::size_t>(bytes), '\0');
+    require_ok(pose_wall_planar_slam_save(slam_, saved.data(), saved.size(), &bytes), translatable("the trail"));
+    const std::filesystem::path part = file_.string() + ".part";
+    write_whole_file(part, saved);
+    std::filesystem::rename(part, file_);
+    if (map != nullptr) write_map_files(file_.parent_path() / "map.yaml", map->grid());
+    log_line(Grade::kGood, "planar", fmt::format("saved {} keyframes in {}", last_.keyframes, file_.string()));
+  }
+
   std::vector<std::pair<std::string, std::string>> facts() const override {
     return {{"keyframes", std::to_string(last_.keyframes)},
             {"closures", std::to_string(last_.closures)},
@@ -73,6 +96,7 @@ class Mapping final : public PlaceFinder {
   pose_wall_planar_slam* slam_ = nullptr;
   pose_wall_planar_slam_result last_{};
   LiveMap map_;
+  std::filesystem::path file_;  // empty: not saved
 };
 
 }  // namespace

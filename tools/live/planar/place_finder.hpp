@@ -30,6 +30,9 @@ class PlaceFinder {
   virtual std::shared_ptr<const RoadwayMap> changed_map(std::int64_t header_stamp_ns) = 0;
   // The way so far, of kTrackMost places at most.
   virtual std::vector<pose_wall_planar_pose> track() const = 0;
+  // Writes the map to its file, where there is one to write; `map` is what is shown of it, or nullptr. Throws
+  // std::runtime_error.
+  virtual void save(const RoadwayMap* /*map*/) {}
   // Names and values for health.
   virtual std::vector<std::pair<std::string, std::string>> facts() const = 0;
 

@@ -29,6 +29,9 @@ std::uint64_t bytes_for(const pose_wall_planar_scanner_settings& settings) {
   return bytes;
 }
 
+// A loss of power loses so much of a map. Each save writes all of it, 15 MB for a kilometre.
+constexpr std::int64_t kSaveEvery_ns = 300'000'000'000;
+
 class RoadwaySink final : public Sink {
  public:
   RoadwaySink(const LoadedConfig& loaded, TellRoadway tell)
@@ -43,7 +46,7 @@ class RoadwaySink final : public Sink {
     finder_ = planar_.maps() ? make_mapping(planar_) : make_localisation(planar_);
     log_line(Grade::kGood, part(), planar_.maps() ? "begins a new map" : "looks for the machine in " + planar_.map);
   }
-  void stop() override {}
+  void stop() override { save(); }
 
   std::size_t backlog() const override { return 4; }
   bool wants_clouds() const override { return true; }
@@ -61,6 +64,7 @@ class RoadwaySink final : public Sink {
       fault = error.what();
     }
     tell_(news);
+    if (began_ns - saved_ns_ >= kSaveEvery_ns) save();
     note(*news, fault, monotonic_ns() - began_ns);
   }
 
@@ -127,6 +131,15 @@ class RoadwaySink final : public Sink {
     track_ = std::make_shared<const std::vector<pose_wall_planar_pose>>(finder_->track());
   }
 
+  void save() {
+    saved_ns_ = monotonic_ns();
+    try {
+      if (finder_) finder_->save(map_.get());
+    } catch (const std::exception& fault) {
+      log_line(Grade::kBad, part(), fmt::format("the map is not saved: {}", fault.what()));
+    }
+  }
+
   // The stop goes by the key, and the engine measures: who has set it wrong shall read it.
   bool is_floor_elsewhere() const {
     constexpr double kFloorError_m = 0.3;
@@ -164,7 +177,7 @@ class RoadwaySink final : public Sink {
   pose_wall_planar_scanner* scanner_ = nullptr;
   std::unique_ptr<PlaceFinder> finder_;
   std::uint64_t run_ = 0;  // of motion, at the last scan with odometry; 0: there was none
-  std::int64_t renewed_ns_ = 0;
+  std::int64_t renewed_ns_ = 0, saved_ns_ = monotonic_ns();
   bool yields_ = false;
   std::shared_ptr<const RoadwayMap> map_;
   std::shared_ptr<const std::vector<pose_wall_planar_pose>> track_;
