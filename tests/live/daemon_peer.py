@@ -131,6 +131,12 @@ class Words(Folder):
         self.refused(["--sped", "2"], 2, "--sped")
         self.refused(["--set", "udp_address=sensor"], 2, "udp_address: 'sensor' is refused; allowed: an IPv4 address")
         self.refused(["--set", "sensor=vlp61"], 2, "sensor: 'vlp61' is refused; allowed: ", "did you mean 'vlp16'?")
+        self.refused(["--set", "planar=on"], 2, "planar: 'on' is refused; allowed: one of off, map, localise")
+        self.refused(["--set", "planar_stale=2"], 2, "planar_stale: '2' is refused; allowed: a number from 0.02 to 1 s")
+        self.refused(["--set", "planar=localise"], 2, "planar: localise needs planar_map")
+        port = f"udp_port={live_peer.free_port(socket.SOCK_DGRAM)}"
+        self.refused(["--set", port, "--set", "planar=localise", "--set", "planar_map=/nowhere/trail.pwt"], 1,
+                     "planar_map: /nowhere/trail.pwt cannot be read")
         blocked = self.folder / "file"
         blocked.write_text("")
         self.refused(["--set", f"recording={blocked}/x"], 1, f"{blocked}/x: ")
@@ -182,6 +188,18 @@ class Service(Folder):
             self.assertTrue(daemon.says("listens"))
             daemon.process.send_signal(stop)
             self.assertEqual(daemon.process.wait(3), 0, stop)
+
+    def test_somebody_who_has_looked_is_heard(self):
+        for planar, answer in (("map", "somebody has looked: nothing is close around the machine"),
+                               ("off", "somebody has looked, but the key `planar` is off")):
+            daemon = self.start(POSE_WALLD, "--set", f"udp_port={live_peer.free_port(socket.SOCK_DGRAM)}", "--set",
+                                f"planar={planar}")
+            self.assertTrue(daemon.says("listens"))
+            daemon.process.send_signal(signal.SIGUSR1)
+            self.assertTrue(daemon.says(answer), daemon.log())
+            self.assertEqual(any("planar stop: stops" in line for line in daemon.lines), planar == "map")
+            self.assertLess(daemon.stop(), 2)
+            self.assertEqual(daemon.process.returncode, 0)
 
     def test_the_unit_file_is_sound(self):
         if not shutil.which("systemd-analyze"):

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """Modbus TCP of pose_walld, read by a client that others wrote (pymodbus). Of 10,000 images under load none is torn.
-The structured text of the project decodes what was read. Writes and wrong ranges get exceptions. A client that sends
-garbage, half a request or nothing holds up nobody.
+The structured text of the project decodes what was read, and decides on the obstacle stop. Writes and wrong ranges get
+exceptions. A client that sends garbage, half a request or nothing holds up nobody.
 
 usage: modbus_peer.py ROOT POSE_WALL POSE_WALLD"""
 
 import pathlib
 import socket
 import struct
+import subprocess
 import sys
 import time
 import unittest
@@ -114,6 +115,11 @@ class Modbus(unittest.TestCase):
         self.assertTrue(released, "the block used no image")
         self.assertGreater(len(set(values)), 3, "frames come")
 
+    def test_without_a_stop_its_register_never_permits(self):
+        client = self.client()
+        for _ in range(3):
+            self.assertEqual(client.read_input_registers(3000, 4, slave=1).registers, [0, 0, 0, 0])
+
     def test_what_is_no_read_of_the_images_gets_an_exception(self):
         client = self.client()
         illegal_function, illegal_address, illegal_value = 1, 2, 3
@@ -161,6 +167,46 @@ class Modbus(unittest.TestCase):
         with live_peer.running(*live_peer.replay_words(POSE_WALLD, road, "--modbus", f"127.0.0.1:{self.port}")) as two:
             self.assertEqual(two.process.wait(live_peer.PATIENCE_S), 1)
             self.assertTrue(two.says(f"modbus: cannot listen at 127.0.0.1:{self.port}: Address already in use"))
+
+
+class ObstacleStop(unittest.TestCase):
+    """The stop as a controller reads it: one register. The project's structured text decides on it."""
+
+    def test_the_heartbeat_goes_on_and_ends_with_the_frames_and_with_the_daemon(self):
+        port, road = live_peer.free_port(), live_peer.simulated_road(POSE_WALL)
+        daemon = live_peer.Program(POSE_WALLD, "--config", road / "pose_wall.yaml", "--replay", road / "frames",
+                                   "--step", "--set", "planar=map", "--modbus", f"127.0.0.1:{port}",
+                                   stdin=subprocess.PIPE)
+        self.addCleanup(daemon.kill)
+        self.assertTrue(daemon.says("sink modbus"), daemon.log())
+        client = ModbusTcpClient("127.0.0.1", port=port)
+        self.assertTrue(client.connect())
+        self.addCleanup(client.close)
+        program = structured_text.Program((ROOT / "tools/plc/FB_PoseWall.st").read_text(encoding="utf-8"))
+        controller = structured_text_run.Controller(program)
+        block = controller.make("FB_PoseWallStop")
+        beats, stale, ages = set(), set(), []
+        began = time.monotonic()
+        daemon.process.stdin.write("\n")
+        daemon.process.stdin.flush()
+        while time.monotonic() - began < 1.5:
+            word, allowed_mm_s, reasons, age_ms = client.read_input_registers(3000, 4, slave=1).registers
+            controller.now_ms = int(1000 * (time.monotonic() - began))
+            controller.call(block, dwRegister=word)
+            beats.add(word >> 8)
+            ages.append(age_ms)
+            stale.add(reasons & 1)
+            self.assertEqual((word & 0xFF, allowed_mm_s), (0, 0), "one frame alone permits nothing")
+            self.assertTrue(block["xStop"])
+            time.sleep(0.01)
+        self.assertEqual(block["udiFault"], 0, "the daemon answers")
+        self.assertGreater(len(beats), 25, "every 20 ms")
+        self.assertIn(1, stale, "the only frame is stale by now")
+        self.assertGreater(max(age for age in ages if age < 65535), 1000)
+        daemon.kill()
+        controller.now_ms += 300
+        controller.call(block, dwRegister=word)
+        self.assertEqual((block["xStop"], block["udiFault"]), (True, 1), "silent")
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@
 #include <atomic>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <random>
 #include <set>
 #include <string>
@@ -53,6 +54,23 @@ class CountingImages final : public Images {
     return image;
   }
   mutable std::atomic<unsigned> asked_{0};
+};
+
+// A stop that says what it is told to.
+class SaidStop final : public StopBoard {
+ public:
+  StopNews stop_now() const override {
+    const std::lock_guard<std::mutex> locked(lock_);
+    return news_;
+  }
+  void say(const StopNews& news) {
+    const std::lock_guard<std::mutex> locked(lock_);
+    news_ = news;
+  }
+
+ private:
+  mutable std::mutex lock_;
+  StopNews news_;
 };
 
 class Client {
@@ -127,12 +145,13 @@ class ModbusServerTest : public ::testing::Test {
     if (server_) server_->stop();
   }
   std::unique_ptr<Sink> make(std::uint16_t port) const {
-    return make_modbus_sink(load_config("", {"modbus=127.0.0.1:" + std::to_string(port)}), images_);
+    return make_modbus_sink(load_config("", {"modbus=127.0.0.1:" + std::to_string(port)}), images_, &stop_);
   }
   Text alone(const Text& request, std::size_t bytes) const { return Client(port_).ask(request, bytes); }
 
   const std::uint16_t port_ = pose_wall::test::free_tcp_port();
   CountingImages images_;
+  SaidStop stop_;
   std::unique_ptr<Sink> server_;
 };
 
@@ -164,6 +183,44 @@ TEST_F(ModbusServerTest, WithoutMotionItsRegistersAreNotThere) {
   constexpr char kAddress = 2;
   EXPECT_EQ(alone(read_request(3, 2000, 66), kExceptionBytes), exception(3, 4, kAddress));
   EXPECT_EQ(alone(read_request(3, 1000, 124), answer_bytes(124)).size(), answer_bytes(124));
+}
+
+TEST_F(ModbusServerTest, TheStopIsOneRegisterWithItsHeartbeat) {
+  StopNews news;
+  news.result.state = POSE_WALL_PLANAR_STOP_SLOW;
+  news.result.allowed_speed_m_s = 0.4567;
+  news.result.reasons = POSE_WALL_PLANAR_STOP_R_THING | POSE_WALL_PLANAR_STOP_R_RESTART;
+  news.result.frames = 1;
+  news.result.stamp_ns = 1'000'000'000, news.result.now_ns = 1'234'999'999;
+  news.rounds = 0x1A5;  // its low byte is the heartbeat
+  stop_.say(news);
+  EXPECT_EQ(alone(read_request(1, 3000, 1), answer_bytes(1)), adu(1, Text("\x04\x02\xA5\x01")));
+  EXPECT_EQ(alone(read_request(2, 3000, 4), answer_bytes(4)),
+            adu(2, Text("\x04\x08") + word(0xA501) + word(456) + word(0x820) + word(234)));
+  news.result.state = POSE_WALL_PLANAR_STOP_GO;
+  news.rounds = 256;
+  stop_.say(news);
+  EXPECT_EQ(alone(read_request(3, 3000, 1), answer_bytes(1)), adu(3, Text("\x04\x02") + word(2)));
+  // A state that nobody knows, times and speeds beyond their register.
+  news.result.state = 3;
+  news.result.now_ns = news.result.stamp_ns + 70'000'000'000;
+  stop_.say(news);
+  EXPECT_EQ(alone(read_request(4, 3000, 4), answer_bytes(4)),
+            adu(4, Text("\x04\x08") + word(0) + word(0) + word(0x820) + word(65535)));
+  constexpr char kAddress = 2;
+  for (const auto& [first, count] : {std::pair(3000U, 5U), {3003U, 2U}, {3004U, 1U}, {2999U, 2U}}) {
+    EXPECT_EQ(alone(read_request(5, first, count), kExceptionBytes), exception(5, 4, kAddress)) << first;
+  }
+}
+
+TEST_F(ModbusServerTest, WithoutAStopItsRegistersSayStopAndTheHeartbeatStands) {
+  const std::uint16_t port = pose_wall::test::free_tcp_port();
+  const auto server = make_modbus_sink(load_config("", {"modbus=127.0.0.1:" + std::to_string(port)}), images_, nullptr);
+  server->start();
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(Client(port).ask(read_request(1, 3000, 4), answer_bytes(4)), adu(1, Text("\x04\x08") + Text(8, '\0')));
+  }
+  server->stop();
 }
 
 TEST_F(ModbusServerTest, EachWrongRequestHasItsException) {

@@ -97,6 +97,10 @@ class Http(unittest.TestCase):
         self.assertEqual(answer.status, 200, body)
         self.assertEqual([part["part"] for part in json.loads(body)["parts"]][:2], ["runtime", "source replay"])
 
+    def test_without_a_map_there_is_none(self):
+        for path in ("/planar.json", "/map.png"):
+            self.assertEqual(self.ask("GET", path)[0].status, 404, path)
+
     def test_nothing_can_be_changed(self):
         for method in ("POST", "PUT", "DELETE", "PATCH", "OPTIONS"):
             self.assertEqual(self.ask(method, "/", body="x")[0].status, 405, method)
@@ -184,6 +188,48 @@ class InABrowser(unittest.TestCase):
     def text(self, browser, name):
         return browser.run(f"return document.getElementById('{name}').textContent")
 
+    def is_drawn(self, browser, canvas):
+        return browser.run(f"const c = document.getElementById('{canvas}');"
+                           "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x)")
+
+    def test_map_place_and_stop(self):
+        self.daemon.kill()
+        self.daemon = live_peer.Program(*words(self.port, "--set", "planar=map", "--set", "planar_map_every_s=1"))
+        self.assertTrue(self.daemon.says("planar roadway: maps"), self.daemon.log())
+        told = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
+        self.addCleanup(told.close)
+        told.request("GET", "/map.png")
+        answer = told.getresponse()
+        self.assertEqual((answer.status, answer.headers["Content-Type"]), (200, "image/png"))
+        self.assertEqual(answer.read()[:8], b"\x89PNG\r\n\x1a\n")
+        told.request("GET", "/planar.json")
+        planar = json.loads(told.getresponse().read())
+        self.assertEqual(planar["stop"]["state"], "stop")
+        self.assertEqual(len(planar["roadway"]["pose"]), 3)
+        browser = self.browser()
+        self.assertTrue(live_peer.becomes_true(lambda: "Place: known" in self.text(browser, "place-line")))
+        self.assertFalse(browser.run("return document.getElementById('roadway-panel').hidden"))
+        self.assertTrue(live_peer.becomes_true(lambda: browser.run("return roadway.map !== null")), "the picture came")
+        self.assertTrue(self.is_drawn(browser, "roadway"))
+        self.assertIn("Obstacle stop: STOP. ", self.text(browser, "stop-line"))
+        browser.run("document.getElementById('roadway-zoom').click()")
+        self.assertEqual(self.text(browser, "roadway-zoom"), "Whole map")
+        if PICTURES:
+            time.sleep(0.5)
+            browser.run("document.getElementById('roadway-panel').scrollIntoView()")
+            browser.screenshot(f"{PICTURES}_roadway_en.png")
+        browser.run("document.getElementById('language').click(); document.documentElement.dataset.theme = 'dark'")
+        self.assertTrue(live_peer.becomes_true(lambda: "障碍停车：停车" in self.text(browser, "stop-line")))
+        self.assertIn("位置：已知", self.text(browser, "place-line"))
+        for bad in ("undefined", "NaN", "[object"):
+            self.assertNotIn(bad, browser.run("return document.body.innerText"))
+        if PICTURES:
+            browser.screenshot(f"{PICTURES}_roadway_zh.png")
+        errors = [entry["message"] for entry in browser.log("browser") if entry["level"] == "SEVERE"]
+        self.assertEqual(errors, [])
+        self.daemon.kill()
+        self.assertTrue(live_peer.becomes_true(lambda: "没有应答" in self.text(browser, "stop-line")))
+
     def test_it_lives(self):
         browser = self.browser()
         first, began = self.shown(browser), time.monotonic()
@@ -197,9 +243,8 @@ class InABrowser(unittest.TestCase):
         self.assertIn("body box 1", self.text(browser, "mount"))
         self.assertTrue(live_peer.becomes_true(lambda: "source replay" in self.text(browser, "health")))
         for canvas in ("top", "section", "chart-yaw"):
-            self.assertTrue(browser.run(
-                f"const c = document.getElementById('{canvas}');"
-                "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x)"), canvas)
+            self.assertTrue(self.is_drawn(browser, canvas), canvas)
+        self.assertTrue(browser.run("return document.getElementById('roadway-panel').hidden"), "there is no map")
         if PICTURES:
             browser.run("document.documentElement.dataset.theme = 'light'")
             time.sleep(0.6)

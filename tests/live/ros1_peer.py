@@ -30,6 +30,7 @@ import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
 try:
     import genpy.dynamic
+    import rosbag
     import rospy
     from geometry_msgs.msg import TransformStamped, Vector3Stamped
     from sensor_msgs.msg import LaserScan, PointCloud2, PointField
@@ -128,6 +129,47 @@ class Tools(WithMaster):
                 self.assertIn(kind, about)
             read = subprocess.run([str(POSE_WALL), "info", str(bag)], capture_output=True, text=True, check=False)
             self.assertIn("ROS 1 bag", read.stdout)
+
+
+    def test_rosbag_reads_scan_map_place_and_stop(self):
+        """By the definitions that come with them; the map only because it is latched."""
+        road = live_peer.simulated_road(POSE_WALL)
+        program = live_peer.Program(*live_peer.replay_words(
+            POSE_WALLD, road, "--set", "ros1=1", "--set", "planar=map", "--set", "planar_map_every_s=3600", "--set",
+            "planar_tf=base"))
+        self.addCleanup(program.kill)
+        self.assertTrue(program.says("planar roadway: maps"), program.log())
+        topics = ("/scan", "/map", "/pose", "/pose_wall/stop", "/pose_wall/stop_state", "/tf")
+        with tempfile.TemporaryDirectory() as folder:
+            bag = pathlib.Path(folder) / "planar.bag"
+            subprocess.run(["rosbag", "record", "--duration=3", "-O", str(bag), *topics], capture_output=True,
+                           timeout=60, check=True)
+            with rosbag.Bag(str(bag)) as read:
+                told = {}
+                for topic, message, _ in read.read_messages():
+                    told.setdefault(topic, []).append(message)
+        self.assertEqual(set(told), set(topics), program.log())
+        self.assertEqual(len(told["/map"]), 1)
+        grid = told["/map"][0]
+        self.assertEqual(len(grid.data), grid.info.width * grid.info.height)
+        self.assertAlmostEqual(grid.info.resolution, 0.05, places=6)
+        self.assertEqual(grid.header.frame_id, "map")
+        self.assertGreater(sum(cell >= 65 for cell in grid.data), 0)
+        scan = told["/scan"][-1]
+        self.assertEqual(scan.header.frame_id, "base_link_scan")
+        self.assertEqual(len(scan.ranges), round((scan.angle_max - scan.angle_min) / scan.angle_increment) + 1)
+        self.assertGreater(sum(far == far for far in scan.ranges), 500)
+        place = told["/pose"][-1]
+        self.assertEqual((place.header.frame_id, len(place.pose.covariance)), ("map", 36))
+        self.assertLess(abs(place.pose.pose.position.x), 0.2, "the machine stands where the map began")
+        links = {(link.header.frame_id, link.child_frame_id) for tree in told["/tf"] for link in tree.transforms}
+        self.assertLessEqual({("map", "base_link"), ("base_link", "base_link_level"),
+                              ("base_link_level", "base_link_scan")}, links)
+        states = told["/pose_wall/stop_state"]
+        beats = [state.heartbeat for state in states]
+        self.assertEqual(beats, sorted(set(beats)))
+        self.assertGreater(len(beats), 10)
+        self.assertEqual({message.data for message in told["/pose_wall/stop"]}, {state.state == 0 for state in states})
 
 
 # As livox_ros_driver2 describes it; rospy packs what it reads here.
@@ -327,6 +369,22 @@ class WithoutMaster(unittest.TestCase):
                                   capture_output=True, text=True, timeout=60, check=False)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn(complaint, done.stderr)
+
+    def test_a_map_that_was_there_before_the_master_is_latched(self):
+        program = live_peer.Program(*live_peer.replay_words(
+            POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--set", "ros1=1", "--set", "planar=map", "--set",
+            "planar_map_every_s=3600"))
+        self.addCleanup(program.kill)
+        self.assertTrue(program.says("planar roadway: maps"), program.log())
+        core = master()
+        self.addCleanup(core.kill)
+        self.assertTrue(live_peer.becomes_true(master_answers))
+        with tempfile.TemporaryDirectory() as folder:
+            bag = pathlib.Path(folder) / "map.bag"
+            subprocess.run(["rosbag", "record", "--duration=4", "-O", str(bag), "/map"], capture_output=True,
+                           timeout=60, check=True)
+            with rosbag.Bag(str(bag)) as read:
+                self.assertEqual(read.get_message_count("/map"), 1, program.log())
 
     def test_waits_for_the_master_and_comes_back_after_it_was_started_anew(self):
         program = live_peer.Program(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--set",

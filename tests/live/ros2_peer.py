@@ -202,6 +202,24 @@ class Peers(Ros2):
             self.assertTrue(program.says(f"{name} is '{value}'"), program.log())
 
 
+class Planar(Ros2):
+    def test_scan_map_place_and_stop(self):
+        self.peer("points=65536", "reliability=reliable")
+        program = self.daemon("planar=map", "planar_map_every_s=3600")
+        self.assertTrue(program.says("planar roadway: maps"), program.log())
+        late = self.peer("results=1", "planar=1")  # it gets the only map because that is latched
+        self.comes_true(lambda: late.seen("map"), late, program)
+        told = late.seen("map")[0]
+        self.assertEqual((told["frame"], told["w"]), ("map", 1))
+        self.assertEqual(told["cells"], told["width"] * told["height"])
+        self.assertAlmostEqual(told["resolution_m"], 0.05, places=5)
+        self.assertGreater(told["things"], 100)
+        topics = ("scan", "pose", "pose_wall/stop", "pose_wall/stop_state")
+        self.comes_true(lambda: all(late.report().get(topic, 0) > 3 for topic in topics), late, program)
+        writers = {one["topic"]: one["type"] for one in late.seen("writer")}
+        self.assertEqual(writers["rt/map"], "nav_msgs::msg::dds_::OccupancyGrid_")
+
+
 class Transforms(Ros2):
     def left_is(self, peer, wanted_m):
         left_m = peer.report()["left_m"]

@@ -12,6 +12,7 @@
 #include "config_file/key_table.hpp"
 #include "config_file/live_settings.hpp"
 #include "config_file/motion_settings.hpp"
+#include "config_file/planar_settings.hpp"
 #include "language/language.hpp"
 #include "ran_command.hpp"
 #include "terminal/text_table.hpp"
@@ -88,6 +89,7 @@ TEST(CheckConfig, EveryKeyHasItsMeaningInChinese) {
   for (const pose_wall_key_info& key : config_keys()) EXPECT_STRNE(tr(key.help), key.help) << key.name;
   for (const OutsideKey& key : motion_keys()) EXPECT_STRNE(tr(key.help), key.help) << key.name;
   for (const OutsideKey& key : live_keys()) EXPECT_STRNE(tr(key.help), key.help) << key.name;
+  for (const OutsideKey& key : planar_keys()) EXPECT_STRNE(tr(key.help), key.help) << key.name;
   choose_language(Language::kEnglish);
 }
 

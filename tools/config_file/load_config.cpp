@@ -60,6 +60,8 @@ class ConfigLoader {
       fault(say("extrinsic_from ({}): tf comes by ROS, so source ({}) must be ros1 or ros2",
                 loaded_.origin("extrinsic_from"), loaded_.origin("source")));
     }
+    const std::string planar_rule = broken_planar_rule(loaded_.planar);
+    if (!planar_rule.empty()) fault(planar_rule);
     pose_wall_rule_fault broken{};
     if (!faults_.empty() || loaded_.config.check(&broken) == POSE_WALL_OK) return;
     std::string keys = fmt::format("{} ({})", broken.key, loaded_.origin(broken.key));
@@ -105,6 +107,9 @@ class ConfigLoader {
   void apply(const std::string& where, const std::string& key, const std::string& value, bool is_sequence) {
     if (const OutsideKey* live_key = find_live_key(key)) {
       return note(where, *live_key, value, !is_sequence && set_live_value(&loaded_.live, *live_key, value));
+    }
+    if (const OutsideKey* planar_key = find_planar_key(key)) {
+      return note(where, *planar_key, value, !is_sequence && set_planar_value(&loaded_.planar, *planar_key, value));
     }
     if (const OutsideKey* motion_key = find_motion_key(key)) {
       return note(where, *motion_key, value, !is_sequence && set_motion_value(&loaded_.motion, *motion_key, value));
@@ -157,6 +162,7 @@ class ConfigLoader {
     std::vector<std::string> names = config_key_names();
     for (const OutsideKey& key : motion_keys()) names.emplace_back(key.name);
     for (const OutsideKey& key : live_keys()) names.emplace_back(key.name);
+    for (const OutsideKey& key : planar_keys()) names.emplace_back(key.name);
     return names;
   }
 

@@ -13,15 +13,17 @@
 
 #include "config_file/live_settings.hpp"
 #include "config_file/motion_settings.hpp"
+#include "config_file/planar_settings.hpp"
 #include "pose_wall.hpp"
 
 namespace pose_wall::tools {
 
 struct LoadedConfig {
   api::Config config;
-  std::string file;   // that was read; empty: none
-  std::string notes;  // what a person should know of the choice of the file; empty: nothing
-  LiveSettings live;  // of pose_walld; the engine does not read them
+  std::string file;       // that was read; empty: none
+  std::string notes;      // what a person should know of the choice of the file; empty: nothing
+  LiveSettings live;      // of pose_walld; the engine does not read them
+  PlanarSettings planar;  // likewise
   pose_wall_motion_settings motion = default_motion_settings();
   std::map<std::string, std::string> origins;  // keys that were set: "pose_wall.yaml:12" or "--set"
 

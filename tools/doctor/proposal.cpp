@@ -98,6 +98,7 @@ std::string Proposal::yaml(const std::vector<std::string>& head) const {
   }
   for (const OutsideKey& key : motion_keys()) add(key.name, motion_value_text(told_.motion, key));
   for (const OutsideKey& key : live_keys()) add(key.name, live_value_text(told_.live, key));
+  for (const OutsideKey& key : planar_keys()) add(key.name, planar_value_text(told_.planar, key));
   return text;
 }
 

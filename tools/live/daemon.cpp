@@ -12,6 +12,7 @@
 
 #include "config_file/key_table.hpp"
 #include "config_file/resolved_frames.hpp"
+#include "live/planar/roadway_sink.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -44,7 +45,23 @@ Daemon::Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& repl
             }
             return false;
           }) {
+  make_planar();
   make_edges(replay);
+}
+
+// The stop stands beside the runtime, not behind it.
+void Daemon::make_planar() {
+  if (!loaded_.planar.is_on()) return;
+  guard_ = std::make_unique<StopGuard>(loaded_, [this](const std::shared_ptr<const StopNews>& news) {
+    for (const auto& sink : sinks_) sink->post(news);
+  });
+  runtime_.watch_frames([this](const std::shared_ptr<const LiveFrame>& frame, const pose_wall_config& config) {
+    guard_->take(frame, config);
+  });
+  roadway_ =
+      std::make_unique<SinkThread>(make_roadway_sink(loaded_, [this](const std::shared_ptr<const RoadwayNews>& news) {
+        for (const auto& sink : sinks_) sink->post(news);
+      }));
 }
 
 void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
@@ -57,9 +74,9 @@ void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
   const bool reads_ros1 = !replay && live.source == "ros1", reads_ros2 = !replay && live.source == "ros2";
   if (live.ros1 || reads_ros1) add(make_ros1_edge(loaded_, *this, reads_ros1, live.ros1));
   if (live.ros2 || reads_ros2) add(make_ros2_edge(loaded_, *this, reads_ros2, live.ros2));
-  if (!live.modbus.empty()) add(make_modbus_sink(loaded_, runtime_));
+  if (!live.modbus.empty()) add(make_modbus_sink(loaded_, runtime_, guard_.get()));
   if (!live.mqtt.empty()) add(make_mqtt_sink(loaded_, *this));
-  if (!live.http.empty()) add(make_page_sink(loaded_, *this));
+  if (!live.http.empty()) add(make_page_sink(loaded_, *this, guard_.get()));
   if (!live.recording.empty()) add(make_recorder(loaded_, *this));
 }
 
@@ -73,6 +90,8 @@ void Daemon::add(RosEdge edge) {
 }
 
 void Daemon::post(const std::shared_ptr<const LiveResult>& result) {
+  if (guard_) guard_->note_motion(*result);
+  if (roadway_) roadway_->post(result);
   for (const auto& sink : sinks_) sink->post(result);
 }
 
@@ -86,6 +105,7 @@ void Daemon::log_start() const {
   for (const pose_wall_key_info& key : config_keys()) tell(key.name, config_written_text(*loaded_.config.get(), key));
   for (const OutsideKey& key : motion_keys()) tell(key.name, motion_value_text(loaded_.motion, key));
   for (const OutsideKey& key : live_keys()) tell(key.name, live_value_text(loaded_.live, key));
+  for (const OutsideKey& key : planar_keys()) tell(key.name, planar_value_text(loaded_.planar, key));
   const bool moves = config_text(*loaded_.config.get(), "motion") == "on";
   log_line(Grade::kGood, "motion",
            moves ? "on: held values move with the machine, and its way along the road is told (key motion)"
@@ -100,36 +120,48 @@ void Daemon::log_status() const {
 
 void Daemon::start() {
   for (const auto& sink : sinks_) sink->start();
+  if (guard_) guard_->start();
+  if (roadway_) roadway_->start();
   runtime_.start();
   source_->start(runtime_);
 }
 
 void Daemon::stop() {
   source_->stop();
+  if (guard_) guard_->stop();
   runtime_.stop();
+  if (roadway_) roadway_->stop();
   for (const auto& sink : sinks_) sink->stop();
 }
 
 std::vector<PartHealth> Daemon::all() const {
   std::vector<PartHealth> parts = {runtime_.health(), source_->health()};
+  if (guard_) parts.push_back(guard_->health());
+  if (roadway_) parts.push_back(roadway_->health());
   for (const auto& sink : sinks_) parts.push_back(sink->health());
   return parts;
 }
 
-void Daemon::look_around() {
+void Daemon::look_around(std::atomic<bool>& looked) {
   health_log_.note(all());
+  if (looked.exchange(false)) {
+    log_line(guard_ ? Grade::kGood : Grade::kWarning, "planar stop",
+             guard_ ? "somebody has looked: nothing is close around the machine"
+                    : "somebody has looked, but the key `planar` is off");
+    if (guard_) guard_->confirm();
+  }
   // A worker that hangs is a reason to be started anew.
   if (runtime_.is_alive()) service_.alive();
 }
 
-void Daemon::run(const std::atomic<bool>& stop_asked) {
+void Daemon::run(const std::atomic<bool>& stop_asked, std::atomic<bool>& looked) {
   log_start();
   start();
   service_.ready();
   const auto status_every = std::chrono::duration<double>(loaded_.live.status_every_s);
   Clock::time_point status_last = Clock::now();
   while (!stop_asked && !source_->is_finished()) {
-    look_around();
+    look_around(looked);
     if (Clock::now() - status_last >= status_every) {
       status_last = Clock::now();
       log_status();

@@ -15,6 +15,7 @@
 #include "live/images.hpp"
 #include "live/live_runtime.hpp"
 #include "live/log.hpp"
+#include "live/planar/stop_guard.hpp"
 #include "live/service_manager.hpp"
 #include "live/sink_thread.hpp"
 #include "live/source.hpp"
@@ -27,13 +28,15 @@ class Daemon final : public HealthBoard {
   Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& replay);
   ~Daemon() override { stop(); }
 
-  // Until `stop` is true, or a recording is through. Throws what the starts of source and sinks throw, and
+  // Until `stop` is true, or a recording is through. `looked` is true where somebody has looked around the machine
+  // (StopGuard::confirm); it becomes false as it is heeded. Throws what the starts of source and sinks throw, and
   // std::runtime_error for a recording that could not be played to its end or holds no cloud.
-  void run(const std::atomic<bool>& stop);
+  void run(const std::atomic<bool>& stop, std::atomic<bool>& looked);
 
   std::vector<PartHealth> all() const override;
 
  private:
+  void make_planar();
   void make_edges(const std::optional<ReplayPlan>& replay);
   void add(std::unique_ptr<Sink> sink);
   void add(RosEdge edge);
@@ -42,11 +45,13 @@ class Daemon final : public HealthBoard {
   void log_status() const;
   void start();
   void stop();
-  void look_around();
+  void look_around(std::atomic<bool>& looked);
 
   LoadedConfig loaded_;
   LiveRuntime runtime_;
   std::unique_ptr<Source> source_;
+  std::unique_ptr<StopGuard> guard_;  // where the key `planar` is on
+  std::unique_ptr<SinkThread> roadway_;
   std::vector<std::unique_ptr<SinkThread>> sinks_;
   ServiceManager service_;
   HealthLog health_log_;

@@ -13,6 +13,7 @@
 
 #include "config_file/load_config.hpp"
 #include "live/images.hpp"
+#include "live/planar/planar_news.hpp"
 #include "live/sink.hpp"
 #include "live/source.hpp"
 
@@ -43,9 +44,11 @@ std::unique_ptr<Source> make_replay_source(const ReplayPlan& plan);
 RosEdge make_ros1_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes);
 RosEdge make_ros2_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes);
 
-std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images);
+// stop: none where the planar part is off; its registers are then 0.
+std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop);
 std::unique_ptr<Sink> make_mqtt_sink(const LoadedConfig& loaded, const HealthBoard& health);
-std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health);
+// stop: as above.
+std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop);
 std::unique_ptr<Sink> make_recorder(const LoadedConfig& loaded, const HealthBoard& health);
 
 // What the runtime writes its black box with: a ring file for each start, in a folder of bounded size.

@@ -138,6 +138,7 @@ void LiveRuntime::take(LiveFrame frame) {
   if (frame.frame_id.empty()) frame.frame_id = settings_.lidar_frame;
   const auto shared = std::make_shared<const LiveFrame>(std::move(frame));
   const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  if (watch_) watch_(shared, *config_.get());
   {
     const std::lock_guard<std::mutex> frames_locked(frames_lock_);
     frames_[next_number_] = shared;

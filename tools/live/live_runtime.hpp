@@ -34,6 +34,12 @@ class LiveRuntime final : public FrameTaker, public Images {
               std::function<bool()> wants_points);
   ~LiveRuntime() override;
 
+  // Sees each frame before the engine does, with the config that holds for it, in the source's thread; it must not
+  // wait.
+  using Watch = std::function<void(const std::shared_ptr<const LiveFrame>&, const pose_wall_config&)>;
+  // Before start.
+  void watch_frames(Watch watch) { watch_ = std::move(watch); }
+
   void start();
   void stop();
 
@@ -79,6 +85,7 @@ class LiveRuntime final : public FrameTaker, public Images {
   BlackBox box_, spare_box_;  // spare: opened before the runtime that will write it
   Post post_;
   std::function<bool()> wants_points_;
+  Watch watch_;
 
   mutable std::shared_mutex handle_lock_;  // unique: opens and closes; shared: calls
   std::vector<Line> block_;

@@ -42,7 +42,7 @@ class StopSignals {
  public:
   StopSignals() {
     sigemptyset(&signals_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) sigaddset(&signals_, signal);
     // Before any other thread begins, so that all of them inherit it.
     pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
@@ -58,11 +58,13 @@ class StopSignals {
   }
 
   const std::atomic<bool>& asked() const { return asked_; }
+  // By SIGUSR1: somebody has looked around the machine.
+  std::atomic<bool>& looked() { return looked_; }
 
  private:
   void wait() {
     int signal = 0;
-    sigwait(&signals_, &signal);
+    while (sigwait(&signals_, &signal) == 0 && signal == SIGUSR1) looked_ = true;
     if (done_) return;
     asked_ = true;
     // Further signals hurry nothing and cancel nothing.
@@ -74,7 +76,7 @@ class StopSignals {
   }
 
   sigset_t signals_{};
-  std::atomic<bool> asked_{false}, done_{false};
+  std::atomic<bool> asked_{false}, looked_{false}, done_{false};
   std::thread thread_;
 };
 
@@ -84,9 +86,9 @@ int run(Words words) {
   const LoadedConfig loaded = load_config(words.config_file, words.settings);
   std::optional<ReplayPlan> replay;
   if (!words.replay.inputs.empty()) replay = words.replay;
-  const StopSignals signals;
+  StopSignals signals;
   Daemon daemon(loaded, replay);
-  daemon.run(signals.asked());
+  daemon.run(signals.asked(), signals.looked());
   return kExitDone;
 }
 

@@ -14,6 +14,7 @@
 
 #include "live/health.hpp"
 #include "live/live_frame.hpp"
+#include "live/planar/planar_news.hpp"
 #include "pose_wall_runtime.h"
 
 namespace pose_wall::tools::live {
@@ -47,6 +48,12 @@ class Sink {
 
   // One result after the other, in the sink's own thread. May be slow. Throws nothing: what goes wrong shows in health.
   virtual void take(const LiveResult& result) = 0;
+
+  // News of the obstacle stop and of the map, between results and like them, where it wants them: of each kind the
+  // newest.
+  virtual void take_stop(const StopNews& /*news*/) {}
+  virtual void take_roadway(const RoadwayNews& /*news*/) {}
+  virtual bool wants_planar() const { return false; }
 
   // After the last take, in the daemon's thread.
   virtual void stop() = 0;

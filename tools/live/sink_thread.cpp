@@ -3,6 +3,8 @@
 
 #include "live/sink_thread.hpp"
 
+#include <utility>
+
 namespace pose_wall::tools::live {
 
 void SinkThread::start() {
@@ -41,14 +43,21 @@ void SinkThread::post(const std::shared_ptr<const LiveResult>& whole_result) {
 void SinkThread::run() {
   std::unique_lock<std::mutex> locked(lock_);
   while (true) {
-    changed_.wait(locked, [this] { return ending_ || !waiting_.empty(); });
-    if (waiting_.empty()) return;
-    const std::shared_ptr<const LiveResult> result = std::move(waiting_.front());
-    waiting_.pop_front();
+    changed_.wait(locked, [this] { return ending_ || has_work(); });
+    if (!has_work()) return;
+    const std::shared_ptr<const StopNews> stop = std::exchange(stop_news_, nullptr);
+    const std::shared_ptr<const RoadwayNews> roadway = std::exchange(roadway_news_, nullptr);
+    std::shared_ptr<const LiveResult> result;
+    if (!waiting_.empty()) {
+      result = std::move(waiting_.front());
+      waiting_.pop_front();
+    }
     locked.unlock();
-    sink_->take(*result);
+    if (stop) sink_->take_stop(*stop);
+    if (result) sink_->take(*result);
+    if (roadway) sink_->take_roadway(*roadway);
     locked.lock();
-    ++taken_;
+    if (result) ++taken_;
   }
 }
 
@@ -68,6 +77,7 @@ PartHealth SinkThread::health() const {
   const std::lock_guard<std::mutex> locked(lock_);
   health.add("results taken", taken_);
   health.add("results lost to slowness", lost_);
+  if (sink_->wants_planar()) health.add("planar news lost to slowness", news_lost_);
   return health;
 }
 

@@ -59,17 +59,16 @@ std::string seconds_of(std::int64_t stamp_ns) {
   return fmt::format("{}{}.{:09}", is_negative ? "-" : "", ns / kNsPerS, ns % kNsPerS);
 }
 
-// x, y and yaw of base in the plane; none while the motion is lost.
-std::optional<pose_wall_planar_pose> odometry_of(const std::optional<pose_wall_motion_result>& moved) {
-  if (!moved || moved->along_state == POSE_WALL_ALONG_LOST) return std::nullopt;
-  const double* const q = moved->quaternion;  // x, y, z, w
+}  // namespace
+
+std::optional<pose_wall_planar_pose> plane_odometry(const pose_wall_motion_result& moved) {
+  if (moved.along_state == POSE_WALL_ALONG_LOST) return std::nullopt;
+  const double* const q = moved.quaternion;  // x, y, z, w
   const double yaw_rad = std::atan2(2.0 * (q[3] * q[2] + q[0] * q[1]), 1.0 - 2.0 * (q[1] * q[1] + q[2] * q[2]));
-  const pose_wall_planar_pose pose{moved->position_m[0], moved->position_m[1], yaw_rad};
+  const pose_wall_planar_pose pose{moved.position_m[0], moved.position_m[1], yaw_rad};
   if (!std::isfinite(pose.x_m) || !std::isfinite(pose.y_m) || !std::isfinite(pose.yaw_rad)) return std::nullopt;
   return pose;
 }
-
-}  // namespace
 
 std::vector<std::string> scanner_setting_names() {
   return names_of(kScannerWords);
@@ -129,7 +128,7 @@ std::optional<SourcedScan> CloudScans::next() {
     return scan;
   }
   scan.range_m.assign(scan.scan.range_m, scan.scan.range_m + scan.scan.beams);
-  scan.odometry = odometry_of(engine_.moved());
+  if (engine_.moved()) scan.odometry = plane_odometry(*engine_.moved());
   return scan;
 }
 

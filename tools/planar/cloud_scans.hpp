@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ std::vector<std::string> scanner_setting_names();
 
 // The defaults, with the settings that `words` holds; these are taken out of it. Throws std::invalid_argument.
 pose_wall_planar_scanner_settings take_scanner_settings(std::vector<std::string>* words);
+
+// x, y and yaw of base in the plane; none while the motion is lost.
+std::optional<pose_wall_planar_pose> plane_odometry(const pose_wall_motion_result& moved);
 
 class CloudScans : public ScanSource {
  public:

@@ -85,6 +85,7 @@ def outputs(root):
     plc, modbus = root / "tools/plc", root / "tools/live/modbus"
     registers_hpp = (modbus / "modbus_registers.hpp").read_text(encoding="utf-8")
     page = (modbus / "README.md").read_text(encoding="utf-8")
+    stop_header_text = (root / "include/pose_wall_planar_stop.h").read_text(encoding="utf-8")
     read = blocks_reader.Reader(words.description_text(header_text, (plc / "blocks.def").read_text(encoding="utf-8")))
     return {
         **{root / path: header(structs, path, text) for path, text in header_texts.items()},
@@ -92,7 +93,7 @@ def outputs(root):
         plc / "FB_PoseWall.scl": dialects.scl(read),
         plc / "FB_PoseWall.xml": plcopen.xml(read, dialects.NOTE),
         root / "tests/checks/image_members.def": layout_members(structs),
-        modbus / "README.md": register_table.with_tables(structs, header_text, registers_hpp, page),
+        modbus / "README.md": register_table.with_tables(structs, header_text, stop_header_text, registers_hpp, page),
     }
 
 

@@ -66,6 +66,10 @@ void print_values(const LoadedConfig& loaded) {
     const std::string value = live_value_text(loaded.live, key);
     add(key, value.empty() ? "''" : value);
   }
+  for (const OutsideKey& key : planar_keys()) {
+    const std::string value = planar_value_text(loaded.planar, key);
+    add(key, value.empty() ? "''" : value);
+  }
   fmt::print("{}", wrapped_table({tr("key"), tr("value"), tr("from"), tr("unit"), tr("allowed")}, rows));
 }
 
@@ -201,6 +205,11 @@ void print_keys() {
   const LiveSettings live_defaults;
   for (const OutsideKey& key : live_keys()) {
     const std::string value = live_value_text(live_defaults, key);
+    print(key, value.empty() ? "''" : value);
+  }
+  const PlanarSettings planar_defaults;
+  for (const OutsideKey& key : planar_keys()) {
+    const std::string value = planar_value_text(planar_defaults, key);
     print(key, value.empty() ? "''" : value);
   }
 }

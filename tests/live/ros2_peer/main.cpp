@@ -10,6 +10,7 @@
 //   reliability=best_effort|reliable, type=..., topic=...   of the clouds
 //   results=1               reads what pose_walld publishes; durability=transient_local|volatile asks so of attitudes
 //   labelled=1              reads the labelled points
+//   planar=1                with results=1: reads scan, map, place and stop
 //   static_latched=0        /tf_static as no broadcaster of ROS sends it
 //   range=loopback          talks on 127.0.0.1 alone (default)
 //   range=localhost         as rmw_fastrtps does from Iron on, for ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
@@ -427,9 +428,48 @@ class Peer {
     node_.reader("rt/pose_wall/state", "pose_wall_msgs::msg::dds_::State_", true, false, others_[0].get());
     node_.reader("rt/diagnostics", "diagnostic_msgs::msg::dds_::DiagnosticArray_", true, false, others_[1].get());
     node_.reader("rt/tf", "tf2_msgs::msg::dds_::TFMessage_", true, false, others_[2].get());
+    if (words_.number("planar", 0) != 0) read_planar();
     if (words_.number("labelled", 0) != 0) {
       node_.reader("rt/pose_wall/points", "sensor_msgs::msg::dds_::PointCloud2_", true, false, others_[3].get());
     }
+  }
+
+  // As Nav2 subscribes: the map latched, the scan as a sensor's.
+  void read_planar() {
+    const std::pair<const char*, const char*> topics[] = {
+        {"scan", "sensor_msgs::msg::dds_::LaserScan_"},
+        {"pose", "geometry_msgs::msg::dds_::PoseWithCovarianceStamped_"},
+        {"pose_wall/stop", "std_msgs::msg::dds_::Bool_"},
+        {"pose_wall/stop_state", "pose_wall_msgs::msg::dds_::Stop_"}};
+    for (const auto& [topic, type] : topics) {
+      const std::string name = topic;
+      others_.emplace_back(
+          std::make_unique<Taking>([this, name](const RawMessage& bytes) { results_.other(name, bytes); }));
+      node_.reader("rt/" + name, type, name != "scan", false, others_.back().get());
+    }
+    others_.emplace_back(std::make_unique<Taking>([](const RawMessage& bytes) { say_map(bytes); }));
+    node_.reader("rt/map", "nav_msgs::msg::dds_::OccupancyGrid_", true, true, others_.back().get());
+  }
+
+  static void say_map(const RawMessage& bytes) {
+    Message message(bytes);
+    std::string frame;
+    message.read_header(&frame);
+    std::int32_t seconds = 0;
+    std::uint32_t nanoseconds = 0, width = 0, height = 0;
+    float resolution_m = 0.0F;
+    double origin[7];
+    std::vector<std::uint8_t> cells;
+    message.cdr >> seconds >> nanoseconds >> resolution_m >> width >> height;
+    for (double& number : origin) message.cdr >> number;
+    message.cdr >> cells;
+    const auto things =
+        std::count_if(cells.begin(), cells.end(), [](std::uint8_t cell) { return cell >= 65 && cell <= 100; });
+    std::ostringstream line;
+    line << "{\"saw\": \"map\", \"frame\": \"" << frame << "\", \"width\": " << width << ", \"height\": " << height
+         << ", \"cells\": " << cells.size() << ", \"things\": " << things << ", \"resolution_m\": " << resolution_m
+         << ", \"w\": " << origin[6] << "}";
+    say(line.str());
   }
 
   int matched() {

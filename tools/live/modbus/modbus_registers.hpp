@@ -8,19 +8,25 @@
 
 #include <modbus/modbus.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "live/images.hpp"
+#include "live/planar/planar_news.hpp"
 
 namespace pose_wall::tools::live {
 
 // Where each image begins. A register is a word of two bytes of the image as it lies in memory (little-endian), so of a
 // number of four bytes the low word comes first.
-constexpr int kImageRegister = 0, kImage2Register = 1000, kMotionImageRegister = 2000;
+constexpr int kImageRegister = 0, kImage2Register = 1000, kMotionImageRegister = 2000, kStopRegister = 3000;
 constexpr int kImageRegisters = POSE_WALL_IMAGE_BYTES / 2, kImage2Registers = POSE_WALL_IMAGE2_BYTES / 2,
-              kMotionImageRegisters = POSE_WALL_MOTION_IMAGE_BYTES / 2;
+              kMotionImageRegisters = POSE_WALL_MOTION_IMAGE_BYTES / 2, kStopRegisters = 4;
+
+// The stop for a controller, as tools/plc/image.def describes it: word, allowed speed, reasons, age. Without a stop all
+// are 0: the state is stop, and the heartbeat stands.
+std::array<std::uint16_t, kStopRegisters> stop_registers(const StopBoard* stop);
 
 // Bytes of a whole request that begins the buffer, by its MBAP header (Modbus Messaging on TCP/IP V1.0b, 3.1.3); 0
 // where more bytes must come to tell, -1 where these are no Modbus.
@@ -28,7 +34,7 @@ int request_bytes(const std::uint8_t* bytes, std::size_t count);
 
 class ModbusRegisters {
  public:
-  explicit ModbusRegisters(const Images& images);
+  ModbusRegisters(const Images& images, const StopBoard* stop);
 
   // Answers one whole request on this socket. False where the answer could not be sent. *was_refused: an exception.
   bool answer(int socket, const std::uint8_t* request, int bytes, bool* was_refused);
@@ -42,10 +48,11 @@ class ModbusRegisters {
   using Mapping = std::unique_ptr<modbus_mapping_t, Release<modbus_mapping_t, modbus_mapping_free>>;
 
   const Images& images_;
+  const StopBoard* stop_;
   int answer_read(const std::uint8_t* request, int bytes);
 
   Context context_;
-  Mapping image_, image2_, motion_image_;
+  Mapping image_, image2_, motion_image_, stop_words_;
 };
 
 }  // namespace pose_wall::tools::live

@@ -89,7 +89,8 @@ struct Client {
 
 class ModbusServer final : public Sink {
  public:
-  ModbusServer(std::string at, const Images& images) : at_(std::move(at)), registers_(images) {}
+  ModbusServer(std::string at, const Images& images, const StopBoard* stop)
+      : at_(std::move(at)), registers_(images, stop) {}
   ~ModbusServer() override { stop(); }
 
   void start() override {
@@ -192,8 +193,8 @@ class ModbusServer final : public Sink {
 
 }  // namespace
 
-std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images) {
-  return std::make_unique<ModbusServer>(loaded.live.modbus, images);
+std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop) {
+  return std::make_unique<ModbusServer>(loaded.live.modbus, images, stop);
 }
 
 }  // namespace pose_wall::tools::live

@@ -38,8 +38,7 @@ std::vector<std::shared_ptr<const std::string>> Broadcast::next(Seen* seen, int 
 
 void Broadcast::forget_frames() {
   const std::lock_guard<std::mutex> locked(lock_);
-  newest_[kHealth] = {};
-  newest_[kFrame] = {};
+  for (std::size_t kind = kHello + 1; kind < kKinds; ++kind) newest_[kind] = {};
 }
 
 void Broadcast::end() {

@@ -18,7 +18,7 @@ namespace pose_wall::tools::live {
 class Broadcast {
  public:
   // In the order in which a viewer must get them.
-  enum Kind { kHello, kHealth, kFrame, kKinds };
+  enum Kind { kHello, kHealth, kStop, kMap, kRoadway, kFrame, kKinds };
 
   // What one viewer has seen; 0: nothing.
   using Seen = std::array<std::uint64_t, kKinds>;
@@ -27,7 +27,7 @@ class Broadcast {
   // The events that this viewer has not seen, which it then has; waits until there is one or time is up (none) or `end`
   // was called (none).
   std::vector<std::shared_ptr<const std::string>> next(Seen* seen, int timeout_ms);
-  // The newest frame and health; the hello stays.
+  // All but the hello.
   void forget_frames();
   void end();
   bool is_ending() const;

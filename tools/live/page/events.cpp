@@ -32,9 +32,13 @@ std::string hello_event(const LoadedConfig& loaded) {
   const Json mount = {{"position_m", frames.extrinsic_position_m},
                       {"roll_pitch_yaw_deg", frames.extrinsic_roll_pitch_yaw_deg},
                       {"sampling_points_m", frames.sampling_points_base_m}};
-  return event(
-      "hello",
-      json_text({{"head", report::head_json(head, loaded)}, {"words", report::words_json()}, {"mount", mount}}));
+  const PlanarSettings& planar = loaded.planar;
+  const Json roadway = {{"mode", planar.mode},
+                        {"outline_m", {planar.x_min_m, planar.x_max_m, planar.y_min_m, planar.y_max_m}}};
+  return event("hello", json_text({{"head", report::head_json(head, loaded)},
+                                   {"words", report::words_json()},
+                                   {"mount", mount},
+                                   {"planar", planar.is_on() ? roadway : Json(nullptr)}}));
 }
 
 std::string frame_event(const LiveResult& result) {

@@ -21,6 +21,7 @@
 #include "live/log.hpp"
 #include "live/page/broadcast.hpp"
 #include "live/page/events.hpp"
+#include "live/page/roadway_events.hpp"
 #include "live/result_json.hpp"
 #include "report/assets.hpp"
 
@@ -58,8 +59,12 @@ std::string text(std::string_view view) {
 
 class PageServer final : public Sink {
  public:
-  PageServer(const LoadedConfig& loaded, const HealthBoard& board)
-      : loaded_(loaded), board_(board), place_(*parse_host_port(loaded.live.http)), assets_(report::live_assets()) {}
+  PageServer(const LoadedConfig& loaded, const HealthBoard& board, const StopBoard* stop)
+      : loaded_(loaded),
+        board_(board),
+        stop_(stop),
+        place_(*parse_host_port(loaded.live.http)),
+        assets_(report::live_assets()) {}
   ~PageServer() override { stop(); }
 
   void start() override {
@@ -88,6 +93,22 @@ class PageServer final : public Sink {
     tell_new_config(result.config);
     if (viewers_ == 0) return;
     broadcast_.post(Broadcast::kFrame, frame_event(result));
+  }
+
+  bool wants_planar() const override { return stop_ != nullptr; }
+  void take_stop(const StopNews& news) override {
+    if (viewers_ > 0) broadcast_.post(Broadcast::kStop, stop_event(news));
+  }
+  void take_roadway(const RoadwayNews& news) override {
+    {
+      const std::lock_guard<std::mutex> locked(newest_lock_);
+      newest_roadway_ = std::make_shared<const RoadwayNews>(news);
+    }
+    if (viewers_ == 0) return;
+    if (news.map && map_told_.exchange(news.map->version) != news.map->version) {
+      broadcast_.post(Broadcast::kMap, map_event(*news.map));
+    }
+    broadcast_.post(Broadcast::kRoadway, roadway_event(news));
   }
 
   void stop() override {
@@ -149,6 +170,8 @@ class PageServer final : public Sink {
     give("/page.js", text(assets_.script), "text/javascript; charset=utf-8");
     server_.Get("/events", [this](const httplib::Request&, httplib::Response& answer) { view(&answer); });
     server_.Get("/state.json", [this](const httplib::Request&, httplib::Response& answer) { tell_state(&answer); });
+    server_.Get("/planar.json", [this](const httplib::Request&, httplib::Response& answer) { tell_planar(&answer); });
+    server_.Get("/map.png", [this](const httplib::Request&, httplib::Response& answer) { give_map(&answer); });
     server_.Get("/health", [this](const httplib::Request&, httplib::Response& answer) { tell_health(&answer); });
   }
 
@@ -190,7 +213,9 @@ class PageServer final : public Sink {
         [this, seen](std::size_t, httplib::DataSink& sink) { return send_news(seen.get(), &sink); },
         [this](bool) {
           // Who comes later must not see what was live when the last one left.
-          if (--viewers_ == 0) broadcast_.forget_frames();
+          if (--viewers_ > 0) return;
+          broadcast_.forget_frames();
+          map_told_ = 0;
         });
   }
 
@@ -231,6 +256,30 @@ class PageServer final : public Sink {
     answer->set_content(result_json(newest_) + "\n", "application/json");
   }
 
+  std::shared_ptr<const RoadwayNews> newest_roadway() {
+    const std::lock_guard<std::mutex> locked(newest_lock_);
+    return newest_roadway_;
+  }
+
+  void tell_planar(httplib::Response* answer) {
+    if (stop_ == nullptr) {
+      answer->status = 404;
+      answer->set_content("{\"error\": \"the key planar is off\"}\n", "application/json");
+      return;
+    }
+    const std::shared_ptr<const RoadwayNews> roadway = newest_roadway();
+    answer->set_content(fmt::format("{{\"stop\": {}, \"roadway\": {}}}\n", stop_json(stop_->stop_now()),
+                                    roadway ? roadway_json(*roadway) : "null"),
+                        "application/json");
+  }
+
+  void give_map(httplib::Response* answer) {
+    const std::shared_ptr<const RoadwayNews> roadway = newest_roadway();
+    if (roadway && roadway->map) return answer->set_content(map_png(*roadway->map), "image/png");
+    answer->status = 404;
+    answer->set_content("there is no map\n", "text/plain");
+  }
+
   // For monitors: the runtime comes first.
   void tell_health(httplib::Response* answer) {
     const std::vector<PartHealth> parts = board_.all();
@@ -242,6 +291,7 @@ class PageServer final : public Sink {
 
   LoadedConfig loaded_;
   const HealthBoard& board_;
+  const StopBoard* stop_;
   HostPort place_;
   report::Assets assets_;
   httplib::Server server_;
@@ -253,12 +303,14 @@ class PageServer final : public Sink {
   std::mutex newest_lock_;
   LiveResult newest_;
   bool has_newest_ = false;
+  std::shared_ptr<const RoadwayNews> newest_roadway_;
+  std::atomic<std::uint64_t> map_told_{0};  // version that the viewers have
 };
 
 }  // namespace
 
-std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health) {
-  return std::make_unique<PageServer>(loaded, health);
+std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop) {
+  return std::make_unique<PageServer>(loaded, health, stop);
 }
 
 }  // namespace pose_wall::tools::live

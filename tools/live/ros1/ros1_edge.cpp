@@ -70,8 +70,8 @@ class Ros1Out final : public RosOut {
  public:
   explicit Ros1Out(std::shared_ptr<Ros1Node> node) : node_(std::move(node)) {}
 
-  std::size_t advertise(const std::string& topic, const RosType& type) override {
-    return node_->advertise(topic, type);
+  std::size_t advertise(const std::string& topic, const RosType& type, bool is_latched) override {
+    return node_->advertise(topic, type, is_latched);
   }
   void publish(std::size_t number, const std::string& message) override { node_->publish(number, message); }
   std::uint32_t subscribers(std::size_t number) const override { return node_->subscribers(number); }

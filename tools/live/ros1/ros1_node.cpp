@@ -91,8 +91,8 @@ void Ros1Node::subscribe(const std::string& topic, std::uint32_t queue, Take tak
   subscriptions_.push_back({topic, queue, std::move(take)});
 }
 
-std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type) {
-  advertised_.push_back({topic, &type});
+std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type, bool is_latched) {
+  advertised_.push_back({topic, &type, is_latched, ""});
   subscribers_.push_back(0);
   return advertised_.size() - 1;
 }
@@ -181,11 +181,16 @@ void Ros1Node::open() {
   }
   for (const Advertised& topic : advertised_) {
     ros::AdvertiseOptions options(topic.topic, kQueueOut, topic.type->md5, topic.type->name, topic.type->definition);
+    options.latch = topic.is_latched;
     ros->publishers.push_back(ros->handle.advertise(options));
   }
   ++masters_seen_;
   const std::lock_guard<std::mutex> locked(lock_);
   ros_ = std::move(ros);
+  for (std::size_t i = 0; i < advertised_.size(); ++i) {
+    if (!advertised_[i].before_master.empty()) send(i, advertised_[i].before_master);
+    advertised_[i].before_master.clear();
+  }
 }
 
 // A new master knows nothing of us. Nor does one that has just met a newer node of our name, and is about to end us:
@@ -228,7 +233,12 @@ std::uint32_t Ros1Node::subscribers(std::size_t number) const {
 
 void Ros1Node::publish(std::size_t number, const std::string& message) {
   const std::lock_guard<std::mutex> locked(lock_);
-  if (!ros_) return;
+  if (ros_) return send(number, message);
+  // From then on roscpp keeps it.
+  if (advertised_[number].is_latched) advertised_[number].before_master = message;
+}
+
+void Ros1Node::send(std::size_t number, const std::string& message) {
   const RosType& type = *advertised_[number].type;
   topic_tools::ShapeShifter shifter;
   shifter.morph(type.md5, type.name, type.definition, "");

@@ -40,14 +40,16 @@ class Ros1Node {
   // Before start; a topic without a leading slash is one of the node's namespace. queue: older messages are lost.
   // Throws std::runtime_error for what ROS allows no topic to be called.
   void subscribe(const std::string& topic, std::uint32_t queue, Take take);
-  std::size_t advertise(const std::string& topic, const RosType& type);  // the number to publish by
+  // The number to publish by. is_latched: the last message goes to who comes later.
+  std::size_t advertise(const std::string& topic, const RosType& type, bool is_latched);
 
   // May be called twice. Waits for nobody: the master may come later.
   void start();
   // Ends the threads within a second, whatever the master does; no message is taken after it.
   void stop();
 
-  // From any thread. Lost while there is no master; a slow subscriber loses what it has not taken.
+  // From any thread. Lost while there is no master, but for the newest one of a latched topic; a slow subscriber loses
+  // what it has not taken.
   void publish(std::size_t number, const std::string& message);
 
   bool has_master() const { return has_master_; }
@@ -70,6 +72,8 @@ class Ros1Node {
   struct Advertised {
     std::string topic;
     const RosType* type;
+    bool is_latched;
+    std::string before_master;  // the newest of a latched topic
   };
 
   void listen_where_allowed() const;
@@ -78,6 +82,7 @@ class Ros1Node {
   void open();
   void register_what_is_missing();
   void count_peers();
+  void send(std::size_t number, const std::string& message);  // under the lock, with ros_
 
   std::string name_, master_uri_;
   HostPort master_;

@@ -26,6 +26,8 @@ constexpr std::int64_t kSlowFor_ns = 10'000'000'000;
 constexpr const char* kNodeName = "pose_walld";
 // Reliable, the newest, and nothing for who comes later.
 constexpr RosQos kResultQos{true, false, 1};
+// The map, as map_server has it.
+constexpr RosQos kLatchedQos{true, true, 1};
 // tf2 keeps what it hears; several transforms may wait for a slow listener.
 constexpr RosQos kTransformQos{true, false, 100};
 
@@ -33,8 +35,8 @@ class Ros2Out final : public RosOut {
  public:
   explicit Ros2Out(std::shared_ptr<Ros2Node> node) : node_(std::move(node)) {}
 
-  std::size_t advertise(const std::string& topic, const RosType& type) override {
-    topics_.push_back({topic, type, nullptr});
+  std::size_t advertise(const std::string& topic, const RosType& type, bool is_latched) override {
+    topics_.push_back({topic, type, is_latched, nullptr});
     return topics_.size() - 1;
   }
 
@@ -43,7 +45,8 @@ class Ros2Out final : public RosOut {
     const std::lock_guard<std::mutex> locked(lock_);
     std::vector<std::string> names;
     for (Topic& topic : topics_) {
-      topic.writer = node_->make_writer(topic.name, topic.type, topic.name == "/tf" ? kTransformQos : kResultQos);
+      const RosQos& qos = topic.is_latched ? kLatchedQos : topic.name == "/tf" ? kTransformQos : kResultQos;
+      topic.writer = node_->make_writer(topic.name, topic.type, qos);
       names.push_back(dds_topic(topic.name));
     }
     readers_ = std::make_unique<EndpointWatch>(*node_, false, std::move(names));
@@ -86,6 +89,7 @@ class Ros2Out final : public RosOut {
   struct Topic {
     std::string name;
     RosType type;
+    bool is_latched;
     std::unique_ptr<Ros2Node::Endpoint> writer;
   };
 

@@ -20,7 +20,8 @@ try:
     import genmsg.gentools
     import genmsg.msg_loader
 except ImportError:
-    print("SKIPPED: there is no genmsg (packages python3-genmsg ros-sensor-msgs ros-diagnostic-msgs ros-tf2-msgs)")
+    print("SKIPPED: there is no genmsg (packages python3-genmsg ros-sensor-msgs ros-diagnostic-msgs ros-nav-msgs "
+          "ros-tf2-msgs)")
     sys.exit(0)
 
 FOLDER = pathlib.Path(__file__).parent
@@ -29,7 +30,10 @@ OURS = "pose_wall_msgs"
 PACKAGES = ("std_msgs", "geometry_msgs", "sensor_msgs", "diagnostic_msgs", "tf2_msgs", "nav_msgs")
 TYPES = {"kPointCloud2Type": "sensor_msgs/PointCloud2", "kVector3StampedType": "geometry_msgs/Vector3Stamped",
          "kFloat32MultiArrayType": "std_msgs/Float32MultiArray", "kStateType": f"{OURS}/State",
-         "kDiagnosticArrayType": "diagnostic_msgs/DiagnosticArray", "kTfMessageType": "tf2_msgs/TFMessage"}
+         "kDiagnosticArrayType": "diagnostic_msgs/DiagnosticArray", "kTfMessageType": "tf2_msgs/TFMessage",
+         "kLaserScanType": "sensor_msgs/LaserScan", "kOccupancyGridType": "nav_msgs/OccupancyGrid",
+         "kCovariantPoseType": "geometry_msgs/PoseWithCovarianceStamped", "kBoolType": "std_msgs/Bool",
+         "kStopType": f"{OURS}/Stop"}
 GRAPH, LIVOX = "rmw_dds_common", "livox_ros_driver2"
 # Known by name and hash alone: the graph of ROS 2, whose gids had 24 bytes before there were hashes; Livox's driver.
 ROS2_TYPES = {"kParticipantEntitiesType": f"{GRAPH}/ParticipantEntitiesInfo", "kLivoxCustomType": f"{LIVOX}/CustomMsg"}
@@ -57,6 +61,13 @@ KNOWN_HASH = {"sensor_msgs/PointCloud2": ("RIHS01_9198cabf", "bae2b5"),
               "tf2_msgs/TFMessage": ("RIHS01_e369d0f05a23ae52508854b66f6aa043", "7f3449d652e8cbf22d5abe85d020f087"),
               "diagnostic_msgs/DiagnosticArray": ("RIHS01_5a8a36efb05fb25070fa0fb3810290c0",
                                                   "e6cd4862b54a8fb975a1ee8dc55a333e"),
+              "nav_msgs/OccupancyGrid": ("RIHS01_8d348150c12913a31ee0ec170fbf2508",
+                                         "9e4745d17035792a1ba94d6f0bc0cfc7"),
+              "sensor_msgs/LaserScan": ("RIHS01_64c191398013af96509d518dac71d516",
+                                        "4f9382553fce5c1f8cca5be7924bd828"),
+              "geometry_msgs/PoseWithCovarianceStamped": ("RIHS01_26432f9803e43727d3c8f668d1fdb3c6",
+                                                          "30f548af631e2f4e31382371bfea3b6e"),
+              "std_msgs/Bool": ("RIHS01_feb91e995ff9ebd09c0cb3d2aed18b11", "077585839fb5db80193b62d74528f6c9"),
               f"{GRAPH}/ParticipantEntitiesInfo": ("RIHS01_91a0593bacdcc50ea9bdcf849a938b12",
                                                    "8412cc1ea821245c663bcd26f83c295e")}
 

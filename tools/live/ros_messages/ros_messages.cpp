@@ -9,7 +9,7 @@
 #include <limits>
 #include <utility>
 
-#include "bags/message_writer.hpp"
+#include "live/ros_messages/ros_writer.hpp"
 #include "quantities.hpp"
 #include "results/result_csv.hpp"
 
@@ -42,45 +42,17 @@ std::string RosType::dds_name() const {
   return joined(name, "::msg::dds_::") + "_";
 }
 
-// A message that begins with a header.
-class RosMessages::Writer : public MessageWriter {
- public:
-  using MessageWriter::MessageWriter;
-
-  void header(std::int64_t stamp_ns, const std::string& frame_id) {
-    if (!is_cdr()) number(std::uint32_t{0});  // seq, which nobody reads any more
-    time(stamp_ns);
-    text(frame_id);
-  }
-  // Before 1970 there is no time in ROS 1.
-  void time(std::int64_t ns) {
-    const std::int64_t from_1970_ns = std::max<std::int64_t>(ns, 0);
-    number(static_cast<std::uint32_t>(from_1970_ns / 1'000'000'000));
-    number(static_cast<std::uint32_t>(from_1970_ns % 1'000'000'000));
-  }
-  void field(const char* name, std::uint32_t offset, std::uint8_t type) {
-    text(name);
-    number(offset);
-    number(type);
-    number(std::uint32_t{1});
-  }
-  void key_value(const std::string& key, const std::string& value) {
-    text(key);
-    text(value);
-  }
-};
-
 RosMessages::RosMessages(MessageEncoding encoding, std::string base_frame)
-    : encoding_(encoding), base_frame_(base_frame.rfind('/', 0) == 0 ? base_frame.substr(1) : std::move(base_frame)) {}
+    : encoding_(encoding), base_frame_(without_slash(std::move(base_frame))) {}
 
-RosMessages::Writer RosMessages::begin(std::int64_t stamp_ns, const std::string& frame_id) const {
-  Writer writer(encoding_);
+RosWriter RosMessages::begin(std::int64_t stamp_ns, const std::string& frame_id) const {
+  RosWriter writer(encoding_);
   writer.header(stamp_ns, frame_id);
   return writer;
 }
 
 std::string RosMessages::attitude(const LiveResult& result) const {
-  Writer message = begin(result.header_stamp_ns, base_frame_);
+  RosWriter message = begin(result.header_stamp_ns, base_frame_);
   for (const std::size_t q : {POSE_WALL_ROLL, POSE_WALL_PITCH, POSE_WALL_YAW}) {
     message.number(value_or_nan(result.publication.result.quantity[q]));
   }
@@ -93,7 +65,7 @@ std::string RosMessages::distances(const LiveResult& result) const {
   for (std::uint32_t i = 0; i < kDistances; ++i) {
     labels += std::string(i > 0 ? " " : "") + pose_wall_quantity_name(POSE_WALL_D_LF + i);
   }
-  Writer message(encoding_);
+  RosWriter message(encoding_);
   message.count(1);
   message.text(labels);
   message.number(kDistances);        // size
@@ -109,7 +81,7 @@ std::string RosMessages::distances(const LiveResult& result) const {
 std::string RosMessages::state(const LiveResult& result) const {
   const pose_wall_publication& publication = result.publication;
   const pose_wall_result& r = publication.result;
-  Writer message = begin(result.header_stamp_ns, base_frame_);
+  RosWriter message = begin(result.header_stamp_ns, base_frame_);
   message.number(static_cast<std::uint8_t>(publication.cause));
   message.number(publication.frame);
   message.number(publication.index);
@@ -141,7 +113,7 @@ std::string RosMessages::state(const LiveResult& result) const {
 }
 
 std::string RosMessages::diagnostics(const std::vector<PartHealth>& parts, std::int64_t now_ns) const {
-  Writer message = begin(now_ns, "");
+  RosWriter message = begin(now_ns, "");
   message.count(parts.size());
   for (const PartHealth& part : parts) {
     message.number(static_cast<std::uint8_t>(part.grade));
@@ -165,7 +137,7 @@ std::string RosMessages::level_transform(const LiveResult& result) const {
   Eigen::Matrix3d R_level_base;
   for (int i = 0; i < 9; ++i) R_level_base(i / 3, i % 3) = result.publication.result.R_level_base[i];
   const Eigen::Quaterniond q_base_level(Eigen::Matrix3d(R_level_base.transpose()));
-  Writer message(encoding_);
+  RosWriter message(encoding_);
   message.count(1);
   // A transform's header stands behind the count, so that alignment goes on from there.
   message.header(result.header_stamp_ns, base_frame_);
@@ -181,7 +153,7 @@ std::string RosMessages::points(const LiveResult& result) const {
   constexpr std::uint32_t kStep = 16;  // three floats, the label, and three bytes to keep floats aligned
   const LabelledPoints& points = *result.points;
   const auto count = static_cast<std::uint32_t>(points.label.size());
-  Writer message = begin(result.header_stamp_ns, base_frame_);
+  RosWriter message = begin(result.header_stamp_ns, base_frame_);
   message.number(std::uint32_t{1});
   message.number(count);
   message.count(4);
@@ -208,7 +180,7 @@ std::string RosMessages::points(const LiveResult& result) const {
 std::string RosMessages::cloud(const LiveFrame& frame) const {
   const pose_wall_cloud& cloud = frame.frame.cloud;
   const std::uint32_t row_step = cloud.row_step != 0 ? cloud.row_step : cloud.width * cloud.point_step;
-  Writer message = begin(frame.stamp_ns, frame.frame_id);
+  RosWriter message = begin(frame.stamp_ns, frame.frame_id);
   message.number(cloud.height);
   message.number(cloud.width);
   message.count(frame.frame.fields.size());

@@ -14,6 +14,7 @@
 
 #include "bags/bag_reader.hpp"
 #include "live/health.hpp"
+#include "live/ros_messages/ros_writer.hpp"
 #include "live/sink.hpp"
 
 namespace pose_wall::tools::live {
@@ -32,7 +33,7 @@ struct RosType {
 };
 
 extern const RosType kPointCloud2Type, kVector3StampedType, kFloat32MultiArrayType, kStateType, kDiagnosticArrayType,
-    kTfMessageType;
+    kTfMessageType, kLaserScanType, kOccupancyGridType, kCovariantPoseType, kBoolType, kStopType;
 extern const RosType kParticipantEntitiesType, kLivoxCustomType;  // of ROS 2 alone, by name and hash
 
 class RosMessages {
@@ -55,8 +56,7 @@ class RosMessages {
   std::string cloud(const LiveFrame& frame) const;
 
  private:
-  class Writer;
-  Writer begin(std::int64_t stamp_ns, const std::string& frame_id) const;
+  RosWriter begin(std::int64_t stamp_ns, const std::string& frame_id) const;
 
   MessageEncoding encoding_;
   std::string base_frame_;

@@ -4,11 +4,13 @@
 #include "live/ros_messages/ros_publisher.hpp"
 #include "config_file/key_table.hpp"
 #include "live/clocks.hpp"
+#include "live/ros_messages/planar_messages.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <ctime>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -26,12 +28,14 @@ class RosPublisher final : public Sink {
         board_(board),
         out_(std::move(out)),
         messages_(encoding, config_text(*loaded.config.get(), "base_frame")),
-        attitude_(out_->advertise("/pose_wall/attitude", kVector3StampedType)),
-        distances_(out_->advertise("/pose_wall/distances", kFloat32MultiArrayType)),
-        state_(out_->advertise("/pose_wall/state", kStateType)),
-        points_(out_->advertise("/pose_wall/points", kPointCloud2Type)),
-        diagnostics_(out_->advertise("/diagnostics", kDiagnosticArrayType)),
-        transforms_(out_->advertise("/tf", kTfMessageType)) {}
+        attitude_(out_->advertise("/pose_wall/attitude", kVector3StampedType, false)),
+        distances_(out_->advertise("/pose_wall/distances", kFloat32MultiArrayType, false)),
+        state_(out_->advertise("/pose_wall/state", kStateType, false)),
+        points_(out_->advertise("/pose_wall/points", kPointCloud2Type, false)),
+        diagnostics_(out_->advertise("/diagnostics", kDiagnosticArrayType, false)),
+        transforms_(out_->advertise("/tf", kTfMessageType, false)) {
+    if (loaded.planar.is_on()) planar_.emplace(*out_, encoding, loaded);
+  }
   ~RosPublisher() override { out_->stop(); }
 
   void start() override { out_->start(); }
@@ -62,6 +66,21 @@ class RosPublisher final : public Sink {
   }
 
   bool wants_points() const override { return wants_points_; }
+  bool wants_planar() const override { return planar_.has_value(); }
+
+  void take_stop(const StopNews& news) override {
+    out_->publish(planar_->stop, planar_->messages.stop(news));
+    out_->publish(planar_->stop_state, planar_->messages.stop_state(news));
+  }
+  void take_roadway(const RoadwayNews& news) override {
+    const std::string transforms = planar_->messages.transforms(news);
+    if (!transforms.empty()) out_->publish(transforms_, transforms);
+    if (news.has_scan) out_->publish(planar_->scan, planar_->messages.scan(news));
+    if (news.pose) out_->publish(planar_->pose, planar_->messages.pose(news));
+    if (!news.map || news.map->version == planar_->map_version) return;
+    planar_->map_version = news.map->version;
+    out_->publish(planar_->map, planar_->messages.map(*news.map));
+  }
 
  private:
   // Once a second, and at once where a part fares otherwise than it did.
@@ -75,12 +94,28 @@ class RosPublisher final : public Sink {
     told_ = std::move(parts);
   }
 
+  // Where the key `planar` is on.
+  struct Planar {
+    Planar(RosOut& out, MessageEncoding encoding, const LoadedConfig& loaded)
+        : messages(encoding, loaded.planar, config_text(*loaded.config.get(), "base_frame")),
+          scan(out.advertise("/scan", kLaserScanType, false)),
+          map(out.advertise("/map", kOccupancyGridType, true)),
+          pose(out.advertise(loaded.planar.maps() ? "/pose" : "/amcl_pose", kCovariantPoseType, false)),
+          stop(out.advertise("/pose_wall/stop", kBoolType, false)),
+          stop_state(out.advertise("/pose_wall/stop_state", kStopType, false)) {}
+
+    PlanarMessages messages;
+    std::size_t scan, map, pose, stop, stop_state;
+    std::uint64_t map_version = 0;  // the last one that was published
+  };
+
   std::string part_;
   const HealthBoard& board_;
   std::unique_ptr<RosOut> out_;
   RosMessages messages_;
   std::size_t attitude_, distances_, state_, points_, diagnostics_, transforms_;
   Clock::time_point diagnostics_last_{};
+  std::optional<Planar> planar_;
   std::vector<PartHealth> told_;
   std::atomic<bool> wants_points_{false};
   std::atomic<std::uint64_t> published_{0};

@@ -26,7 +26,8 @@ class RosOut {
   virtual ~RosOut() = default;
 
   // Before start; the number to publish by.
-  virtual std::size_t advertise(const std::string& topic, const RosType& type) = 0;
+  // is_latched: who comes later still gets the last message.
+  virtual std::size_t advertise(const std::string& topic, const RosType& type, bool is_latched) = 0;
   virtual void start() = 0;
   virtual void stop() = 0;
   // Never waits for a subscriber.
@@ -36,7 +37,8 @@ class RosOut {
   virtual std::string trouble() const = 0;
 };
 
-// Topics: /pose_wall/attitude, /pose_wall/distances, /pose_wall/state, /pose_wall/points, /diagnostics, /tf.
+// Topics: /pose_wall/attitude, /pose_wall/distances, /pose_wall/state, /pose_wall/points, /diagnostics, /tf. With the
+// key `planar` on also /scan, /map, /pose (or /amcl_pose in a saved map), /pose_wall/stop, /pose_wall/stop_state.
 std::unique_ptr<Sink> make_ros_publisher(const std::string& part, const LoadedConfig& loaded, const HealthBoard& health,
                                          MessageEncoding encoding, std::unique_ptr<RosOut> out);
 

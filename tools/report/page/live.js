@@ -41,7 +41,7 @@ LiveRecording.kSeries = ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 
 // Silence of a sensor is told ten times a second, health once: so long without either is a break.
 const kLost_ms = 2000, kChartsEvery_ms = 400;
 const page = { language: 'en', frame: 0, paused: false, hello: null, told: null, heard_ms: 0, arrivals: [], drawn_charts_ms: 0, shown: 0 };
-let recording = null, viewer = null, charts = null;
+let recording = null, viewer = null, charts = null, roadway = null;
 
 function show_link() {
   const w = words(), link = document.getElementById('link'), now = performance.now();
@@ -91,6 +91,8 @@ function show_mount() {
 // The daemon speaks English. The page translates the texts that it knows and leaves the others as they are.
 function translated(kind, text) { return (words()[kind] || {})[text] || text; }
 function part_text_of(name) {
+  const whole = translated('part_names', name);
+  if (whole !== name) return whole;
   const [kind, ...rest] = name.split(' ');
   return [translated('part_names', kind), ...rest].join(' ');
 }
@@ -178,6 +180,7 @@ function take_frame(event) {
 function take_hello(event) {
   page.hello = JSON.parse(event.data);
   page.heard_ms = performance.now();
+  if (page.hello.planar && !roadway) roadway = new RoadwayView(page.hello.planar);
   if (!recording) return;
   Object.assign(recording, { head: page.hello.head, words: page.hello.words });
   show_all();
@@ -191,6 +194,10 @@ function connect() {
     page.heard_ms = performance.now();
     if (!page.paused) show_health(JSON.parse(event.data).parts);
   });
+  const of_roadway = (name, take) => events.addEventListener(name, (event) => { if (roadway) take(JSON.parse(event.data)); });
+  of_roadway('map', (map) => { if (!page.paused) roadway.take_map(map); });
+  of_roadway('roadway', (place) => { if (!page.paused) roadway.take_place(place); });
+  of_roadway('stop', (stop) => roadway.take_stop(stop));
   // A daemon that is being started anew refuses; then the browser gives up unless it is asked again.
   events.onerror = () => {
     if (events.readyState !== EventSource.CLOSED) return;
@@ -208,6 +215,7 @@ document.getElementById('theme').addEventListener('click', () => {
 });
 window.addEventListener('resize', () => { if (recording) { viewer.draw(page.frame); charts.draw(); } });
 setInterval(show_link, 250);
+setInterval(() => { if (roadway) roadway.show(); }, 100);
 page.language = (navigator.language || 'en').startsWith('zh') ? 'zh' : 'en';
 document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
 show_all();

@@ -74,13 +74,18 @@ def _read_table() -> "dict[str, KeyInfo]":
 KEYS: "dict[str, KeyInfo]" = _read_table()
 
 
-# Of motion and of pose_walld (tools/config_file/motion_settings.cpp, live_settings.cpp): a file for all is a good file.
+# Of motion and of pose_walld (tools/config_file/motion_settings.cpp, live_settings.cpp,
+# planar_settings.cpp): a file for all is a good file.
 # A test compares them with what the command prints.
 OUTSIDE_KEYS = frozenset((
     "motion_speed_max", "motion_turn_max_deg", "motion_range_max", "motion_keyframe",
     "source", "extrinsic_from", "sensor", "sensor_metadata", "udp_address", "udp_port", "udp_sender",
     "frame_points_max", "ros1", "ros2", "ros_distro", "http", "modbus", "mqtt", "mqtt_topic", "black_box",
-    "black_box_mb", "recording", "recording_mb", "recording_clouds", "status_every_s"))
+    "black_box_mb", "recording", "recording_mb", "recording_clouds", "status_every_s",
+    "planar", "planar_map", "planar_cell", "planar_map_every_s", "planar_tf", "planar_map_frame", "planar_odom_frame",
+    "planar_motion", "planar_x_min", "planar_x_max", "planar_y_min", "planar_y_max", "planar_floor_z", "planar_height",
+    "planar_clearance", "planar_speed_max", "planar_turn_max_deg", "planar_deceleration", "planar_creep",
+    "planar_latency", "planar_stale", "planar_scan_time"))
 
 
 def _known(key: Any) -> KeyInfo:

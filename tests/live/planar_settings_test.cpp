@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: the keys of the planar part are refused with key, value and range. Every value in their ranges is one that
+// the library takes, and what has no key keeps the library's default. Rules over several keys name them.
+
+#include "config_file/planar_settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "config_file/load_config.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+std::string planar_fault_of(const std::vector<std::string>& settings) {
+  try {
+    load_config("", settings);
+  } catch (const ConfigError& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+TEST(PlanarSettings, AreOffAndRefusedWithWhatIsAllowed) {
+  EXPECT_FALSE(load_config("", {}).planar.is_on());
+  EXPECT_EQ(planar_fault_of({"planar=on"}), "--set: planar: 'on' is refused; allowed: one of off, map, localise");
+  EXPECT_EQ(planar_fault_of({"planar_stale=1.01"}),
+            "--set: planar_stale: '1.01' is refused; allowed: a number from 0.02 to 1 s");
+  for (const char* wrong : {"planar_height=nan", "planar_x_min=0", "planar_cell=", "planar_tf=yes", "planar_motion=0",
+                            "planar_turn_max_deg=1e9", "planar_map_every_s=0"}) {
+    EXPECT_NE(planar_fault_of({wrong}).find("is refused; allowed: "), std::string::npos) << wrong;
+  }
+  EXPECT_NE(planar_fault_of({"planar_stail=1"}).find("did you mean 'planar_stale'?"), std::string::npos);
+}
+
+TEST(PlanarSettings, RulesOverSeveralKeysNameThem) {
+  EXPECT_EQ(planar_fault_of({"planar=localise"}), "planar: localise needs planar_map, the file of a saved map");
+  EXPECT_EQ(
+      planar_fault_of({"planar_x_max=5", "planar_y_max=2"}),
+      "planar_x_min, planar_x_max, planar_y_min, planar_y_max: the rectangle's corners must be within 5 m of base");
+  EXPECT_EQ(planar_fault_of({"planar_tf=base", "planar_map_frame="}),
+            "planar_tf: base needs names in planar_map_frame and planar_odom_frame");
+  EXPECT_EQ(planar_fault_of({"planar_tf=off", "planar_map_frame="}), "");
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_map=map.yaml"}),
+            "planar_map: with planar: map the name must end in .pwt");
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_map=trail.pwt"}), "");
+}
+
+TEST(PlanarSettings, EveryValueInRangeIsOneThatTheLibraryTakes) {
+  for (const OutsideKey& key : planar_keys()) {
+    if (key.type != OutsideKey::Type::kNumber) continue;
+    const bool is_corner = std::string(key.name).find("_x_") != std::string::npos ||
+                           std::string(key.name).find("_y_") != std::string::npos;
+    for (const double value : {key.minimum, key.maximum}) {
+      PlanarSettings settings;
+      ASSERT_TRUE(set_planar_value(&settings, key, std::to_string(value))) << key.name;
+      if (is_corner && std::abs(value) > 4.9) continue;  // with the other side it is further than 5 m
+      EXPECT_EQ(broken_planar_rule(settings), "") << key.name << " " << value;
+    }
+  }
+}
+
+TEST(PlanarSettings, DefaultsReadBackAndAreTheLibrarysWhereTheyHaveNoKey) {
+  const PlanarSettings defaults;
+  for (const OutsideKey& key : planar_keys()) {
+    PlanarSettings changed;
+    const std::string written = planar_value_text(defaults, key);
+    EXPECT_TRUE(set_planar_value(&changed, key, written)) << key.name;
+    EXPECT_EQ(planar_value_text(changed, key), written) << key.name;
+  }
+  pose_wall_planar_stop_settings library{};
+  ASSERT_EQ(pose_wall_planar_stop_settings_init(&library), POSE_WALL_OK);
+  const pose_wall_planar_stop_settings ours = stop_settings_of(defaults);
+  for (const auto member :
+       {&pose_wall_planar_stop_settings::tall_m, &pose_wall_planar_stop_settings::stale_s,
+        &pose_wall_planar_stop_settings::delay_s, &pose_wall_planar_stop_settings::restart_s,
+        &pose_wall_planar_stop_settings::approach_m_s, &pose_wall_planar_stop_settings::deceleration_m_s2,
+        &pose_wall_planar_stop_settings::top_m, &pose_wall_planar_stop_settings::scan_s}) {
+    EXPECT_EQ(ours.*member, library.*member);
+  }
+  EXPECT_NEAR(ours.turn_max_rad_s, library.turn_max_rad_s, 0.002);
+  for (std::uint32_t k = 0; k < 4; ++k) EXPECT_EQ(ours.corner_m[k][0], library.corner_m[k][0]);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

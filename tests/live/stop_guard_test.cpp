@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: the stop answers each frame and goes on answering without one. Silence stops the machine as soon as the
+// newest frame is older than planar_stale. So do refused frames, stamps that go back, a thing, and a guard whose thread
+// is gone: the heartbeat stands then. Nothing is permitted before the first frame. The sensor's stamps are placed on
+// the daemon's clock: late frames count as old.
+
+#include "live/planar/stop_guard.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "live/clocks.hpp"
+#include "live/frame_catcher.hpp"
+#include "live/hall_frames.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+using pose_wall::test::becomes_true;
+using pose_wall::test::fact;
+using pose_wall::test::Hall;
+using pose_wall::test::hall_frame;
+using pose_wall::test::hall_settings;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr auto kStop = static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP);
+
+class StopGuardTest : public ::testing::Test {
+ protected:
+  explicit StopGuardTest(std::vector<std::string> more = {}) {
+    std::vector<std::string> settings = hall_settings();
+    settings.insert(settings.end(), more.begin(), more.end());
+    loaded_ = load_config("", settings);
+    guard_ = std::make_unique<StopGuard>(loaded_, [this](const std::shared_ptr<const StopNews>& news) {
+      const std::lock_guard<std::mutex> locked(lock_);
+      told_.push_back(news);
+    });
+  }
+  void TearDown() override { guard_->stop(); }
+
+  void show(const Hall& hall = {}) {
+    stamp_ns_ += kSecond_ns / 10;  // faster than the clock here: none of the frames is late
+    guard_->take(hall_frame(stamp_ns_, ++number_, hall), *loaded_.config.get());
+  }
+  bool drives() const { return guard_->stop_now().result.state != kStop; }
+  // Frames until it permits driving: for restart_s the way must be clear.
+  bool is_brought_to_drive() {
+    guard_->start();
+    return becomes_true([this] {
+      show();
+      return drives();
+    });
+  }
+  std::vector<std::shared_ptr<const StopNews>> told() const {
+    const std::lock_guard<std::mutex> locked(lock_);
+    return told_;
+  }
+
+  LoadedConfig loaded_;
+  std::unique_ptr<StopGuard> guard_;
+  mutable std::mutex lock_;
+  std::vector<std::shared_ptr<const StopNews>> told_;
+  std::int64_t stamp_ns_ = 1'700'000'000 * kSecond_ns;
+  int number_ = 0;
+};
+
+TEST_F(StopGuardTest, NothingIsPermittedBeforeTheFirstFrameAndTheHeartbeatGoesOn) {
+  EXPECT_FALSE(drives());
+  EXPECT_EQ(guard_->stop_now().rounds, 0U) << "the thread has not begun";
+  guard_->start();
+  EXPECT_TRUE(becomes_true([&] { return guard_->stop_now().rounds >= 5; }));
+  EXPECT_FALSE(drives());
+  EXPECT_NE(guard_->stop_now().result.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
+  EXPECT_EQ(guard_->health().grade, Grade::kBad);
+}
+
+TEST_F(StopGuardTest, FramesPermitAndSilenceStopsAsSoonAsTheNewestIsStale) {
+  ASSERT_TRUE(is_brought_to_drive()) << stop_reason_names(guard_->stop_now().result.reasons);
+  EXPECT_EQ(guard_->health().summary, "permits driving");
+  ASSERT_TRUE(becomes_true([&] { return !drives(); }));
+  // The first answer that stops, and the one before it; answers come at least every 20 ms on a machine that is idle.
+  const StopNews stopped = guard_->stop_now();
+  EXPECT_NE(stopped.result.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
+  std::int64_t first_age_ns = INT64_MAX, last_good_age_ns = 0;
+  for (const auto& news : told()) {
+    const std::int64_t age_ns = news->result.now_ns - news->result.stamp_ns;
+    if (news->result.state != kStop) last_good_age_ns = std::max(last_good_age_ns, age_ns);
+    if (news->result.state == kStop && news->result.frames == stopped.result.frames) {
+      first_age_ns = std::min(first_age_ns, age_ns);
+    }
+  }
+  const auto stale_ns = static_cast<std::int64_t>(loaded_.planar.stale_s * 1e9);
+  EXPECT_LE(last_good_age_ns, stale_ns);
+  EXPECT_GT(first_age_ns, stale_ns);
+  EXPECT_LT(first_age_ns, stale_ns + kSecond_ns) << "a busy machine is given time";
+  EXPECT_EQ(guard_->stop_now().header_stamp_ns, stamp_ns_ + 7);
+}
+
+TEST_F(StopGuardTest, AThingInTheWayStopsWithItsPlace) {
+  ASSERT_TRUE(is_brought_to_drive());
+  Hall hall;
+  hall.posts = {{1.2, 0.1, 0.2}};
+  ASSERT_TRUE(becomes_true([&] {
+    show(hall);
+    const StopNews news = guard_->stop_now();
+    return news.result.state == kStop && (news.result.reasons & POSE_WALL_PLANAR_STOP_R_THING) != 0;
+  }));
+  EXPECT_NEAR(guard_->stop_now().result.nearest_m[0], 1.0, 0.25);
+  EXPECT_EQ(guard_->stop_now().allowed_mm_s(), 0);
+}
+
+TEST_F(StopGuardTest, ARefusedFrameAndStampsThatGoBackStop) {
+  ASSERT_TRUE(is_brought_to_drive());
+  const std::shared_ptr<LiveFrame> broken = hall_frame(stamp_ns_ + 1, 1);
+  broken->frame.cloud.point_step = 1;
+  guard_->take(broken, *loaded_.config.get());
+  ASSERT_TRUE(becomes_true([&] { return fact(guard_->health(), "frames refused") == "1"; }));
+  const std::uint64_t rounds = guard_->stop_now().rounds;
+  EXPECT_FALSE(drives());
+  EXPECT_NE(guard_->stop_now().result.reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);
+  ASSERT_TRUE(becomes_true([&] { return guard_->stop_now().rounds > rounds + 1; }));
+  EXPECT_FALSE(drives()) << "the good frame before it permits nothing any more";
+
+  ASSERT_TRUE(is_brought_to_drive());
+  stamp_ns_ -= 3600 * kSecond_ns;
+  show();
+  ASSERT_TRUE(becomes_true([&] { return fact(guard_->health(), "frames refused") == "2"; }));
+  EXPECT_FALSE(drives());
+  EXPECT_TRUE(is_brought_to_drive()) << "the new time counts from then on";
+}
+
+TEST_F(StopGuardTest, AThreadThatIsGonePermitsNothingAndItsHeartbeatStands) {
+  ASSERT_TRUE(is_brought_to_drive());
+  guard_->stop();
+  const std::uint64_t rounds = guard_->stop_now().rounds;
+  ASSERT_TRUE(becomes_true([&] { return !drives(); }));
+  EXPECT_EQ(guard_->stop_now().rounds, rounds);
+  EXPECT_EQ(guard_->stop_now().allowed_mm_s(), 0);
+}
+
+TEST_F(StopGuardTest, AnotherExtrinsicBeginsAnew) {
+  ASSERT_TRUE(is_brought_to_drive());
+  api::Config other = loaded_.config;
+  ASSERT_EQ(other.set("extrinsic_x", 0.1), POSE_WALL_OK);
+  stamp_ns_ += kSecond_ns / 10;
+  guard_->take(hall_frame(stamp_ns_, ++number_), *other.get());
+  ASSERT_TRUE(becomes_true([&] { return guard_->stop_now().result.frames == 1; }));
+  EXPECT_FALSE(drives());
+}
+
+TEST(StopGuardOf, FramesThatComeFasterThanTheyAreAnsweredAreLostAndCounted) {
+  const LoadedConfig loaded = load_config("", hall_settings());
+  StopGuard guard(loaded, nullptr);
+  const auto frame = hall_frame(1, 1);
+  for (int k = 0; k < 10; ++k) guard.take(frame, *loaded.config.get());
+  EXPECT_EQ(fact(guard.health(), "frames lost to slowness"), "9");
+  EXPECT_EQ(frame.use_count(), 2) << "only the newest is kept";
+}
+
+// Without a motion every motion is assumed.
+TEST(StopGuardOf, MeasuredMotionIsUsedOnlyWhereAskedForAndFresh) {
+  for (const std::string mode : {"assumed", "measured"}) {
+    std::vector<std::string> settings = hall_settings();
+    settings.push_back("planar_motion=" + mode);
+    const LoadedConfig loaded = load_config("", settings);
+    StopGuard guard(loaded, nullptr);
+    LiveResult result;
+    result.config = *loaded.config.get();
+    result.publication.has_motion = 1;
+    result.publication.motion.along_state = POSE_WALL_ALONG_MEASURED;
+    result.publication.motion.step_s = 0.1;
+    result.publication.motion.step_m[0] = 0.02;
+    const auto frame = hall_frame(kSecond_ns, 1);
+    guard.note_motion(result);
+    guard.start();
+    guard.take(frame, *loaded.config.get());
+    ASSERT_TRUE(becomes_true([&] { return fact(guard.health(), "frames answered") == "1"; }));
+    const StopNews news = guard.stop_now();
+    EXPECT_EQ((news.result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING) == 0, mode == "measured") << mode;
+    EXPECT_NEAR(news.result.rim_speed_m_s, mode == "measured" ? 0.2 : loaded.planar.speed_max_m_s, 1e-6);
+  }
+}
+
+TEST(StampClock, LateFramesAreOldAndDriftIsForgiven) {
+  StampClock clock;
+  std::int64_t now_ns = 50 * kSecond_ns, stamp_ns = 1'700'000'000 * kSecond_ns;
+  const auto frame = [&](std::int64_t delay_ns) { return now_ns - clock.place(stamp_ns, now_ns + delay_ns).ns; };
+  EXPECT_EQ(frame(10'000'000), -10'000'000) << "the first counts as new";
+  for (int k = 0; k < 100; ++k) {
+    now_ns += kSecond_ns / 10, stamp_ns += kSecond_ns / 10;
+    EXPECT_NEAR(static_cast<double>(frame(5'000'000)), -5e6, 1e6);
+  }
+  now_ns += kSecond_ns / 10, stamp_ns += kSecond_ns / 10;
+  EXPECT_NEAR(static_cast<double>(frame(300'000'000)), -5e6, 1e6) << "it waited for 0.3 s, and is as old as it is";
+  // A sensor whose clock is slow by 100 ppm, for an hour.
+  for (int k = 0; k < 36'000; ++k) now_ns += 100'010'000, stamp_ns += 100'000'000, static_cast<void>(frame(5'000'000));
+  EXPECT_NEAR(static_cast<double>(frame(5'000'000)), -5e6, 1e6);
+}
+
+TEST(StampClock, StampsThatStandStillOrGoBackAreTold) {
+  StampClock clock;
+  EXPECT_TRUE(clock.place(100, 1000).is_later);
+  EXPECT_FALSE(clock.place(100, 2000).is_later);
+  EXPECT_FALSE(clock.place(50, 3000).is_later);
+  EXPECT_TRUE(clock.place(60, 4000).is_later) << "from there on it goes on";
+  EXPECT_TRUE(clock.place(INT64_MAX, 5000).is_later);
+  EXPECT_FALSE(clock.place(INT64_MIN, 6000).is_later) << "no overflow";
+  // Drivers without stamps.
+  EXPECT_TRUE(StampClock().place(0, 7).is_later);
+  EXPECT_EQ(StampClock().place(0, 7).ns, 7);
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::live

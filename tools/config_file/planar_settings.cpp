@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "config_file/planar_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <variant>
+
+#include "angles.hpp"
+#include "language/language.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using PlanarMember = std::variant<std::string PlanarSettings::*, double PlanarSettings::*>;
+
+struct PlanarKeyRow {
+  OutsideKey info;
+  PlanarMember member;
+};
+
+constexpr const char* kRoadwayGroup = translatable("Live: map of the roadway");
+constexpr const char* kStopGroup = translatable("Live: obstacle stop, and the machine that it stops");
+
+// The ranges lie within those of pose_wall_planar_stop.h, _scan.h and _map.h.
+const std::vector<PlanarKeyRow>& planar_key_rows() {
+  static const std::vector<PlanarKeyRow> table = {
+      {{"planar", kRoadwayGroup, OutsideKey::Type::kChoice, "", 0, 0, "off, map, localise",
+        translatable("off: no map and no obstacle stop. map: a new map from the start on. localise: the place in the "
+                     "map of planar_map. The obstacle stop works in both")},
+       &PlanarSettings::mode},
+      {{"planar_map", kRoadwayGroup, OutsideKey::Type::kText, "", 0, 0, "",
+        translatable(
+            "localise: the map that is read, trail.pwt of `pose_wall map -o FOLDER` or of planar: map, or map.yaml as "
+            "Nav2 has it. map: where the map is saved, a name in .pwt; a file that is there already is kept")},
+       &PlanarSettings::map},
+      {{"planar_cell", kRoadwayGroup, OutsideKey::Type::kNumber, "m", 0.02, 0.5, "",
+        translatable("side of a cell of the map")},
+       &PlanarSettings::cell_m},
+      {{"planar_map_every_s", kRoadwayGroup, OutsideKey::Type::kNumber, "s", 1, 3600, "",
+        translatable("shortest time between two maps that are published")},
+       &PlanarSettings::map_every_s},
+      {{"planar_tf", kRoadwayGroup, OutsideKey::Type::kChoice, "", 0, 0, "off, base, odom",
+        translatable("transforms by ROS. base: from planar_map_frame to base_frame. odom: from planar_map_frame to "
+                     "planar_odom_frame, and from there to base_frame by motion")},
+       &PlanarSettings::tf},
+      {{"planar_map_frame", kRoadwayGroup, OutsideKey::Type::kText, "", 0, 0, "",
+        translatable("name of the map's frame")},
+       &PlanarSettings::map_frame},
+      {{"planar_odom_frame", kRoadwayGroup, OutsideKey::Type::kText, "", 0, 0, "",
+        translatable("name of the frame in which motion counts, for planar_tf: odom")},
+       &PlanarSettings::odom_frame},
+      {{"planar_motion", kStopGroup, OutsideKey::Type::kChoice, "", 0, 0, "assumed, measured",
+        translatable("motion that the stop reckons with. assumed: every motion within planar_speed_max and "
+                     "planar_turn_max_deg. measured: that of the last frame, straight ahead while the machine stands")},
+       &PlanarSettings::motion},
+      {{"planar_x_min", kStopGroup, OutsideKey::Type::kNumber, "m", -5, -0.05, "",
+        translatable("rectangle about all parts of the machine that can touch anything, in base: least x")},
+       &PlanarSettings::x_min_m},
+      {{"planar_x_max", kStopGroup, OutsideKey::Type::kNumber, "m", 0.05, 5, "", translatable("likewise: largest x")},
+       &PlanarSettings::x_max_m},
+      {{"planar_y_min", kStopGroup, OutsideKey::Type::kNumber, "m", -5, -0.05, "", translatable("likewise: least y")},
+       &PlanarSettings::y_min_m},
+      {{"planar_y_max", kStopGroup, OutsideKey::Type::kNumber, "m", 0.05, 5, "", translatable("likewise: largest y")},
+       &PlanarSettings::y_max_m},
+      {{"planar_floor_z", kStopGroup, OutsideKey::Type::kNumber, "m", -10, 10, "",
+        translatable("height of the tracks' contact with the floor, in base")},
+       &PlanarSettings::floor_z_m},
+      {{"planar_height", kStopGroup, OutsideKey::Type::kNumber, "m", 1.4, 6, "",
+        translatable("height of the machine above the floor, with clearance; higher things are no obstacle")},
+       &PlanarSettings::height_m},
+      {{"planar_clearance", kStopGroup, OutsideKey::Type::kNumber, "m", 0.2, 1.2, "",
+        translatable("height of the body's lowest part above the floor; lower things are not in the map")},
+       &PlanarSettings::clearance_m},
+      {{"planar_speed_max", kStopGroup, OutsideKey::Type::kNumber, "m/s", 0.05, 3, "",
+        translatable("largest speed of any point of the machine that is allowed")},
+       &PlanarSettings::speed_max_m_s},
+      {{"planar_turn_max_deg", kStopGroup, OutsideKey::Type::kNumber, "deg/s", 1, 110, "",
+        translatable("fastest turn that is allowed")},
+       &PlanarSettings::turn_max_deg_s},
+      {{"planar_deceleration", kStopGroup, OutsideKey::Type::kNumber, "m/s2", 0.1, 10, "",
+        translatable("least deceleration by the brakes")},
+       &PlanarSettings::deceleration_m_s2},
+      {{"planar_creep", kStopGroup, OutsideKey::Type::kNumber, "m/s", 0, 0.3, "",
+        translatable("speed at which the machine may pass a thing that stands still, however near; 0: not at all")},
+       &PlanarSettings::creep_m_s},
+      {{"planar_latency", kStopGroup, OutsideKey::Type::kNumber, "s", 0, 2, "",
+        translatable("from the stop's answer to the first effect of the brakes, the controller's cycle included")},
+       &PlanarSettings::latency_s},
+      {{"planar_stale", kStopGroup, OutsideKey::Type::kNumber, "s", 0.02, 1, "",
+        translatable(
+            "age of the newest frame at which the machine is stopped. At least a frame's period and its delay")},
+       &PlanarSettings::stale_s},
+      {{"planar_scan_time", kStopGroup, OutsideKey::Type::kNumber, "s", 0, 0.5, "",
+        translatable("so long before its stamp a frame began; 0: all points at the stamp")},
+       &PlanarSettings::scan_time_s},
+  };
+  return table;
+}
+
+const PlanarKeyRow* find_planar_row(const std::string& name) {
+  for (const PlanarKeyRow& row : planar_key_rows()) {
+    if (name == row.info.name) return &row;
+  }
+  return nullptr;
+}
+
+bool is_planar_choice(const OutsideKey& key, const std::string& value) {
+  if (key.type != OutsideKey::Type::kChoice) return true;
+  const std::vector<std::string> choices = choices_of(key);
+  return std::find(choices.begin(), choices.end(), value) != choices.end();
+}
+
+}  // namespace
+
+const std::vector<OutsideKey>& planar_keys() {
+  static const std::vector<OutsideKey> keys = [] {
+    std::vector<OutsideKey> infos;
+    for (const PlanarKeyRow& row : planar_key_rows()) infos.push_back(row.info);
+    return infos;
+  }();
+  return keys;
+}
+
+const OutsideKey* find_planar_key(const std::string& name) {
+  const PlanarKeyRow* row = find_planar_row(name);
+  return row != nullptr ? &row->info : nullptr;
+}
+
+std::string planar_value_text(const PlanarSettings& settings, const OutsideKey& key) {
+  const PlanarMember member = find_planar_row(key.name)->member;
+  if (const auto text = std::get_if<std::string PlanarSettings::*>(&member)) return settings.**text;
+  return fmt::format("{:.9g}", settings.*std::get<double PlanarSettings::*>(member));
+}
+
+bool set_planar_value(PlanarSettings* settings, const OutsideKey& key, const std::string& value) {
+  const PlanarMember member = find_planar_row(key.name)->member;
+  if (const auto text = std::get_if<std::string PlanarSettings::*>(&member)) {
+    if (!is_planar_choice(key, value)) return false;
+    settings->** text = value;
+    return true;
+  }
+  const std::optional<double> read = number_of(key, value);
+  if (read) settings->*std::get<double PlanarSettings::*>(member) = *read;
+  return read.has_value();
+}
+
+pose_wall_planar_stop_settings stop_settings_of(const PlanarSettings& settings) {
+  pose_wall_planar_stop_settings stop{};
+  static_cast<void>(pose_wall_planar_stop_settings_init(&stop));
+  static_cast<void>(
+      pose_wall_planar_stop_rectangle(&stop, settings.x_min_m, settings.x_max_m, settings.y_min_m, settings.y_max_m));
+  stop.floor_z_m = settings.floor_z_m;
+  stop.top_m = settings.height_m;
+  stop.speed_max_m_s = settings.speed_max_m_s;
+  stop.turn_max_rad_s = settings.turn_max_deg_s * kRadPerDeg;
+  stop.deceleration_m_s2 = settings.deceleration_m_s2;
+  stop.creep_m_s = settings.creep_m_s;
+  stop.latency_s = settings.latency_s;
+  stop.stale_s = settings.stale_s;
+  stop.scan_s = settings.scan_time_s;
+  return stop;
+}
+
+pose_wall_planar_scanner_settings scanner_settings_of(const PlanarSettings& settings) {
+  pose_wall_planar_scanner_settings scanner{};
+  static_cast<void>(pose_wall_planar_scanner_settings_init(&scanner));
+  scanner.machine_height_m = settings.height_m;
+  scanner.ground_clearance_m = settings.clearance_m;
+  return scanner;
+}
+
+std::string broken_planar_rule(const PlanarSettings& settings) {
+  if (settings.mode == "localise" && settings.map.empty()) {
+    return say("planar: localise needs planar_map, the file of a saved map");
+  }
+  const std::string ending = ".pwt";
+  const bool is_trail = settings.map.size() > ending.size() &&
+                        settings.map.compare(settings.map.size() - ending.size(), ending.size(), ending) == 0;
+  if (settings.maps() && !settings.map.empty() && !is_trail) {
+    return say("planar_map: with planar: map the name must end in .pwt");
+  }
+  if (settings.tf != "off" && (settings.map_frame.empty() || settings.odom_frame.empty())) {
+    return say("planar_tf: {} needs names in planar_map_frame and planar_odom_frame", settings.tf);
+  }
+  const pose_wall_planar_stop_settings stop = stop_settings_of(settings);
+  if (pose_wall_planar_stop_settings_check(&stop, nullptr) != POSE_WALL_OK) {
+    return say(
+        "planar_x_min, planar_x_max, planar_y_min, planar_y_max: the rectangle's corners must be within 5 m of "
+        "base");
+  }
+  pose_wall_planar_fault fault{};
+  const pose_wall_planar_scanner_settings scanner = scanner_settings_of(settings);
+  if (pose_wall_planar_scanner_settings_check(&scanner, &fault) == POSE_WALL_OK) return "";
+  return say("planar_height, planar_clearance are refused: {}", fault.rule);
+}
+
+}  // namespace pose_wall::tools

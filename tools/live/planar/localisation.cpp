@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The localisation in a saved map as a finder of places.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "language/language.hpp"
+#include "live/log.hpp"
+#include "live/planar/place_finder.hpp"
+#include "planar/map_files.hpp"
+#include "planar/part_block.hpp"
+#include "planar/plane_pose.hpp"
+#include "pose_wall_planar_localise.h"
+#include "pose_wall_planar_slam.h"
+
+namespace pose_wall::tools::live {
+namespace {
+
+// Travel between two places of the track that is shown.
+constexpr double kTrackStep_m = 0.3;
+// A kilometre of road takes some 300.
+constexpr std::uint32_t kTilesMost = 2048;
+
+pose_wall_planar_localise_settings settings_of_localisation() {
+  pose_wall_planar_localise_settings settings{};
+  require_ok(pose_wall_planar_localise_settings_init(&settings), translatable("the settings of the map"));
+  settings.tiles_most = kTilesMost;
+  return settings;
+}
+
+std::uint64_t bytes_for(const pose_wall_planar_localise_settings& settings) {
+  std::uint64_t bytes = 0;
+  require_ok(pose_wall_planar_localise_memory_needed(&settings, &bytes), translatable("the settings of the map"));
+  return bytes;
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.is_open() || stream.bad() || bytes.empty()) {
+    throw std::runtime_error(fmt::format("planar_map: {} cannot be read", file.string()));
+  }
+  return bytes;
+}
+
+void require_map(std::int32_t status, const std::filesystem::path& file) {
+  if (status == POSE_WALL_OK) return;
+  throw std::runtime_error(fmt::format("planar_map: {}: {}", file.string(), pose_wall_planar_status_text(status)));
+}
+
+// A saved trail, read by a SLAM that has room for it.
+class SavedTrail {
+ public:
+  explicit SavedTrail(const std::filesystem::path& file) {
+    const std::string saved = bytes_of(file);
+    std::int32_t status = POSE_WALL_E_BLOCK_SMALL;
+    for (std::uint32_t room = 4096; status == POSE_WALL_E_BLOCK_SMALL && room <= kRoomMost; room *= 4) {
+      pose_wall_planar_slam_settings settings{};
+      require_map(pose_wall_planar_slam_settings_init(&settings), file);
+      settings.keyframes_most = room;
+      std::uint64_t bytes = 0;
+      require_map(pose_wall_planar_slam_memory_needed(&settings, &bytes), file);
+      block_ = std::make_unique<PartBlock>(bytes);
+      require_map(pose_wall_planar_slam_open(&settings, block_->data(), block_->bytes(), &slam_), file);
+      status = pose_wall_planar_slam_load(slam_, saved.data(), saved.size(), nullptr);
+    }
+    require_map(status, file);
+  }
+
+  void put_into(pose_wall_planar_localise* localise, const std::filesystem::path& file) const {
+    pose_wall_planar_keyframe keyframe{};
+    keyframe.struct_size = sizeof keyframe;
+    std::vector<float> xy_m;
+    for (std::uint32_t k = 0; pose_wall_planar_slam_keyframe(slam_, k, &keyframe) == POSE_WALL_OK; ++k) {
+      xy_m.resize(2 * std::size_t{keyframe.points} + 2);
+      require_map(pose_wall_planar_slam_points(slam_, k, xy_m.data(), keyframe.points), file);
+      require_map(pose_wall_planar_localise_add(localise, &keyframe.pose, xy_m.data(), keyframe.points), file);
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kRoomMost = 65536;  // of pose_wall_planar_slam_settings
+  std::unique_ptr<PartBlock> block_;
+  pose_wall_planar_slam* slam_ = nullptr;
+};
+
+std::shared_ptr<const RoadwayMap> map_of(const std::filesystem::path& yaml) {
+  MapFile file = read_map_files(yaml);
+  if (!file.note.empty()) log_line(Grade::kWarning, "planar", file.note);
+  auto map = std::make_shared<RoadwayMap>();
+  map->version = 1;
+  map->width = file.width, map->height = file.height;
+  map->resolution_m = file.resolution_m, map->origin_x_m = file.origin_x_m, map->origin_y_m = file.origin_y_m;
+  map->cells = std::move(file.cells);
+  return map;
+}
+
+class Localisation final : public PlaceFinder {
+ public:
+  explicit Localisation(const PlanarSettings& settings)
+      : settings_(settings_of_localisation()), block_(bytes_for(settings_)) {
+    require_ok(pose_wall_planar_localise_open(&settings_, block_.data(), block_.bytes(), &localise_),
+               translatable("the settings of the map"));
+    load(settings.map);
+    last_.struct_size = sizeof last_;
+  }
+
+  void place(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry, RoadwayNews* news) override {
+    require_ok(pose_wall_planar_localise_process(localise_, &scan, odometry, &last_), translatable("the scan"));
+    news->state = pose_wall_planar_localise_state_name(last_.state);
+    if (last_.state == POSE_WALL_PLANAR_LOCALISE_UNIQUE) {
+      news->pose = last_.pose;
+      std::copy(std::begin(last_.covariance), std::end(last_.covariance), std::begin(news->covariance));
+      if (track_.empty() || distance_m(track_.back(), last_.pose) >= kTrackStep_m) track_.push_back(last_.pose);
+      if (track_.size() > kTrackMost) track_.erase(track_.begin());
+    }
+    pose_wall_planar_candidate candidate{};
+    candidate.struct_size = sizeof candidate;
+    for (std::uint32_t k = 0; k < last_.candidates; ++k) {
+      if (pose_wall_planar_localise_candidate(localise_, k, &candidate) != POSE_WALL_OK) break;
+      news->candidates.push_back(candidate.pose);
+    }
+  }
+
+  std::shared_ptr<const RoadwayMap> changed_map(std::int64_t) override { return std::exchange(map_, nullptr); }
+  std::vector<pose_wall_planar_pose> track() const override { return track_; }
+
+  std::vector<std::pair<std::string, std::string>> facts() const override {
+    return {{"searches", std::to_string(last_.searches)},
+            {"progress", fmt::format("{:.2f}", last_.progress)},
+            {"candidates", std::to_string(last_.candidates_all)},
+            {"place lost", std::to_string(last_.lost)}};
+  }
+
+ private:
+  // A trail holds more of the rock's relief than cells do; the cells beside it are for people and for planners.
+  void load(const std::filesystem::path& file) {
+    const bool is_trail = file.extension() == ".pwt";
+    const std::filesystem::path yaml = is_trail ? file.parent_path() / "map.yaml" : file;
+    if (is_trail) SavedTrail(file).put_into(localise_, file);
+    if (!is_trail || std::filesystem::exists(yaml)) map_ = map_of(yaml);
+    if (!map_) log_line(Grade::kWarning, "planar", fmt::format("there is no {}: no map is shown", yaml.string()));
+    if (!is_trail) {
+      const pose_wall_planar_grid grid = map_->grid();
+      require_map(pose_wall_planar_localise_add_grid(localise_, &grid), file);
+    }
+    require_map(pose_wall_planar_localise_finish(localise_), file);
+  }
+
+  pose_wall_planar_localise_settings settings_;
+  PartBlock block_;
+  pose_wall_planar_localise* localise_ = nullptr;
+  pose_wall_planar_localise_result last_{};
+  std::shared_ptr<const RoadwayMap> map_;
+  std::vector<pose_wall_planar_pose> track_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlaceFinder> make_localisation(const PlanarSettings& settings) {
+  return std::make_unique<Localisation>(settings);
+}
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "live/planar/stop_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "config_file/key_table.hpp"
+#include "live/clocks.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+constexpr std::int64_t kTellEvery_ns = 100'000'000;
+constexpr double kNsPerS = 1e9;
+
+// Along forward_axis, of a step in base.
+double along_forward(const pose_wall_config& config, const double* step_m) {
+  const std::string axis = config_text(config, "forward_axis");
+  const double along_m = step_m[axis.back() == 'Y' ? 1 : 0];
+  return axis.front() == '-' ? -along_m : along_m;
+}
+
+}  // namespace
+
+std::string stop_reason_names(std::uint32_t reasons) {
+  std::string names;
+  for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
+    if ((reasons >> bit & 1U) != 0)
+      names += (names.empty() ? "" : ", ") + std::string(pose_wall_planar_stop_reason_name(bit));
+  }
+  return names;
+}
+
+StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell)
+    : settings_(stop_settings_of(loaded.planar)),
+      takes_motion_(loaded.planar.motion == "measured"),
+      tell_(std::move(tell)),
+      block_(pose_wall_planar_stop_memory_needed()) {
+  open(*loaded.config.get());
+  if (stop_ == nullptr) throw std::runtime_error("planar stop: the settings are refused");
+  newest_.result.struct_size = sizeof newest_.result;
+  refuse(&newest_, POSE_WALL_PLANAR_STOP_R_STALE);
+}
+
+// Without a handle every answer is a stop.
+void StopGuard::open(const pose_wall_config& config) {
+  config_ = config;
+  stop_ = nullptr;
+  stamps_ = StampClock();
+  const std::int32_t status = pose_wall_planar_stop_open(&config_, &settings_, block_.data(), block_.bytes(), &stop_);
+  if (status != POSE_WALL_OK) stop_ = nullptr;
+}
+
+void StopGuard::start() {
+  if (thread_.joinable()) return;
+  ending_ = false;
+  thread_ = std::thread([this] { run(); });
+}
+
+void StopGuard::stop() {
+  {
+    const std::lock_guard<std::mutex> locked(lock_);
+    ending_ = true;
+  }
+  changed_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+void StopGuard::take(const std::shared_ptr<const LiveFrame>& frame, const pose_wall_config& config) {
+  std::optional<Job> job = Job{frame, config, monotonic_ns()};  // what is lost is freed outside of the lock
+  {
+    const std::lock_guard<std::mutex> locked(lock_);
+    if (waiting_) ++lost_;
+    waiting_.swap(job);
+  }
+  changed_.notify_one();
+}
+
+void StopGuard::confirm() {
+  const std::lock_guard<std::mutex> locked(lock_);
+  confirmed_ = true;
+}
+
+// Dead reckoning is no measurement.
+void StopGuard::note_motion(const LiveResult& result) {
+  const pose_wall_motion_result& moved = result.publication.motion;
+  std::optional<Measured> measured;
+  if (result.publication.has_motion != 0 && moved.along_state == POSE_WALL_ALONG_MEASURED && moved.step_s > 0.0) {
+    measured = Measured{along_forward(result.config, moved.step_m) / moved.step_s, moved.step_rad[2] / moved.step_s,
+                        monotonic_ns()};
+    if (!std::isfinite(measured->speed_m_s) || !std::isfinite(measured->turn_rad_s)) measured.reset();
+  }
+  const std::lock_guard<std::mutex> locked(lock_);
+  measured_ = measured;
+}
+
+pose_wall_planar_stop_motion StopGuard::motion_now() const {
+  pose_wall_planar_stop_motion motion{};
+  motion.struct_size = sizeof motion;
+  const std::lock_guard<std::mutex> locked(lock_);
+  const bool is_fresh =
+      measured_ && static_cast<double>(monotonic_ns() - measured_->at_ns) <= settings_.stale_s * kNsPerS;
+  if (!takes_motion_ || !is_fresh) return motion;
+  motion.given = POSE_WALL_PLANAR_STOP_MEASURED;
+  motion.speed_m_s = measured_->speed_m_s;
+  motion.turn_rad_s = measured_->turn_rad_s;
+  return motion;
+}
+
+void StopGuard::refuse(StopNews* news, std::uint32_t reason) const {
+  news->result.state = POSE_WALL_PLANAR_STOP_STOP;
+  news->result.reasons |= reason;
+  news->result.allowed_speed_m_s = news->result.allowed_turn_rad_s = news->result.stop_speed_m_s = 0.0;
+}
+
+void StopGuard::answer_frame(const Job& job, StopNews* news) {
+  if (std::memcmp(&job.config, &config_, sizeof config_) != 0) open(job.config);
+  header_stamp_ns_ = job.frame->stamp_ns;
+  pose_wall_cloud cloud = job.frame->frame.cloud;
+  const StampClock::Placed placed = stamps_.place(cloud.stamp_ns, job.received_ns);
+  // A clock that went back: nothing that was seen before is as old as it seems.
+  if (!placed.is_later && stop_ != nullptr) static_cast<void>(pose_wall_planar_stop_reset(stop_));
+  cloud.stamp_ns = placed.ns;
+  const pose_wall_planar_stop_motion motion = motion_now();
+  const std::int32_t status =
+      stop_ == nullptr ? POSE_WALL_E_ENGINE
+                       : pose_wall_planar_stop_process(stop_, &cloud, &motion, monotonic_ns(), &news->result);
+  frame_refused_ = status != POSE_WALL_OK;
+  if (!frame_refused_ && placed.is_later) return;
+  refuse(news, POSE_WALL_PLANAR_STOP_R_INVALID);
+  const std::lock_guard<std::mutex> locked(lock_);
+  ++refused_;
+}
+
+void StopGuard::answer_silence(StopNews* news) {
+  if (stop_ == nullptr || pose_wall_planar_stop_tick(stop_, monotonic_ns(), &news->result) != POSE_WALL_OK) {
+    refuse(news, POSE_WALL_PLANAR_STOP_R_STALE);
+  } else if (frame_refused_) {
+    // The library goes by the frame before it; that one is no permission any more.
+    refuse(news, POSE_WALL_PLANAR_STOP_R_INVALID);
+  }
+}
+
+void StopGuard::run() {
+  StopNews news;
+  news.result.struct_size = sizeof news.result;
+  while (true) {
+    std::optional<Job> job;
+    bool is_confirmed = false;
+    {
+      std::unique_lock<std::mutex> locked(lock_);
+      changed_.wait_for(locked, std::chrono::nanoseconds(kTick_ns), [this] { return ending_ || waiting_; });
+      if (ending_) return;
+      job.swap(waiting_);
+      is_confirmed = std::exchange(confirmed_, false);
+    }
+    if (is_confirmed && stop_ != nullptr) static_cast<void>(pose_wall_planar_stop_confirm(stop_));
+    if (job) {
+      answer_frame(*job, &news);
+    } else {
+      answer_silence(&news);
+    }
+    ++news.rounds;
+    news.answered_ns = monotonic_ns();
+    news.header_stamp_ns = header_stamp_ns_;
+    put(news, job ? &*job : nullptr);
+  }
+}
+
+void StopGuard::put(const StopNews& news, const Job* job) {
+  bool is_change = false;
+  {
+    const std::lock_guard<std::mutex> locked(lock_);
+    is_change = news.result.state != newest_.result.state;
+    if (is_change && news.result.state == POSE_WALL_PLANAR_STOP_STOP) ++stops_;
+    if (job != nullptr) {
+      ++answered_;
+      latency_worst_ns_ = std::max(latency_worst_ns_, news.answered_ns - job->received_ns);
+    }
+    newest_ = news;
+  }
+  if (job == nullptr && !is_change && news.answered_ns - told_ns_ < kTellEvery_ns) return;
+  told_ns_ = news.answered_ns;
+  if (tell_) tell_(std::make_shared<const StopNews>(news));
+}
+
+StopNews StopGuard::stop_now() const {
+  StopNews news;
+  {
+    const std::lock_guard<std::mutex> locked(lock_);
+    news = newest_;
+  }
+  if (monotonic_ns() - news.answered_ns > kHangs_ns) refuse(&news, POSE_WALL_PLANAR_STOP_R_STALE);
+  return news;
+}
+
+PartHealth StopGuard::health() const {
+  const StopNews news = stop_now();
+  PartHealth health;
+  health.part = "planar stop";
+  const bool is_stop = news.result.state == POSE_WALL_PLANAR_STOP_STOP;
+  const bool is_stale = (news.result.reasons & POSE_WALL_PLANAR_STOP_R_STALE) != 0;
+  health.grade = !is_stop ? Grade::kGood : is_stale ? Grade::kBad : Grade::kWarning;
+  health.summary = !is_stop ? "permits driving" : is_stale ? "stops the machine: no frame comes" : "stops the machine";
+  health.add("state", pose_wall_planar_stop_state_name(news.result.state));
+  health.add("reasons", stop_reason_names(news.result.reasons));
+  health.add("allowed mm/s", fmt::format("{}", news.allowed_mm_s()));
+  health.add("heartbeat", news.rounds);
+  const std::lock_guard<std::mutex> locked(lock_);
+  health.add("frames answered", answered_);
+  health.add("frames lost to slowness", lost_);
+  health.add("frames refused", refused_);
+  health.add("stops", stops_);
+  health.add("latency worst ms", fmt::format("{:.1f}", static_cast<double>(latency_worst_ns_) * 1e-6));
+  return health;
+}
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,111 @@
+// The map of the roadway with the machine on it, and what the obstacle stop permits. Only where the daemon has them.
+
+// The stop answers ten times a second at least: so long without an answer is a stop.
+const kNoAnswer_ms = 500, kNearView_m = 40;
+
+class RoadwayView {
+  constructor(planar) {
+    this.planar = planar;
+    this.map = null;
+    this.place = null;
+    this.stop = null;
+    this.stop_heard_ms = -Infinity;
+    this.is_near = false;
+    document.getElementById('roadway-panel').hidden = false;
+    document.getElementById('roadway-zoom').onclick = () => { this.is_near = !this.is_near; this.show(); };
+  }
+
+  take_map(map) {
+    const image = new Image();
+    image.onload = () => { this.map = { ...map, image }; this.show(); };
+    image.src = map.png;
+  }
+
+  take_place(place) { this.place = place; }
+
+  take_stop(stop) {
+    this.stop = stop;
+    this.stop_heard_ms = performance.now();
+  }
+
+  // What is not heard any more permits nothing.
+  is_stop_known() { return this.stop && performance.now() - this.stop_heard_ms < kNoAnswer_ms; }
+
+  show() {
+    this.show_stop();
+    this.show_place();
+    this.draw();
+  }
+
+  show_stop() {
+    const w = words(), line = document.getElementById('stop-line');
+    const grade = { go: 'good', slow: 'fair', stop: 'bad' };
+    const say = (state, text) => { line.className = grade[state]; if (line.textContent !== text) line.textContent = text; };
+    if (!this.is_stop_known()) return say('stop', w.stop_not_known);
+    const reasons = this.stop.reasons.map((name) => w.stop_reasons[name] || name).join(w.list_comma);
+    const text = this.stop.state === 'slow' ? w.stop_slow(number_text(this.stop.allowed_speed_m_s, 2)) : this.stop.state === 'go' ? w.stop_go : w.stop_stop;
+    return say(this.stop.state, reasons ? `${text} ${reasons}` : text);
+  }
+
+  show_place() {
+    const w = words(), line = document.getElementById('place-line'), place = this.place;
+    document.getElementById('roadway-zoom').textContent = this.is_near ? w.whole_map : w.around_machine;
+    if (!place) return fill('place-line', w.no_place_yet);
+    const state = w.place_states[place.state] || place.state;
+    const at = place.pose ? w.place_at(number_text(place.pose[0], 2), number_text(place.pose[1], 2), number_text(place.pose[2] * 180 / Math.PI, 1)) : '';
+    line.textContent = `${w.place_is(state)} ${at}`;
+    return line;
+  }
+
+  // Corners of what is shown, in metres of the map.
+  window() {
+    const pose = this.place && this.place.pose;
+    if (this.is_near && pose) {
+      return [pose[0] - kNearView_m / 2, pose[0] + kNearView_m / 2, pose[1] - kNearView_m / 4, pose[1] + kNearView_m / 4];
+    }
+    if (!this.map) return pose ? [pose[0] - 10, pose[0] + 10, pose[1] - 10, pose[1] + 10] : null;
+    const [x, y] = this.map.origin_m, [width, height] = this.map.size_m;
+    return [x, x + width, y, y + height];
+  }
+
+  draw() {
+    const { pen, width, height } = begin(document.getElementById('roadway')), shown = this.window();
+    if (!shown) return;
+    const scale = Math.min(width / (shown[1] - shown[0]), height / (shown[3] - shown[2]));
+    const middle = [(shown[0] + shown[1]) / 2, (shown[2] + shown[3]) / 2];
+    const at = ([x, y]) => [width / 2 + (x - middle[0]) * scale, height / 2 - (y - middle[1]) * scale];
+    if (this.map) {
+      const [x, y] = this.map.origin_m, [wide, high] = this.map.size_m, corner = at([x, y + high]);
+      pen.imageSmoothingEnabled = scale * wide < this.map.image.width;
+      pen.drawImage(this.map.image, corner[0], corner[1], wide * scale, high * scale);
+    }
+    if (this.place) this.draw_place(pen, at);
+    this.draw_scale(pen, width, height, scale);
+  }
+
+  draw_place(pen, at) {
+    if (this.place.track.length > 1) stroke(pen, this.place.track.map(at), colour('left'), 1.6);
+    for (const candidate of this.place.candidates) this.draw_machine(pen, at, candidate, colour('not-valid'), [4, 3]);
+    if (!this.place.pose) return;
+    this.draw_machine(pen, at, this.place.pose, colour('machine'));
+    if (!this.is_stop_known() || !this.stop.nearest_m) return;
+    dot(pen, at(this.placed(this.place.pose, this.stop.nearest_m)), 4, colour('invalid'));
+  }
+
+  placed([x, y, yaw], [px, py]) {
+    return [x + Math.cos(yaw) * px - Math.sin(yaw) * py, y + Math.sin(yaw) * px + Math.cos(yaw) * py];
+  }
+
+  draw_machine(pen, at, pose, style, dash) {
+    const [x_min, x_max, y_min, y_max] = this.planar.outline_m, corner = (x, y) => at(this.placed(pose, [x, y]));
+    stroke(pen, [corner(x_min, y_min), corner(x_max, y_min), corner(x_max, y_max), corner(x_min, y_max), corner(x_min, y_min)], style, 2, dash);
+    dot(pen, at(pose), 3, style);
+    stroke(pen, [at(pose), corner(x_max, 0)], style, 2, dash);
+  }
+
+  draw_scale(pen, width, height, scale) {
+    const length_m = round_step(width / scale, 6), y = height - 12;
+    stroke(pen, [[12, y], [12 + length_m * scale, y]], colour('ink'), 2);
+    label(pen, `${length_m} m`, 12, y - 6, colour('ink'));
+  }
+}
