@@ -220,10 +220,10 @@ void print_end(const LocaliseOptions& options, const KnownMap& map, const MapLoc
       fmt::print(stderr, "pose_wall localise: {}\n", hint);
     }
   }
-  if (!options.truth.empty()) {
-    if (figures.compared == 0)
-      fmt::print(stderr, "{}", tr("pose_wall localise: no unique scan has a row in --truth\n"));
+  if (figures.compared > 0) {
     fmt::print("{}{}", between, table_of(tr("against the truth"), truth_figures(figures)));
+  } else if (!options.truth.empty()) {
+    fmt::print(stderr, "{}", tr("pose_wall localise: no unique scan has a row in --truth\n"));
   }
   if (!options.relations.empty()) {
     fmt::print("{}{}", between, relation_table(judge_relations(parse_tum(work.poses), relations)));
