@@ -259,8 +259,8 @@ int localise_scans(LocaliseOptions options) {
   const pose_wall_planar_localise_settings settings = take_localise_settings(&options.frames.settings);
   std::optional<pose_wall_planar_pose> start;
   if (!options.start.empty()) start = pose_of_word(options.start, "--start");
-  const KnownMap map = read_known_map(options.map);
   const std::unique_ptr<ScanSource> source = open_scans(options.frames, localise_setting_names());
+  const KnownMap map = read_known_map(options.map);
   std::vector<Relation> relations;
   if (!options.relations.empty()) relations = read_relations(options.relations);
   std::optional<TruePlaces> truth;
