@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "csv/csv_table.hpp"
+#include "language/language.hpp"
 #include "planar/localised_rows.hpp"
 #include "planar/plane_pose.hpp"
 #include "planar_logs.hpp"
@@ -231,6 +232,7 @@ TEST(LocaliseVerb, SpeaksChinese) {
   const Ran ran = command({"localise", "--language", "zh", room.map, room.log});
   EXPECT_TRUE(contains(ran.printed, "状态") && contains(ran.printed, "候选")) << ran.printed;
   EXPECT_FALSE(contains(ran.printed, "searching")) << ran.printed;
+  choose_language(Language::kEnglish);
 }
 
 TEST(LocalisedRows, TheirTableReadsBack) {

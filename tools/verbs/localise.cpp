@@ -220,10 +220,10 @@ void print_end(const LocaliseOptions& options, const KnownMap& map, const MapLoc
       fmt::print(stderr, "pose_wall localise: {}\n", hint);
     }
   }
-  if (!options.truth.empty()) {
-    if (figures.compared == 0)
-      fmt::print(stderr, "{}", tr("pose_wall localise: no unique scan has a row in --truth\n"));
+  if (figures.compared > 0) {
     fmt::print("{}{}", between, table_of(tr("against the truth"), truth_figures(figures)));
+  } else if (!options.truth.empty()) {
+    fmt::print(stderr, "{}", tr("pose_wall localise: no unique scan has a row in --truth\n"));
   }
   if (!options.relations.empty()) {
     fmt::print("{}{}", between, relation_table(judge_relations(parse_tum(work.poses), relations)));
@@ -259,8 +259,8 @@ int localise_scans(LocaliseOptions options) {
   const pose_wall_planar_localise_settings settings = take_localise_settings(&options.frames.settings);
   std::optional<pose_wall_planar_pose> start;
   if (!options.start.empty()) start = pose_of_word(options.start, "--start");
-  const KnownMap map = read_known_map(options.map);
   const std::unique_ptr<ScanSource> source = open_scans(options.frames, localise_setting_names());
+  const KnownMap map = read_known_map(options.map);
   std::vector<Relation> relations;
   if (!options.relations.empty()) relations = read_relations(options.relations);
   std::optional<TruePlaces> truth;
