@@ -153,6 +153,29 @@ TEST_F(LiveRuntimeTest, NothingIsMeasuredBeforeTheTransformIsKnownAndAfterItIsGo
   EXPECT_EQ(fact(runtime_->health(), "dropped, no transform yet"), "2");
 }
 
+// The obstacle stop sees them so.
+TEST_F(LiveRuntimeTest, FramesAreWatchedAsTheyComeWithTheExtrinsicThatHolds) {
+  std::vector<std::pair<std::int64_t, double>> seen;
+  runtime_ = std::make_unique<LiveRuntime>(
+      load_config("", {"source=ros1", "extrinsic_from=tf", "frame_points_max=1000"}), [] { return BlackBox{}; },
+      [this](const std::shared_ptr<const LiveResult>& result) { collected_.add(result); }, [] { return false; });
+  runtime_->watch_frames([&seen](const std::shared_ptr<const LiveFrame>& frame, const pose_wall_config& config) {
+    double y_m = 0.0;
+    ASSERT_EQ(pose_wall_config_get_number(&config, "extrinsic_y", &y_m), POSE_WALL_OK);
+    seen.emplace_back(frame->frame.cloud.stamp_ns, y_m);
+  });
+  runtime_->start();
+  runtime_->take(road_frame(0));
+  EXPECT_TRUE(seen.empty()) << "nobody knows yet where the sensor stands";
+  Extrinsic extrinsic;
+  extrinsic.y_m = 0.5;
+  runtime_->set_extrinsic(extrinsic);
+  runtime_->take(road_frame(100'000'000));
+  runtime_->stop();
+  EXPECT_EQ(seen, (std::vector<std::pair<std::int64_t, double>>{{100'000'000, 0.5}})) << "though the engine refuses it";
+  EXPECT_TRUE(collected_.measured().empty());
+}
+
 TEST_F(LiveRuntimeTest, ATransformOutOfRangeIsRefusedAndNothingIsMeasured) {
   open({"source=ros1", "extrinsic_from=tf"});
   Extrinsic far;

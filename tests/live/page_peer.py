@@ -229,6 +229,7 @@ class InABrowser(unittest.TestCase):
         self.assertEqual(errors, [])
         self.daemon.kill()
         self.assertTrue(live_peer.becomes_true(lambda: "没有应答" in self.text(browser, "stop-line")))
+        self.assertTrue(live_peer.becomes_true(lambda: "没有新的扫描" in self.text(browser, "place-line")))
 
     def test_it_lives(self):
         browser = self.browser()

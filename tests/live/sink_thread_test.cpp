@@ -134,6 +134,52 @@ TEST(SinkThread, WhatASinkDoesNotWantIsNotKeptForIt) {
   }
 }
 
+// Of news the newest matters: what a slow sink has not taken is lost, counted, and takes no result's place.
+class NewsSink final : public Sink {
+ public:
+  NewsSink(bool wants, std::vector<std::string>* taken) : wants_(wants), taken_(taken) {}
+  void start() override {}
+  void take(const LiveResult& result) override {
+    taken_->push_back("result " + std::to_string(result.publication.index));
+  }
+  void take_stop(const StopNews& news) override { taken_->push_back("stop " + std::to_string(news.rounds)); }
+  void take_roadway(const RoadwayNews& news) override { taken_->push_back("roadway " + news.state); }
+  bool wants_planar() const override { return wants_; }
+  void stop() override {}
+  PartHealth health() const override { return {"sink", Grade::kGood, "runs", {}}; }
+  std::size_t backlog() const override { return 3; }
+
+ private:
+  bool wants_;
+  std::vector<std::string>* taken_;
+};
+
+TEST(SinkThread, TheNewestNewsOfEachKindGoToWhoWantsThem) {
+  for (const bool wants : {false, true}) {
+    std::vector<std::string> taken;
+    SinkThread sink(std::make_unique<NewsSink>(wants, &taken));  // not started: all that is posted waits
+    for (std::uint64_t i = 0; i < 3; ++i) {
+      sink.post(result_number(i));
+      auto stop = std::make_shared<StopNews>();
+      stop->rounds = i;
+      sink.post(std::shared_ptr<const StopNews>(stop));
+      auto roadway = std::make_shared<RoadwayNews>();
+      roadway->state = std::to_string(i);
+      sink.post(std::shared_ptr<const RoadwayNews>(roadway));
+    }
+    sink.start();
+    sink.stop();
+    const std::vector<std::string> results = {"result 0", "result 1", "result 2"};
+    const std::vector<std::string> all = {"stop 2", "result 0", "roadway 2", "result 1", "result 2"};
+    EXPECT_EQ(taken, wants ? all : results);
+    EXPECT_EQ(fact(sink.health(), "results lost to slowness"), "0");
+    EXPECT_EQ(fact(sink.health(), "results taken"), "3");
+    if (wants) {
+      EXPECT_EQ(fact(sink.health(), "planar news lost to slowness"), "4");
+    }
+  }
+}
+
 TEST(SinkThread, OneThatNeverBeganIsNotStopped) {
   std::mutex gate;
   const auto seen = std::make_shared<Seen>();

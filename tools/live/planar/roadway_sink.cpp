@@ -62,6 +62,8 @@ class RoadwaySink final : public Sink {
       look(result, news.get());
     } catch (const std::exception& error) {
       fault = error.what();
+      news->pose.reset();
+      news->state = "refused";
     }
     tell_(news);
     if (began_ns - saved_ns_ >= kSaveEvery_ns) save();

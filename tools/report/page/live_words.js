@@ -18,9 +18,9 @@ Object.assign(WORDS.en, {
   roadway_help: 'Dark: a surface. White: seen free. Grey: not known. Blue line: the way so far. Yellow: the machine. Dashed: places that are left in an ambiguous search. Red dot: what limits the speed most.',
   stop_go: 'Obstacle stop: the machine may drive.', stop_slow: (v) => `Obstacle stop: slow, at most ${v} m/s.`, stop_stop: 'Obstacle stop: STOP.',
   stop_not_known: 'Obstacle stop: STOP. No answer comes.', list_comma: ', ',
-  place_is: (state) => `Place: ${state}.`, place_at: (x, y, yaw) => `x ${x} m, y ${y} m, turned by ${yaw}°`, no_place_yet: 'No scan yet.',
+  place_is: (state) => `Place: ${state}.`, place_at: (x, y, yaw) => `x ${x} m, y ${y} m, turned by ${yaw}°`, no_place_yet: 'No scan yet.', no_scan_comes: 'No new scan: the place is that of the last one.',
   stop_reasons: { stale: 'no new frame', blind: 'a place in the way is not seen', invalid: 'invalid frame', frozen: 'the cloud does not change', missing: 'motion not known', thing: 'a thing in the way', low: 'low', nearing: 'it may come nearer', speed: 'faster than allowed', dust: 'dust or a thin thing', no_floor: 'floor not seen', restart: 'not clear for long enough yet' },
-  place_states: { first: 'the map begins', tracked: 'known', doubtful: 'doubtful', blind: 'too little is seen', searching: 'being searched', unknown: 'not in this map', ambiguous: 'ambiguous', unique: 'known', 'no floor': 'no floor is measured' },
+  place_states: { first: 'the map begins', tracked: 'known', doubtful: 'doubtful', blind: 'too little is seen', searching: 'being searched', unknown: 'not in this map', ambiguous: 'ambiguous', unique: 'known', 'no floor': 'no floor is measured', refused: 'the scan is refused' },
 });
 Object.assign(WORDS.zh, {
   live_title: 'pose_wall 实时', pause_live: '❚❚ 暂停', resume_live: '▶ 实时', trends: '最近几分钟', parts_of_daemon: '传感器、运行时与输出',
@@ -40,9 +40,9 @@ Object.assign(WORDS.zh, {
   roadway_help: '深色：表面。白色：已见空闲。灰色：未知。蓝线：已行路径。黄色：机器。虚线：搜索不唯一时的候选位置。红点：最限制速度之物。',
   stop_go: '障碍停车：允许行驶。', stop_slow: (v) => `障碍停车：减速，最大 ${v} 米/秒。`, stop_stop: '障碍停车：停车。',
   stop_not_known: '障碍停车：停车。没有应答。', list_comma: '、',
-  place_is: (state) => `位置：${state}。`, place_at: (x, y, yaw) => `横 ${x} 米，纵 ${y} 米，转角 ${yaw}°`, no_place_yet: '尚无扫描。',
+  place_is: (state) => `位置：${state}。`, place_at: (x, y, yaw) => `横 ${x} 米，纵 ${y} 米，转角 ${yaw}°`, no_place_yet: '尚无扫描。', no_scan_comes: '没有新的扫描：所示为最后一次的位置。',
   stop_reasons: { stale: '没有新帧', blind: '前路有未见之处', invalid: '帧无效', frozen: '点云不变', missing: '运动未知', thing: '前路有物', low: '低矮', nearing: '可能靠近', speed: '超过允许速度', dust: '粉尘或细物', no_floor: '未见底板', restart: '畅通时间尚短' },
-  place_states: { first: '开始建图', tracked: '已知', doubtful: '存疑', blind: '所见过少', searching: '正在搜索', unknown: '不在此图中', ambiguous: '不唯一', unique: '已知', 'no floor': '未测得底板' },
+  place_states: { first: '开始建图', tracked: '已知', doubtful: '存疑', blind: '所见过少', searching: '正在搜索', unknown: '不在此图中', ambiguous: '不唯一', unique: '已知', 'no floor': '未测得底板', refused: '扫描被拒绝' },
   // Of the daemon, which speaks English; what is not listed stays as it is.
   part_names: { runtime: '运行时', source: '输入', sink: '输出', 'planar stop': '障碍停车', 'planar roadway': '巷道地图' },
   summaries: {

@@ -1,7 +1,7 @@
 // The map of the roadway with the machine on it, and what the obstacle stop permits. Only where the daemon has them.
 
 // The stop answers ten times a second at least: so long without an answer is a stop.
-const kNoAnswer_ms = 500, kNearView_m = 40;
+const kNoAnswer_ms = 500, kNoScan_ms = 1000, kNearView_m = 40;
 
 class RoadwayView {
   constructor(planar) {
@@ -9,7 +9,7 @@ class RoadwayView {
     this.map = null;
     this.place = null;
     this.stop = null;
-    this.stop_heard_ms = -Infinity;
+    this.stop_heard_ms = this.place_heard_ms = -Infinity;
     this.is_near = false;
     document.getElementById('roadway-panel').hidden = false;
     document.getElementById('roadway-zoom').onclick = () => { this.is_near = !this.is_near; this.show(); };
@@ -21,7 +21,10 @@ class RoadwayView {
     image.src = map.png;
   }
 
-  take_place(place) { this.place = place; }
+  take_place(place) {
+    this.place = place;
+    this.place_heard_ms = performance.now();
+  }
 
   take_stop(stop) {
     this.stop = stop;
@@ -30,6 +33,8 @@ class RoadwayView {
 
   // What is not heard any more permits nothing.
   is_stop_known() { return this.stop && performance.now() - this.stop_heard_ms < kNoAnswer_ms; }
+
+  is_place_old() { return performance.now() - this.place_heard_ms > kNoScan_ms; }
 
   show() {
     this.show_stop();
@@ -51,6 +56,7 @@ class RoadwayView {
     const w = words(), line = document.getElementById('place-line'), place = this.place;
     document.getElementById('roadway-zoom').textContent = this.is_near ? w.whole_map : w.around_machine;
     if (!place) return fill('place-line', w.no_place_yet);
+    if (this.is_place_old()) return fill('place-line', w.no_scan_comes);
     const state = w.place_states[place.state] || place.state;
     const at = place.pose ? w.place_at(number_text(place.pose[0], 2), number_text(place.pose[1], 2), number_text(place.pose[2] * 180 / Math.PI, 1)) : '';
     line.textContent = `${w.place_is(state)} ${at}`;
@@ -87,7 +93,7 @@ class RoadwayView {
     if (this.place.track.length > 1) stroke(pen, this.place.track.map(at), colour('left'), 1.6);
     for (const candidate of this.place.candidates) this.draw_machine(pen, at, candidate, colour('not-valid'), [4, 3]);
     if (!this.place.pose) return;
-    this.draw_machine(pen, at, this.place.pose, colour('machine'));
+    this.draw_machine(pen, at, this.place.pose, colour(this.is_place_old() ? 'not-valid' : 'machine'));
     if (!this.is_stop_known() || !this.stop.nearest_m) return;
     dot(pen, at(this.placed(this.place.pose, this.stop.nearest_m)), 4, colour('invalid'));
   }
