@@ -61,7 +61,8 @@ class SightUnderTest {
     return found;
   }
   std::uint8_t seen(double x, double y) const {
-    return sight_->seen(static_cast<float>(x - mount_.sensor_base_m.x()), static_cast<float>(y));
+    const auto dx = static_cast<float>(x - mount_.sensor_base_m.x()), dy = static_cast<float>(y);
+    return static_cast<std::uint8_t>(sight_->seen(pose_wall::all_four(dx), pose_wall::all_four(dy))[0]);
   }
   const Ground& ground() const { return ground_; }
   std::uint32_t used() const { return used_; }

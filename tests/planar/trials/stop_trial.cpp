@@ -7,8 +7,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
-#include "planar/encounter/plans.hpp"
+#include "planar/encounter/events.hpp"
 
 namespace {
 
@@ -42,45 +43,99 @@ std::uint64_t seed_of(std::uint64_t seed, std::uint64_t encounter) {
   return pose_wall::Random(mixed.next() ^ (encounter * 0xD1B54A32D192ED03ULL)).next();
 }
 
+// So many events begin from one run-up, and every eighth encounter from standstill with all things there already.
+constexpr std::uint64_t kOfOneRunUp = 16, kFromStandstill = 8;
+
+class Encounters {
+ public:
+  explicit Encounters(const Arguments& a) : arguments_(a), settings_(pose_wall::test::encounter_settings()) {}
+
+  Outcome run(std::uint64_t k, Plan* plan) {
+    Draw draw(seed_of(arguments_.seed, k));
+    if (k % kFromStandstill == 0) {
+      *plan = pose_wall::test::draw_plan(&draw, settings_);
+      plan->lasts_s = 10.0;
+      Encounter encounter(*plan, settings_, &still_, &draw);
+      if (arguments_.has_only) encounter.tell_frames();
+      return encounter.run();
+    }
+    run_up(k / kOfOneRunUp);
+    Encounter encounter = *base_;
+    if (arguments_.has_only) encounter.tell_frames();
+    driven_.bring_back();
+    *plan = pose_wall::test::draw_event(road_, encounter.machine(), settings_, &draw);
+    return encounter.run_on(*plan, &draw);
+  }
+
+ private:
+  void run_up(std::uint64_t which) {
+    if (base_.has_value() && which_ == which) return;
+    which_ = which;
+    Draw draw(seed_of(arguments_.seed + 1000003, which));
+    road_ = pose_wall::test::draw_run_up(&draw, settings_);
+    base_.emplace(road_, settings_, &driven_, &draw);
+    base_->run_up(draw.within(4.8, 7.0));
+    driven_.keep();
+  }
+
+  Arguments arguments_;
+  pose_wall_planar_stop_settings settings_;
+  StopUnderTest still_, driven_;
+  Plan road_;
+  std::optional<Encounter> base_;
+  std::uint64_t which_ = 0;
+};
+
+struct Tally {
+  std::uint64_t runs = 0, moved = 0, stopped = 0, fast = 0, contacts = 0, creeping = 0;
+};
+
 int encounters(const Arguments& a) {
-  const pose_wall_planar_stop_settings settings = pose_wall::test::encounter_settings();
-  StopUnderTest stop;
+  Encounters all(a);
   constexpr auto kKinds = static_cast<std::size_t>(pose_wall::test::Kind::kinds);
-  std::uint64_t runs[kKinds] = {}, contacts[kKinds] = {}, moved[kKinds] = {}, stopped[kKinds] = {}, total = 0;
-  std::uint64_t frames = 0, whole = 0, lost = 0;
+  Tally tallies[kKinds] = {}, total;
+  std::uint64_t frames = 0, lost = 0;
   double metres = 0.0;
+  const double creep_m_s = pose_wall::test::encounter_settings().creep_m_s;
   const std::uint64_t first = a.has_only ? a.only : 0, end = a.has_only ? a.only + 1 : a.encounters;
   for (std::uint64_t k = first; k < end; ++k) {
-    Draw draw(seed_of(a.seed, k));
-    const Plan plan = pose_wall::test::draw_plan(&draw, settings);
-    const Outcome out = Encounter(plan, settings, &stop, &draw).run(a.has_only);
-    const auto kind = static_cast<std::size_t>(plan.kind);
-    ++runs[kind];
-    moved[kind] += out.moved_m > 0.1 ? 1 : 0;
-    stopped[kind] += out.stops > 0 ? 1 : 0;
+    Plan plan;
+    const Outcome out = all.run(k, &plan);
+    const bool creeps = out.contact && out.contact_m_s <= creep_m_s;
+    for (Tally* t : {&tallies[static_cast<std::size_t>(plan.kind)], &total}) {
+      ++t->runs;
+      t->moved += out.moved_m > 0.1 ? 1 : 0;
+      t->stopped += out.stops > 0 ? 1 : 0;
+      t->fast += out.top_near_m_s >= 0.9 ? 1 : 0;
+      t->contacts += out.contact && !creeps ? 1 : 0;
+      t->creeping += creeps ? 1 : 0;
+    }
     frames += out.frames, metres += out.moved_m;
-    whole += out.top_m_s > 0.9 ? 1 : 0;
     lost += plan.loss_from_s < out.lasted_s ? 1 : 0;
-    if (!out.contact) continue;
-    ++contacts[kind], ++total;
-    std::printf("contact: encounter %llu %s drive %d sensor %d loss %d at %.2f s, %.2f m/s\n",
-                static_cast<unsigned long long>(k), pose_wall::test::name_of(plan.kind), static_cast<int>(plan.drive),
-                static_cast<int>(plan.sensor.pattern), static_cast<int>(plan.loss), out.contact_s, out.contact_m_s);
-    std::fflush(stdout);
+    if (out.contact) {
+      std::printf("contact: encounter %llu %s drive %d sensor %d loss %d at %.2f s, %.2f m/s\n",
+                  static_cast<unsigned long long>(k), pose_wall::test::name_of(plan.kind), static_cast<int>(plan.drive),
+                  static_cast<int>(plan.sensor.pattern), static_cast<int>(plan.loss), out.contact_s, out.contact_m_s);
+    }
+    if (out.contact || (k + 1) % 500 == 0) {
+      std::printf("after %llu: %llu contacts, %llu of them creeping\n", static_cast<unsigned long long>(k + 1 - first),
+                  static_cast<unsigned long long>(total.contacts + total.creeping),
+                  static_cast<unsigned long long>(total.creeping));
+      std::fflush(stdout);
+    }
   }
-  for (std::size_t k = 1; k < kKinds; ++k) {
-    std::printf("%-15s %8llu encounters, moved in %8llu, stopped from motion in %8llu, contacts %llu\n",
-                pose_wall::test::name_of(static_cast<pose_wall::test::Kind>(k)),
-                static_cast<unsigned long long>(runs[k]), static_cast<unsigned long long>(moved[k]),
-                static_cast<unsigned long long>(stopped[k]), static_cast<unsigned long long>(contacts[k]));
-  }
-  std::printf(
-      "seed %llu: %llu encounters, %llu contacts, %llu frames, %.0f m, above 0.9 m/s in %llu, sensor lost in "
-      "%llu\n",
-      static_cast<unsigned long long>(a.seed), static_cast<unsigned long long>(end - first),
-      static_cast<unsigned long long>(total), static_cast<unsigned long long>(frames), metres,
-      static_cast<unsigned long long>(whole), static_cast<unsigned long long>(lost));
-  return total == 0 ? 0 : 1;
+  const auto print = [](const char* name, const Tally& t) {
+    std::printf("%-15s %7llu encounters, moved in %7llu, 0.9 m/s near a thing in %7llu, stopped from motion in %7llu, "
+                "contacts %llu, creeping %llu\n",
+                name, static_cast<unsigned long long>(t.runs), static_cast<unsigned long long>(t.moved),
+                static_cast<unsigned long long>(t.fast), static_cast<unsigned long long>(t.stopped),
+                static_cast<unsigned long long>(t.contacts), static_cast<unsigned long long>(t.creeping));
+  };
+  for (std::size_t k = 1; k < kKinds; ++k) print(name_of(static_cast<pose_wall::test::Kind>(k)), tallies[k]);
+  print("all", total);
+  std::printf("seed %llu: %llu frames, %.0f m, sensor lost in %llu\n", static_cast<unsigned long long>(a.seed),
+              static_cast<unsigned long long>(frames), metres, static_cast<unsigned long long>(lost));
+  return total.contacts == 0 ? 0 : 1;
 }
 
 // Drives on a road without things, with or without thin dust, and counts stops.
@@ -100,6 +155,7 @@ int false_stops(const Arguments& a, bool has_dust) {
     plan.loss = pose_wall::test::Loss::none;
     plan.machine.set_arc(1.0, 0.0);
     plan.machine.yaw_rad = 0.0;
+    plan.wish_m_s = draw.happens(0.3) ? 1.0 : draw.within(0.5, 1.0);
     plan.lasts_s = 60.0;
     if (has_dust) {
       for (int j = 0; j < 8; ++j) {
@@ -107,7 +163,12 @@ int false_stops(const Arguments& a, bool has_dust) {
                                    draw.within(0.002, 0.05)});
       }
     }
-    const Outcome out = Encounter(plan, settings, &stop, &draw).run(a.has_only && a.only == k);
+    if (a.has_only && a.only != k) continue;
+    Encounter e(plan, settings, &stop, &draw);
+    e.tell_stops();
+    if (a.has_only) e.tell_frames();
+    const Outcome out = e.run();
+    if (out.stops) std::printf("   sensor z %.2f pitch %.3f floor wave %.3f length %.1f\n", plan.sensor.z_m, plan.sensor.pitch_rad, plan.world.floor_wave_m, plan.world.floor_length_m), std::printf("  ^ run %llu sensor %d wish %.2f wave %.3f length %.2f half %.2f dropout %.3f drove %.1f stops %u\n", (unsigned long long)k, (int)plan.sensor.pattern, plan.wish_m_s, plan.world.wall_wave_m, plan.world.wall_length_m, plan.world.half_width_m, plan.sensor.dropout, out.drove_s, out.stops);
     drove_s += out.drove_s, metres += out.moved_m;
     stops += out.stops;
     for (std::uint32_t bit = 0; out.stops > 0 && bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
