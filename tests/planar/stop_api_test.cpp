@@ -132,6 +132,59 @@ TEST(StopApi, APersonWhoStandsBesideTheWayKeepsTheMachineSlow) {
   }
 }
 
+// However thin, and with the back flush to the wall: a chest stands out by more than a wall's tips.
+TEST(StopApi, APersonFlushWithTheWallMayWalkOff) {
+  for (const double radius : {0.17, 0.2, 0.25}) {
+    World world = road();
+    world.half_width_m = 2.4;
+    world.things.push_back(round_thing(4.0, 2.4 - radius, radius, -0.1, 1.7));
+    Standing standing(world);
+    standing.frames(40);
+    for (int k = 0; k < 60; ++k) {
+      const auto result = standing.frame();
+      EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_NEARING, 0U) << radius << " " << k;
+      EXPECT_LE(1.6 * (0.45 + result.stop_speed_m_s), 2.4 - 2.0 * radius - 0.6) << radius << " " << k;
+    }
+  }
+}
+
+// Who stands for long between two others who only pass by is no wall.
+TEST(StopApi, PassersByMakeNoWallOfAPerson) {
+  World world = road();
+  world.things.push_back(round_thing(4.5, 1.7, 0.2, -0.1, 1.7));
+  Standing standing(world);
+  standing.frames(40);
+  for (const double x : {4.0, 5.0}) standing.world().things.push_back(round_thing(x, 1.6, 0.2, -0.1, 1.7));
+  for (int k = 0; k < 10; ++k) {
+    EXPECT_NE(standing.frame().reasons & POSE_WALL_PLANAR_STOP_R_NEARING, 0U) << k;
+  }
+  standing.world().things.resize(1);
+  for (int k = 0; k < 20; ++k) {
+    EXPECT_NE(standing.frame().reasons & POSE_WALL_PLANAR_STOP_R_NEARING, 0U) << k;
+  }
+}
+
+// On clear roads with rough rock nothing stops the machine: neither where the memory of walls ends behind it, nor where
+// tips stand alone in sight, nor where a place straight ahead lies between two columns of rays.
+TEST(StopApi, ARoughRoadIsNoPerson) {
+  struct Road {
+    double wave_m, length_m, half_width_m;
+  };
+  for (const Road& rough : {Road{0.115, 2.5, 2.7}, Road{0.1, 1.4, 2.3}, Road{0.07, 1.47, 2.83}, Road{0.0, 1.0, 2.2}}) {
+    pose_wall::test::Plan plan;
+    plan.world.wall_wave_m = rough.wave_m, plan.world.wall_length_m = rough.length_m;
+    plan.world.half_width_m = rough.half_width_m, plan.world.face_m = 1000.0;
+    plan.sensor = Sensor(Pattern::vlp16, 2.0, 1.45, 0.0, 0.18, 1.25, 600);
+    plan.lasts_s = 30.0;
+    const pose_wall_planar_stop_settings settings = encounter_settings();
+    StopUnderTest stop;
+    Draw draw(6);
+    const auto out = pose_wall::test::Encounter(plan, settings, &stop, &draw).run();
+    EXPECT_EQ(out.stops, 0U) << rough.wave_m << " " << rough.length_m;
+    EXPECT_GT(out.moved_m, 15.0) << rough.wave_m << " " << rough.length_m;
+  }
+}
+
 TEST(StopApi, SilenceStops) {
   Standing standing(road());
   standing.frames(30);

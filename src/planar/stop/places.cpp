@@ -17,7 +17,7 @@ constexpr float kNotUnder_m = -0.02F;      // places under the machine are not i
 constexpr std::int32_t kPlace_mm = 100;
 // A wall's tips stand out by less, the chest of a person with the back to it by more. Along a diagonal in both axes.
 constexpr std::int32_t kAside_mm = 230, kAsideDiagonal_mm = 325;
-constexpr std::int32_t kAround = 3;  // places: what is so little aside is within as many
+constexpr std::int32_t kAsidePlaces = 3;  // what is so little aside is within as many
 
 std::int32_t place_of(double m) {
   return static_cast<std::int32_t>(std::floor(m / kPlace_m));
@@ -120,18 +120,17 @@ void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Ve
     if (is_new) first_ms = now_ms;
     if (is_new && hit.is_high) place.long_ms = 0;
     last_ms = now_ms;
-    if (hit.is_high) {
-      const std::int32_t x_mm = static_cast<std::int32_t>((at.x() - place.ix * kPlace_m) * 1000.0);
-      const std::int32_t y_mm = static_cast<std::int32_t>((at.y() - place.iy * kPlace_m) * 1000.0);
-      place.high_x_mm = static_cast<std::uint8_t>(is_new ? x_mm : (3 * place.high_x_mm + x_mm) / 4);
-      place.high_y_mm = static_cast<std::uint8_t>(is_new ? y_mm : (3 * place.high_y_mm + y_mm) / 4);
-    }
     place.thing_drift_m = drift_m;
+    if (!hit.is_high) return;
+    const auto x_mm = static_cast<std::int32_t>((at.x() - place.ix * kPlace_m) * 1000.0);
+    const auto y_mm = static_cast<std::int32_t>((at.y() - place.iy * kPlace_m) * 1000.0);
+    place.high_x_mm = static_cast<std::uint8_t>(is_new ? x_mm : (3 * place.high_x_mm + x_mm) / 4);
+    place.high_y_mm = static_cast<std::uint8_t>(is_new ? y_mm : (3 * place.high_y_mm + y_mm) / 4);
   });
 }
 
-// visit(ix, iy, index, count, x and y in base): places within a square around a point of base, four of a row at a time;
-// so many of them count.
+// visit(ix, iy, which of them count, x and y in base): places within a square around a point of base, four of a row at
+// a time.
 template <typename Visit>
 void Places::each_four(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
   const Turn2 turn(track.yaw_rad);
@@ -158,11 +157,12 @@ void Places::each_four(const Track& track, const Eigen::Vector2d& middle_m, doub
 
 template <typename Visit>
 void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
-  each_four(track, middle_m, half_m, [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
-    for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(kFour); ++lane) {
-      if (those[lane] != 0) visit(ix + lane, iy, x[lane], y[lane]);
-    }
-  });
+  each_four(track, middle_m, half_m,
+            [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
+              for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(kFour); ++lane) {
+                if (those[lane] != 0) visit(ix + lane, iy, x[lane], y[lane]);
+              }
+            });
 }
 
 void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
@@ -234,10 +234,10 @@ bool Places::goes_on(const Place& place, const std::int32_t* axis, std::int32_t 
   const std::int32_t along_x = axis[0] > 0 ? 1 : 0, along_y = axis[1] > 0 ? 1 : axis[1] < 0 ? -1 : 0;
   const bool is_diagonal = along_x * along_y != 0;
   const std::int32_t along_most = is_diagonal ? 2 : 1, aside_most_mm = is_diagonal ? kAsideDiagonal_mm : kAside_mm;
-  for (std::int32_t dy = -kAround; dy <= kAround; ++dy) {
-    for (std::int32_t dx = -kAround; dx <= kAround; ++dx) {
+  for (std::int32_t dy = -kAsidePlaces; dy <= kAsidePlaces; ++dy) {
+    for (std::int32_t dx = -kAsidePlaces; dx <= kAsidePlaces; ++dx) {
       const std::int32_t along = dx * along_x + dy * along_y;
-      if (along > along_most || along < -along_most) continue;  // the whole width aside
+      if (along > along_most || along < -along_most) continue;
       const Place* const near = known_at(place.ix + times * axis[0] + dx, place.iy + times * axis[1] + dy);
       if (!was_there_with(near, place) || near->thing_high_ms - near->first_ms < settle_ms_) continue;
       const std::int32_t x_mm = kPlace_mm * (near->ix - place.ix) + near->high_x_mm - place.high_x_mm;
@@ -267,8 +267,8 @@ void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uin
   if (may_go && sight.passed_high(x, y)) place->thing_high_ms = 0;
 }
 
-// A wall: long and settled, or right behind such a place, seen from the sensor. For so long as a thing needs to settle it
-// stays one: where neighbours go out of sight, nothing new was seen. `away`: from the sensor to it, on the ground.
+// A wall: long and settled, or right behind such a place, seen from the sensor. For so long as a thing needs to settle
+// it stays one: where neighbours go out of sight, nothing new was seen. `away`: from the sensor to it, on the ground.
 bool Places::is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const {
   const auto is_known = [&](const Place& p) { return p.long_ms != 0 && now_ms - p.long_ms <= settle_ms_; };
   const bool is_fresh = place->long_ms != 0 && 2 * (now_ms - place->long_ms) < settle_ms_;

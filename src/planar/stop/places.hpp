@@ -38,7 +38,7 @@ struct Place {
   std::uint32_t doubt_first_ms, doubt_ms;         // doubtful returns
   std::uint32_t long_ms;                          // last part of something long that stands still
   float low_drift_m, top_drift_m, thing_drift_m;  // the track's, then
-  std::uint8_t high_x_mm, high_y_mm;              // where in it the last high return was
+  std::uint8_t high_x_mm, high_y_mm;              // where in it the high returns are, in the mean of the last ones
 };
 
 class Places {

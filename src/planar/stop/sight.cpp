@@ -12,12 +12,12 @@ namespace {
 constexpr std::uint32_t kRingCells = kRings * kAzimuths;  // of one kind
 constexpr std::uint32_t kCounts = (kRings + 1) * kRow;    // a ring behind the last: where passes end
 constexpr float kReach_m = kRings * kRing_m;
-constexpr float kBefore_m = 0.2F;        // a ray that ends on a thing shows nothing so shortly before it
-constexpr float kHeightNoise_m = 0.02F;  // of a ray, from its range and the floor's plane
-constexpr float kLevel = 1e-4F;          // a slope: less than a millimetre within reach
-constexpr float kPlaceHalf_m = 0.0707F;  // half the diagonal of a place of 0.1 m
+constexpr float kBefore_m = 0.2F;               // a ray that ends on a thing shows nothing so shortly before it
+constexpr float kHeightNoise_m = 0.02F;         // of a ray, from its range and the floor's plane
+constexpr float kLevel = 1e-4F;                 // a slope: less than a millimetre within reach
+constexpr float kPlaceHalf_m = 0.0707F;         // half the diagonal of a place of 0.1 m
 constexpr std::uint32_t kEdge = kAzimuths / 4;  // steps of one edge of the diamond
-constexpr std::uint32_t kSides = 24;     // azimuths to each side at most, near the sensor
+constexpr std::uint32_t kSides = 24;            // azimuths to each side at most, near the sensor
 // Doubtful: so many rays pass for each that returns, and it is a few.
 constexpr std::uint32_t kPassesEach = 4, kReturnsFew = 3;
 // One ray in the counts of a word, and their bits; as Sight has their shifts.
@@ -46,8 +46,8 @@ void Sight::open(const StopSettings& settings, const Mount& mount) {
   for (std::uint32_t a = 0; a < kAzimuths; ++a) {
     // Along the diamond |x| + |y| = 1, counted from (0, -1) to the left: first without the bend.
     const float edge = (static_cast<float>(a % kEdge) + 0.5F) * (2.0F / kEdge) - 1.0F;
-    const float away = (1.0F + kBend - std::sqrt((1.0F + kBend) * (1.0F + kBend) - 4.0F * kBend * std::fabs(edge))) /
-                       (2.0F * kBend);
+    const float away =
+        (1.0F + kBend - std::sqrt((1.0F + kBend) * (1.0F + kBend) - 4.0F * kBend * std::fabs(edge))) / (2.0F * kBend);
     const float p = static_cast<float>(a / kEdge) + 0.5F + (edge < 0.0F ? -0.5F : 0.5F) * away;
     const float x = p < 1.0F ? p : p < 3.0F ? 2.0F - p : p - 4.0F;
     const float y = p < 2.0F ? p - 1.0F : 3.0F - p;

@@ -4,8 +4,8 @@
 // What one frame saw around the sensor: how many rays passed over each place at which height, and what returned there.
 //
 // Cells are polar about the sensor. Azimuths are in steps along a diamond's edge, bent so that no arc tangent is needed
-// and a step is from 0.0115 to 0.0126 rad. A ray that ends on the floor, or beyond, counts in each cell over whose middle
-// it passes within a band of heights; a ray that ends on a thing counts up to 0.2 m before it.
+// and a step is from 0.0115 to 0.0126 rad. A ray that ends on the floor, or beyond, counts in each cell over whose
+// middle it passes within a band of heights; a ray that ends on a thing counts up to 0.2 m before it.
 
 #pragma once
 
@@ -101,9 +101,9 @@ class Sight {
   void put_level(FourInts azimuth, FourFloats per_m, FourFloats end, FourTruths those);
   void put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those);
 
-  Span<std::uint64_t> passes_;                   // rays by cell, one ring more than cells
+  Span<std::uint64_t> passes_;  // rays by cell, one ring more than cells
   Span<std::uint8_t> returns_;  // low ones, then high ones: count, saturated, and eighth of the ring of the last one
-  Span<std::uint8_t> seen_;                      // widened over azimuths
+  Span<std::uint8_t> seen_;     // widened over azimuths
   float direction_x_[kAzimuths], direction_y_[kAzimuths];
   Mount mount_;
   float sensor_height_m_ = 0.0F;

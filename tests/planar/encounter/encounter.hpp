@@ -45,9 +45,8 @@ struct Outcome {
   bool contact = false;
   double contact_m_s = 0.0, contact_s = 0.0, moved_m = 0.0, drove_s = 0.0, lasted_s = 0.0;
   double top_m_s = 0.0, top_near_m_s = 0.0;  // and while a thing was near
-  std::uint32_t stops = 0, frames = 0;  // from motion
-  std::uint32_t stop_reasons = 0;       // of the last such
-  std::uint32_t reasons = 0;            // of the last frame
+  std::uint32_t stops = 0, frames = 0;       // from motion
+  std::uint32_t stops_by[POSE_WALL_PLANAR_STOP_REASON_COUNT] = {};  // of these; one may have several reasons
   Kind touched = Kind::clear;
 };
 
@@ -105,7 +104,6 @@ class Encounter {
   Outcome run() {
     if (!begin()) return out_;
     while (step() && !is_over()) continue;
-    out_.reasons = stop_->result().reasons;
     return out_;
   }
 
@@ -127,7 +125,6 @@ class Encounter {
     out_ = Outcome();
     const double began_s = now_s_;
     while (step() && !is_over()) continue;
-    out_.reasons = stop_->result().reasons;
     out_.lasted_s -= began_s;
     return out_;
   }
@@ -237,10 +234,12 @@ class Encounter {
   void obey(double now_s) {
     const auto& result = stop_->result();
     const bool stops = result.state == POSE_WALL_PLANAR_STOP_STOP;
-    if (stops && !was_stopped_) {
-      out_.stops += plan_.machine.rim_m_s > 0.01 ? 1U : 0U;
-      out_.stop_reasons = result.reasons;
-      if (tells_stops_ && plan_.machine.rim_m_s > 0.01) print(now_s);
+    if (stops && !was_stopped_ && plan_.machine.rim_m_s > 0.01) {
+      ++out_.stops;
+      for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
+        out_.stops_by[bit] += (result.reasons >> bit) & 1U;
+      }
+      if (tells_stops_) print(now_s);
     }
     was_stopped_ = stops;
     const double allowed = stops ? 0.0 : result.allowed_speed_m_s;

@@ -89,10 +89,10 @@ int main(int argc, char** argv) {
   for (const bool by_ring : {true, false}) {
     Costs costs = drive(frames > 0 ? frames : 1, by_ring);
     std::sort(costs.stop_ms.begin(), costs.stop_ms.end());
-    std::printf("%u points %s: mean %.3f ms, median %.3f, least %.3f, worst %.3f; the least pass: mean %.3f ms; ratio %.2f\n",
-                kPoints, by_ring ? "by ring  " : "by column", mean(costs.stop_ms), costs.stop_ms[costs.stop_ms.size() / 2],
-                costs.stop_ms.front(), costs.stop_ms.back(), mean(costs.least_ms),
-                mean(costs.stop_ms) / mean(costs.least_ms));
+    std::printf(
+        "%u points %s: mean %.3f ms, median %.3f, least %.3f, worst %.3f; the least pass: mean %.3f ms; ratio %.2f\n",
+        kPoints, by_ring ? "by ring  " : "by column", mean(costs.stop_ms), costs.stop_ms[costs.stop_ms.size() / 2],
+        costs.stop_ms.front(), costs.stop_ms.back(), mean(costs.least_ms), mean(costs.stop_ms) / mean(costs.least_ms));
   }
   return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// pose_wall_planar_stop_trial [--encounters N] [--seed S] [--only K] [--clear HOURS] [--dust HOURS]
+// pose_wall_planar_stop_trial [--encounters N] [--seed S] [--only K] [--clear HOURS] [--dust HOURS [--density PER_M]]
 // Contacts in drawn encounters, or false stops on a clear road. Exit status 1 if there was a contact.
 
 #include <cstdio>
@@ -21,7 +21,7 @@ using pose_wall::test::StopUnderTest;
 
 struct Arguments {
   std::uint64_t encounters = 1000, seed = 1, only = 0;
-  double clear_h = 0.0, dust_h = 0.0;
+  double clear_h = 0.0, dust_h = 0.0, density_per_m = 0.001;  // hours that pass in the simulator
   bool has_only = false;
 };
 
@@ -33,6 +33,7 @@ Arguments arguments_of(int argc, char** argv) {
     if (std::strcmp(argv[k], "--seed") == 0) a.seed = std::strtoull(value, nullptr, 10);
     if (std::strcmp(argv[k], "--only") == 0) a.only = std::strtoull(value, nullptr, 10), a.has_only = true;
     if (std::strcmp(argv[k], "--clear") == 0) a.clear_h = std::strtod(value, nullptr);
+    if (std::strcmp(argv[k], "--density") == 0) a.density_per_m = std::strtod(value, nullptr);
     if (std::strcmp(argv[k], "--dust") == 0) a.dust_h = std::strtod(value, nullptr);
   }
   return a;
@@ -125,11 +126,12 @@ int encounters(const Arguments& a) {
     }
   }
   const auto print = [](const char* name, const Tally& t) {
-    std::printf("%-15s %7llu encounters, moved in %7llu, 0.9 m/s near a thing in %7llu, stopped from motion in %7llu, "
-                "contacts %llu, creeping %llu\n",
-                name, static_cast<unsigned long long>(t.runs), static_cast<unsigned long long>(t.moved),
-                static_cast<unsigned long long>(t.fast), static_cast<unsigned long long>(t.stopped),
-                static_cast<unsigned long long>(t.contacts), static_cast<unsigned long long>(t.creeping));
+    std::printf(
+        "%-15s %7llu encounters, moved in %7llu, 0.9 m/s near a thing in %7llu, stopped from motion in %7llu, "
+        "contacts %llu, creeping %llu\n",
+        name, static_cast<unsigned long long>(t.runs), static_cast<unsigned long long>(t.moved),
+        static_cast<unsigned long long>(t.fast), static_cast<unsigned long long>(t.stopped),
+        static_cast<unsigned long long>(t.contacts), static_cast<unsigned long long>(t.creeping));
   };
   for (std::size_t k = 1; k < kKinds; ++k) print(name_of(static_cast<pose_wall::test::Kind>(k)), tallies[k]);
   print("all", total);
@@ -138,50 +140,46 @@ int encounters(const Arguments& a) {
   return total.contacts == 0 ? 0 : 1;
 }
 
-// Drives on a road without things, with or without thin dust, and counts stops.
+// A road without things, with or without thin dust.
+Plan draw_clear(Draw* draw, const pose_wall_planar_stop_settings& settings, double density_per_m) {
+  Plan plan = pose_wall::test::draw_run_up(draw, settings);
+  plan.machine.set_arc(1.0, 0.0);
+  plan.machine.yaw_rad = 0.0;
+  plan.wish_m_s = draw->happens(0.3) ? 1.0 : draw->within(0.5, 1.0);
+  plan.lasts_s = 60.0;
+  for (int j = 0; density_per_m > 0.0 && j < 8; ++j) {
+    plan.world.dust.push_back(
+        {4.0 + 6.0 * j, draw->within(-1.5, 1.5), draw->within(0.3, 1.5), draw->within(0.5, 2.0), density_per_m});
+  }
+  return plan;
+}
+
+// Every stop on such a road is a false one.
 int false_stops(const Arguments& a, bool has_dust) {
   const pose_wall_planar_stop_settings settings = pose_wall::test::encounter_settings();
   StopUnderTest stop;
   const double hours = has_dust ? a.dust_h : a.clear_h;
-  double drove_s = 0.0;
-  std::uint64_t stops = 0, by[POSE_WALL_PLANAR_STOP_REASON_COUNT] = {}, runs = 0;
-  double metres = 0.0;
-  for (std::uint64_t k = 0; drove_s < hours * 3600.0 && k < 1000000; ++k, ++runs) {
+  Outcome all;
+  std::uint64_t runs = 0, stuck = 0;
+  for (std::uint64_t k = a.only; all.lasted_s < hours * 3600.0 && k < 1000000; ++k, ++runs) {
     Draw draw(seed_of(a.seed + 77, k));
-    Plan plan = pose_wall::test::draw_plan(&draw, settings);
-    if (plan.drive != pose_wall::test::Drive::straight) continue;
-    plan.world.things.clear(), plan.world.puddles.clear(), plan.world.dust.clear();
-    plan.world.face_m = 1000.0;
-    plan.loss = pose_wall::test::Loss::none;
-    plan.machine.set_arc(1.0, 0.0);
-    plan.machine.yaw_rad = 0.0;
-    plan.wish_m_s = draw.happens(0.3) ? 1.0 : draw.within(0.5, 1.0);
-    plan.lasts_s = 60.0;
-    if (has_dust) {
-      for (int j = 0; j < 8; ++j) {
-        plan.world.dust.push_back({4.0 + 6.0 * j, draw.within(-1.5, 1.5), draw.within(0.3, 1.5), draw.within(0.5, 2.0),
-                                   draw.within(0.002, 0.05)});
-      }
-    }
-    if (a.has_only && a.only != k) continue;
-    Encounter e(plan, settings, &stop, &draw);
-    e.tell_stops();
-    if (a.has_only) e.tell_frames();
-    const Outcome out = e.run();
-    if (out.stops) std::printf("   sensor z %.2f pitch %.3f floor wave %.3f length %.1f\n", plan.sensor.z_m, plan.sensor.pitch_rad, plan.world.floor_wave_m, plan.world.floor_length_m), std::printf("  ^ run %llu sensor %d wish %.2f wave %.3f length %.2f half %.2f dropout %.3f drove %.1f stops %u\n", (unsigned long long)k, (int)plan.sensor.pattern, plan.wish_m_s, plan.world.wall_wave_m, plan.world.wall_length_m, plan.world.half_width_m, plan.sensor.dropout, out.drove_s, out.stops);
-    drove_s += out.drove_s, metres += out.moved_m;
-    stops += out.stops;
-    for (std::uint32_t bit = 0; out.stops > 0 && bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
-      by[bit] += (out.stop_reasons >> bit) & 1U;
-    }
+    const Plan plan = draw_clear(&draw, settings, has_dust ? a.density_per_m : 0.0);
+    Encounter encounter(plan, settings, &stop, &draw);
+    if (a.has_only) encounter.tell_stops();
+    const Outcome out = encounter.run();
+    all.drove_s += out.drove_s, all.moved_m += out.moved_m, all.lasted_s += out.lasted_s;
+    all.stops += out.stops;
+    stuck += out.lasted_s < plan.lasts_s - 1.0 ? 1 : 0;
+    for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) all.stops_by[bit] += out.stops_by[bit];
   }
-  std::printf("%s: %llu stops in %.2f h of driving, %.0f m: %.2f an hour\n", has_dust ? "dust" : "clear",
-              static_cast<unsigned long long>(stops), drove_s / 3600.0, metres,
-              static_cast<double>(stops) * 3600.0 / drove_s);
+  std::printf(
+      "%s: %u stops in %.2f h, %.2f h of them driving, %.0f m: %.1f an hour of driving; it stood at the end of "
+      "%llu of %llu runs\n",
+      has_dust ? "dust" : "clear", all.stops, all.lasted_s / 3600.0, all.drove_s / 3600.0, all.moved_m,
+      all.drove_s > 0.0 ? all.stops * 3600.0 / all.drove_s : 0.0, static_cast<unsigned long long>(stuck),
+      static_cast<unsigned long long>(runs));
   for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
-    if (by[bit] > 0) {
-      std::printf("  %s %llu\n", pose_wall_planar_stop_reason_name(bit), static_cast<unsigned long long>(by[bit]));
-    }
+    if (all.stops_by[bit] > 0) std::printf("  %s %u\n", pose_wall_planar_stop_reason_name(bit), all.stops_by[bit]);
   }
   return 0;
 }
