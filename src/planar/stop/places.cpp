@@ -303,28 +303,34 @@ bool Places::is_hazard(Place* place, const Track& track, const Eigen::Vector2d& 
   return true;
 }
 
+// A place in the way, and what is gone goes. False if it is none.
+bool Places::find_at(const Look& look, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard, Count* count) {
+  const float dx = hazard->x_m - look.sensor_x_m, dy = hazard->y_m - look.sensor_y_m;
+  Place* const place = is_of(places_[hazard->place], ix, iy) ? &places_[hazard->place] : nullptr;
+  if (place != nullptr) let_go(place, look.sight, dx, dy, look.now_ms);
+  if (place != nullptr && is_near && place->doubt_ms == look.now_ms) ++count->doubtful;
+  const Eigen::Vector2d away = look.turn * Eigen::Vector2d(static_cast<double>(dx), static_cast<double>(dy));
+  if (!is_hazard(place, look.track, away, look.now_ms, hazard)) return false;
+  const bool is_blind = hazard->kind == POSE_WALL_PLANAR_STOP_UNSEEN;
+  if (!is_blind) ++count->things;
+  if (!is_near && !(hazard->approach_m_s > 0.0F)) return false;
+  if (look.sweep.distance_now(hazard->x_m, hazard->y_m) < kNotUnder_m) return false;
+  if (is_blind) ++count->blind;
+  return true;
+}
+
 std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
                                    const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count) {
   const float still_reach_m = protection_m_ + kPlaceCorner_m + kCellCorner_m + drift_most_m_ + sweep.growth_m(0.0F);
   const float walk_reach_m = still_reach_m + sweep.growth_m(approach_m_s_) - sweep.growth_m(0.0F);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
-  const Turn2 turn(track.yaw_rad);
+  const Look look{sight, track, sweep, Turn2(track.yaw_rad), sx, sy, now_ms};
   std::uint32_t found = 0;
   const auto find = [&](std::int32_t ix, std::int32_t iy, float x, float y, bool is_near) {
     const std::uint32_t index = index_of(ix, iy);
     if (!is_near && places_[index].thing_high_ms == 0) return;
-    Place* const place = is_of(places_[index], ix, iy) ? &places_[index] : nullptr;
-    if (place != nullptr) let_go(place, sight, x - sx, y - sy, now_ms);
-    if (place != nullptr && is_near && place->doubt_ms == now_ms) ++count->doubtful;
     Hazard hazard{x, y, 0.0F, 0.0F, 0.0F, index, 0};
-    const Eigen::Vector2d away = turn * Eigen::Vector2d(static_cast<double>(x - sx), static_cast<double>(y - sy));
-    if (!is_hazard(place, track, away, now_ms, &hazard)) return;
-    const bool is_blind = hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN;
-    if (!is_blind) ++count->things;
-    if (!is_near && !(hazard.approach_m_s > 0.0F)) return;
-    if (sweep.distance_now(x, y) < kNotUnder_m) return;
-    if (is_blind) ++count->blind;
-    hazards[found++] = hazard;  // there is room for every place
+    if (find_at(look, ix, iy, is_near, &hazard, count)) hazards[found++] = hazard;  // there is room for every place
   };
   each_four(track, sweep.middle_m(), sweep.half_m() + static_cast<double>(walk_reach_m),
             [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {

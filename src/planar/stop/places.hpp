@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
+#include "planar/pose2.hpp"
 #include "planar/stop/sight.hpp"
 #include "planar/stop/sweep.hpp"
 
@@ -74,6 +75,16 @@ class Places {
   void each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
   void let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const;
   bool is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const;
+  // What find_hazards looks from.
+  struct Look {
+    const Sight& sight;
+    const Track& track;
+    const Sweep& sweep;
+    Turn2 turn;  // from base to the ground
+    float sensor_x_m, sensor_y_m;
+    std::uint32_t now_ms;
+  };
+  bool find_at(const Look& look, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard, Count* count);
   bool is_hazard(Place* place, const Track& track, const Eigen::Vector2d& away, std::uint32_t now_ms,
                  Hazard* hazard) const;
   static std::uint32_t index_of(std::int32_t ix, std::int32_t iy);
