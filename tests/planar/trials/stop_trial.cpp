@@ -87,56 +87,58 @@ class Encounters {
   std::uint64_t which_ = 0;
 };
 
+using Count = unsigned long long;
+
 struct Tally {
-  std::uint64_t runs = 0, moved = 0, stopped = 0, fast = 0, contacts = 0, creeping = 0;
+  Count runs = 0, moved = 0, stopped = 0, fast = 0, contacts = 0, creeping = 0;  // contacts: faster than creep_m_s
+
+  void add(const Outcome& out, double creep_m_s) {
+    const bool creeps = out.contact && out.contact_m_s <= creep_m_s;
+    ++runs;
+    moved += out.moved_m > 0.1 ? 1 : 0;
+    stopped += out.stops > 0 ? 1 : 0;
+    fast += out.top_near_m_s >= 0.9 ? 1 : 0;
+    contacts += out.contact && !creeps ? 1 : 0;
+    creeping += creeps ? 1 : 0;
+  }
+  void print(const char* name) const {
+    std::printf(
+        "%-15s %7llu encounters, moved in %7llu, 0.9 m/s near a thing in %7llu, stopped from motion in %7llu, "
+        "contacts %llu, creeping %llu\n",
+        name, runs, moved, fast, stopped, contacts, creeping);
+  }
 };
+
+void print_contact(Count k, const Plan& plan, const Outcome& out) {
+  std::printf("contact: encounter %llu %s drive %d sensor %d loss %d at %.2f s, %.2f m/s\n", k,
+              pose_wall::test::name_of(plan.kind), static_cast<int>(plan.drive), static_cast<int>(plan.sensor.pattern),
+              static_cast<int>(plan.loss), out.contact_s, out.contact_m_s);
+}
 
 int encounters(const Arguments& a) {
   Encounters all(a);
   constexpr auto kKinds = static_cast<std::size_t>(pose_wall::test::Kind::kinds);
   Tally tallies[kKinds] = {}, total;
-  std::uint64_t frames = 0, lost = 0;
+  Count frames = 0, lost = 0;
   double metres = 0.0;
   const double creep_m_s = pose_wall::test::encounter_settings().creep_m_s;
   const std::uint64_t first = a.has_only ? a.only : 0, end = a.has_only ? a.only + 1 : a.encounters;
   for (std::uint64_t k = first; k < end; ++k) {
     Plan plan;
     const Outcome out = all.run(k, &plan);
-    const bool creeps = out.contact && out.contact_m_s <= creep_m_s;
-    for (Tally* t : {&tallies[static_cast<std::size_t>(plan.kind)], &total}) {
-      ++t->runs;
-      t->moved += out.moved_m > 0.1 ? 1 : 0;
-      t->stopped += out.stops > 0 ? 1 : 0;
-      t->fast += out.top_near_m_s >= 0.9 ? 1 : 0;
-      t->contacts += out.contact && !creeps ? 1 : 0;
-      t->creeping += creeps ? 1 : 0;
-    }
+    tallies[static_cast<std::size_t>(plan.kind)].add(out, creep_m_s);
+    total.add(out, creep_m_s);
     frames += out.frames, metres += out.moved_m;
-    lost += plan.loss_from_s < out.lasted_s ? 1 : 0;
-    if (out.contact) {
-      std::printf("contact: encounter %llu %s drive %d sensor %d loss %d at %.2f s, %.2f m/s\n",
-                  static_cast<unsigned long long>(k), pose_wall::test::name_of(plan.kind), static_cast<int>(plan.drive),
-                  static_cast<int>(plan.sensor.pattern), static_cast<int>(plan.loss), out.contact_s, out.contact_m_s);
-    }
+    lost += plan.loss != pose_wall::test::Loss::none && plan.loss_from_s < out.lasted_s ? 1 : 0;
+    if (out.contact) print_contact(k, plan, out);
     if (out.contact || (k + 1) % 500 == 0) {
-      std::printf("after %llu: %llu contacts, %llu of them creeping\n", static_cast<unsigned long long>(k + 1 - first),
-                  static_cast<unsigned long long>(total.contacts + total.creeping),
-                  static_cast<unsigned long long>(total.creeping));
+      std::printf("after %llu: %llu contacts, creeping %llu\n", total.runs, total.contacts, total.creeping);
       std::fflush(stdout);
     }
   }
-  const auto print = [](const char* name, const Tally& t) {
-    std::printf(
-        "%-15s %7llu encounters, moved in %7llu, 0.9 m/s near a thing in %7llu, stopped from motion in %7llu, "
-        "contacts %llu, creeping %llu\n",
-        name, static_cast<unsigned long long>(t.runs), static_cast<unsigned long long>(t.moved),
-        static_cast<unsigned long long>(t.fast), static_cast<unsigned long long>(t.stopped),
-        static_cast<unsigned long long>(t.contacts), static_cast<unsigned long long>(t.creeping));
-  };
-  for (std::size_t k = 1; k < kKinds; ++k) print(name_of(static_cast<pose_wall::test::Kind>(k)), tallies[k]);
-  print("all", total);
-  std::printf("seed %llu: %llu frames, %.0f m, sensor lost in %llu\n", static_cast<unsigned long long>(a.seed),
-              static_cast<unsigned long long>(frames), metres, static_cast<unsigned long long>(lost));
+  for (std::size_t k = 1; k < kKinds; ++k) tallies[k].print(name_of(static_cast<pose_wall::test::Kind>(k)));
+  total.print("all");
+  std::printf("seed %llu: %llu frames, %.0f m, sensor lost in %llu\n", Count{a.seed}, frames, metres, lost);
   return total.contacts == 0 ? 0 : 1;
 }
 
@@ -176,8 +178,7 @@ int false_stops(const Arguments& a, bool has_dust) {
       "%s: %u stops in %.2f h, %.2f h of them driving, %.0f m: %.1f an hour of driving; it stood at the end of "
       "%llu of %llu runs\n",
       has_dust ? "dust" : "clear", all.stops, all.lasted_s / 3600.0, all.drove_s / 3600.0, all.moved_m,
-      all.drove_s > 0.0 ? all.stops * 3600.0 / all.drove_s : 0.0, static_cast<unsigned long long>(stuck),
-      static_cast<unsigned long long>(runs));
+      all.drove_s > 0.0 ? all.stops * 3600.0 / all.drove_s : 0.0, Count{stuck}, Count{runs});
   for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
     if (all.stops_by[bit] > 0) std::printf("  %s %u\n", pose_wall_planar_stop_reason_name(bit), all.stops_by[bit]);
   }
