@@ -167,6 +167,32 @@ TEST(StopApi, PassersByMakeNoWallOfAPerson) {
   }
 }
 
+// With slack for its lateness and for the size of a place, a driver who follows the allowed speed is slowed by what
+// lies in the way before it is stopped. Without any it is stopped at more speed.
+TEST(StopApi, SlackIsWhatADriverNeedsToSlowDownInTime) {
+  const auto stopped_at_m_s = [](double slack_s) {
+    double most_m_s = 0.0;
+    for (const double x : {9.0, 9.35, 9.7, 10.05}) {
+      pose_wall::test::Plan plan;
+      plan.world.wall_wave_m = 0.02, plan.world.face_m = 1000.0, plan.world.half_width_m = 2.8;
+      plan.world.things.push_back(round_thing(x, 0.1, 0.3, -0.1, 0.27));
+      plan.sensor = Sensor(Pattern::vlp16, 2.0, 1.45, 0.0, 0.18, 1.25, 600);
+      plan.lasts_s = 25.0;
+      pose_wall_planar_stop_settings settings = encounter_settings();
+      settings.slack_s = slack_s;
+      StopUnderTest stop;
+      Draw draw(6);
+      const auto out = pose_wall::test::Encounter(plan, settings, &stop, &draw).run();
+      EXPECT_FALSE(out.contact) << slack_s << " " << x;
+      most_m_s = std::fmax(most_m_s, out.top_stop_m_s);
+    }
+    return most_m_s;
+  };
+  const double with = stopped_at_m_s(0.7), without = stopped_at_m_s(0.0);
+  EXPECT_LT(with, 0.1);
+  EXPECT_GT(without, 0.2);
+}
+
 // On clear roads with rough rock nothing stops the machine: neither where the memory of walls ends behind it, nor where
 // tips stand alone in sight, nor where a place straight ahead lies between two columns of rays.
 TEST(StopApi, ARoughRoadIsNoPerson) {
