@@ -44,8 +44,8 @@ struct Plan {
 struct Outcome {
   bool contact = false;
   double contact_m_s = 0.0, contact_s = 0.0, moved_m = 0.0, drove_s = 0.0, lasted_s = 0.0;
-  double top_m_s = 0.0, top_near_m_s = 0.0;  // and while a thing was near
-  double top_stop_m_s = 0.0;                 // at the stop that came at most speed
+  double top_m_s = 0.0, top_near_m_s = 0.0;                         // and while a thing was near
+  double top_stop_m_s = 0.0;                                        // at the stop that came at most speed
   std::uint32_t stops = 0, frames = 0;                              // from motion
   std::uint32_t stops_by[POSE_WALL_PLANAR_STOP_REASON_COUNT] = {};  // of these; one may have several reasons
   Kind touched = Kind::clear;
