@@ -78,12 +78,13 @@ typedef struct pose_wall_planar_stop_settings {
   double stale_s;           /* 0.02 to 1: oldest frame. At least a frame's period and its own delay */
   double scan_s;            /* 0 to 0.5: a point is measured up to so long before the stamp; 0: scan without skew */
   double delay_s;           /* 0.1 to 2: in which sparse returns are told from dust; three frames at least */
-  double slack_s;           /* 0 to 2: allowed_speed_m_s is so much more careful than the stop */
-  double restart_s;         /* 0 to 60: clear for so long before a stop ends */
+  double slack_s;   /* 0 to 2: allowed_speed_m_s is so much more careful than the stop. At least a frame's period, its
+                       delay and latency_s, or a driver who follows it is stopped where it could have slowed down */
+  double restart_s; /* 0 to 60: clear for so long before a stop ends */
   double restart_speed_m_s; /* 0.01 to 1: allowed speed needed to end a stop */
   double approach_m_s;      /* 0 to 3: speed of people towards the path; 0: nobody is there */
-  double settle_s;     /* 0.2 to 60: what stood still for so long and is part of something long, like a wall, is not
-                          expected to walk. What stands alone may walk at any time */
+  double settle_s;     /* 0.2 to 60: what stood still for so long and is part of something long that did, like a wall,
+                          is not expected to walk. What stands alone may walk at any time */
   double creep_m_s;    /* 0 to 0.3: so slowly the machine may pass a thing that stood still alone for settle_s, however
                           near. 0: never nearer than it could walk into the way */
   double memory_s;     /* 0.1 to 600: low places are remembered for so long */

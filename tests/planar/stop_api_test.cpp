@@ -132,6 +132,88 @@ TEST(StopApi, APersonWhoStandsBesideTheWayKeepsTheMachineSlow) {
   }
 }
 
+// However thin, and with the back flush to the wall: a chest stands out by more than a wall's tips.
+TEST(StopApi, APersonFlushWithTheWallMayWalkOff) {
+  for (const double radius : {0.17, 0.2, 0.25}) {
+    World world = road();
+    world.half_width_m = 2.4;
+    world.things.push_back(round_thing(4.0, 2.4 - radius, radius, -0.1, 1.7));
+    Standing standing(world);
+    standing.frames(40);
+    for (int k = 0; k < 60; ++k) {
+      const auto result = standing.frame();
+      EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_NEARING, 0U) << radius << " " << k;
+      EXPECT_LE(1.6 * (0.45 + result.stop_speed_m_s), 2.4 - 2.0 * radius - 0.6) << radius << " " << k;
+    }
+  }
+}
+
+// Who stands for long between others who only pass by is no wall.
+TEST(StopApi, PassersByMakeNoWallOfAPerson) {
+  World world = road();
+  world.things.push_back(round_thing(4.5, 1.7, 0.2, -0.1, 1.7));
+  Standing standing(world);
+  const double alone_m_s = standing.frames(40).stop_speed_m_s;
+  for (const double x : {3.5, 4.0, 5.0, 5.5}) {
+    standing.world().things.push_back(round_thing(x, 1.7, 0.2, -0.1, 1.7));
+  }
+  standing.frames(10);
+  standing.world().things.resize(1);
+  standing.frames(5);
+  for (int k = 0; k < 10; ++k) {
+    const auto result = standing.frame();
+    EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_NEARING, 0U) << k;
+    EXPECT_LE(result.stop_speed_m_s, alone_m_s + 0.05) << k;  // a level
+  }
+}
+
+// With slack for its lateness and for the size of a place, a driver who follows the allowed speed is slowed by what
+// lies in the way before it is stopped. Without any it is stopped at more speed.
+TEST(StopApi, SlackIsWhatADriverNeedsToSlowDownInTime) {
+  const auto stopped_at_m_s = [](double slack_s) {
+    double most_m_s = 0.0;
+    for (const double x : {9.0, 9.35, 9.7, 10.05}) {
+      pose_wall::test::Plan plan;
+      plan.world.wall_wave_m = 0.02, plan.world.face_m = 1000.0, plan.world.half_width_m = 2.8;
+      plan.world.things.push_back(round_thing(x, 0.1, 0.3, -0.1, 0.27));
+      plan.sensor = Sensor(Pattern::vlp16, 2.0, 1.45, 0.0, 0.18, 1.25, 600);
+      plan.lasts_s = 25.0;
+      pose_wall_planar_stop_settings settings = encounter_settings();
+      settings.slack_s = slack_s;
+      StopUnderTest stop;
+      Draw draw(6);
+      const auto out = pose_wall::test::Encounter(plan, settings, &stop, &draw).run();
+      EXPECT_FALSE(out.contact) << slack_s << " " << x;
+      most_m_s = std::fmax(most_m_s, out.top_stop_m_s);
+    }
+    return most_m_s;
+  };
+  const double with = stopped_at_m_s(0.7), without = stopped_at_m_s(0.0);
+  EXPECT_LT(with, 0.1);
+  EXPECT_GT(without, 0.2);
+}
+
+// On clear roads with rough rock nothing stops the machine: neither where the memory of walls ends behind it, nor where
+// tips stand alone in sight, nor where a place straight ahead lies between two columns of rays.
+TEST(StopApi, ARoughRoadIsNoPerson) {
+  struct Road {
+    double wave_m, length_m, half_width_m;
+  };
+  for (const Road& rough : {Road{0.115, 2.5, 2.7}, Road{0.1, 1.4, 2.3}, Road{0.07, 1.47, 2.83}, Road{0.0, 1.0, 2.2}}) {
+    pose_wall::test::Plan plan;
+    plan.world.wall_wave_m = rough.wave_m, plan.world.wall_length_m = rough.length_m;
+    plan.world.half_width_m = rough.half_width_m, plan.world.face_m = 1000.0;
+    plan.sensor = Sensor(Pattern::vlp16, 2.0, 1.45, 0.0, 0.18, 1.25, 600);
+    plan.lasts_s = 30.0;
+    const pose_wall_planar_stop_settings settings = encounter_settings();
+    StopUnderTest stop;
+    Draw draw(6);
+    const auto out = pose_wall::test::Encounter(plan, settings, &stop, &draw).run();
+    EXPECT_EQ(out.stops, 0U) << rough.wave_m << " " << rough.length_m;
+    EXPECT_GT(out.moved_m, 15.0) << rough.wave_m << " " << rough.length_m;
+  }
+}
+
 TEST(StopApi, SilenceStops) {
   Standing standing(road());
   standing.frames(30);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -61,7 +62,8 @@ class SightUnderTest {
     return found;
   }
   std::uint8_t seen(double x, double y) const {
-    return sight_->seen(static_cast<float>(x - mount_.sensor_base_m.x()), static_cast<float>(y));
+    const auto dx = static_cast<float>(x - mount_.sensor_base_m.x()), dy = static_cast<float>(y);
+    return static_cast<std::uint8_t>(sight_->seen(pose_wall::all_four(dx), pose_wall::all_four(dy))[0]);
   }
   const Ground& ground() const { return ground_; }
   std::uint32_t used() const { return used_; }
@@ -140,6 +142,43 @@ TEST(StopSight, APuddleShorterThanTheShadowOfTheSmallestThingIsNoGap) {
   world.puddles = {{4.3, 4.5, -1.0, 1.0, false}};
   test.look(os1(), world, 1);
   for (double x = 4.1; x < 5.0; x += 0.1) EXPECT_NE(test.seen(x, 0.0) & Sight::kLow, 0) << x;
+}
+
+// Steps of azimuth: each is met, in order, and none is wider than what the rule of silence counts with.
+TEST(StopSight, StepsOfAzimuthAreEven) {
+  constexpr std::uint32_t kDirections = 400000;
+  constexpr double kTurn_rad = 6.283185307179586;
+  std::vector<std::uint32_t> met(pose_wall::planar::kAzimuths, 0);
+  std::uint32_t changes = 0, before = 0;
+  for (std::uint32_t k = 0; k < kDirections; ++k) {
+    const double angle = (k + 0.5) * kTurn_rad / kDirections;
+    const std::uint32_t a =
+        Sight::azimuth_of(static_cast<float>(3.0 * std::cos(angle)), static_cast<float>(3.0 * std::sin(angle)));
+    ASSERT_LT(a, pose_wall::planar::kAzimuths);
+    ++met[a];
+    changes += k > 0 && a != before ? 1U : 0U;
+    before = a;
+  }
+  EXPECT_LE(changes, pose_wall::planar::kAzimuths);
+  for (const std::uint32_t count : met) {
+    EXPECT_LE((count - 1) * kTurn_rad / kDirections, pose_wall::planar::kAzimuthMost_rad);
+    EXPECT_GE((count + 1) * kTurn_rad / kDirections, 0.0114);
+  }
+}
+
+// Straight ahead as well, where a column of a coarse sensor has its place beside a step of azimuth.
+TEST(StopSight, NoPlaceAheadLiesBetweenTwoColumns) {
+  SightUnderTest test;
+  for (const std::uint32_t columns : {600U, 900U, 1800U}) {
+    Sensor sensor(Pattern::vlp16, 2.0, 1.45, 0.0, 0.18, 1.25, columns);
+    sensor.noise_m = sensor.dropout = 0.0;
+    test.look(sensor, flat(), 1);
+    for (const double x : {4.9, 5.0, 5.1, 5.2}) {
+      for (double y = -0.9; y < 0.95; y += 0.05) {
+        EXPECT_NE(test.seen(x, y) & Sight::kLow, 0) << columns << " " << x << " " << y;
+      }
+    }
+  }
 }
 
 // What "seen" means: had the smallest thing been there, a ray would have hit it above the floor's band. Likewise a

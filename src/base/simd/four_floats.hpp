@@ -84,6 +84,17 @@ inline FourFloats magnitude_of(FourFloats four) {
   return four;
 }
 
+// As many as a, with the sign of b turned into them: a where b is positive, -a where it is negative.
+inline FourFloats signed_by(FourFloats a, FourFloats b) {
+  constexpr std::int32_t kSign = INT32_MIN;  // IEEE 754: the highest bit
+  FourInts to, from;
+  std::memcpy(&to, &a, sizeof(to));
+  std::memcpy(&from, &b, sizeof(from));
+  to ^= from & FourInts{kSign, kSign, kSign, kSign};
+  std::memcpy(&a, &to, sizeof(a));
+  return a;
+}
+
 using FourShorts = std::int16_t __attribute__((vector_size(8)));
 // Of integers that fit, and of truths.
 inline FourShorts shorts_of(FourInts four) {
@@ -99,6 +110,15 @@ inline bool any_of(FourTruths truths) {
   std::uint64_t bits;
   std::memcpy(&bits, &halves, sizeof(bits));
   return bits != 0;
+#endif
+}
+
+// Of truths only: bit k for lane k.
+inline std::uint32_t bits_of(FourTruths truths) {
+#ifdef __SSE2__
+  return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<FourFloats>(truths)));
+#else
+  return static_cast<std::uint32_t>((truths[0] & 1) | (truths[1] & 2) | (truths[2] & 4) | (truths[3] & 8));
 #endif
 }
 

@@ -14,6 +14,10 @@ namespace {
 constexpr std::int16_t kNowhere = 0x7FFF;  // of a place that is none of the ground's
 constexpr float kInside_m = 0.1F;          // so far inside the footprint nothing but the machine can be
 constexpr float kNotUnder_m = -0.02F;      // places under the machine are not in its way
+constexpr std::int32_t kPlace_mm = 100;
+// A wall's tips stand out by less, the chest of a person with the back to it by more. Along a diagonal in both axes.
+constexpr std::int32_t kAside_mm = 230, kAsideDiagonal_mm = 325;
+constexpr std::int32_t kAsidePlaces = 3;  // what is so little aside is within as many
 
 std::int32_t place_of(double m) {
   return static_cast<std::int32_t>(std::floor(m / kPlace_m));
@@ -52,11 +56,7 @@ std::uint32_t Places::index_of(std::int32_t ix, std::int32_t iy) {
 }
 
 Place& Places::place_at(std::int32_t ix, std::int32_t iy) {
-  return place_at(ix, iy, index_of(ix, iy));
-}
-
-Place& Places::place_at(std::int32_t ix, std::int32_t iy, std::uint32_t index) {
-  Place& place = places_[index];
+  Place& place = places_[index_of(ix, iy)];
   const auto x = static_cast<std::int16_t>(ix), y = static_cast<std::int16_t>(iy);
   if (place.ix != x || place.iy != y) {
     place = Place{};
@@ -116,15 +116,23 @@ void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Ve
     if (!counts) return;
     std::uint32_t& last_ms = hit.is_high ? place.thing_high_ms : place.thing_low_ms;
     std::uint32_t& first_ms = hit.is_high ? place.first_ms : place.low_first_ms;
-    if (last_ms == 0 || now_ms - last_ms > gap_ms_) first_ms = now_ms;
+    const bool is_new = last_ms == 0 || now_ms - last_ms > gap_ms_;
+    if (is_new) first_ms = now_ms;
+    if (is_new && hit.is_high) place.long_ms = 0;
     last_ms = now_ms;
     place.thing_drift_m = drift_m;
+    if (!hit.is_high) return;
+    const auto x_mm = static_cast<std::int32_t>((at.x() - place.ix * kPlace_m) * 1000.0);
+    const auto y_mm = static_cast<std::int32_t>((at.y() - place.iy * kPlace_m) * 1000.0);
+    place.high_x_mm = static_cast<std::uint8_t>(is_new ? x_mm : (3 * place.high_x_mm + x_mm) / 4);
+    place.high_y_mm = static_cast<std::uint8_t>(is_new ? y_mm : (3 * place.high_y_mm + y_mm) / 4);
   });
 }
 
-// visit(ix, iy, index, x and y in base): the places within a square around a point of base, row by row.
+// visit(ix, iy, which of them count, x and y in base): places within a square around a point of base, four of a row at
+// a time.
 template <typename Visit>
-void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
+void Places::each_four(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
   const Turn2 turn(track.yaw_rad);
   const std::int32_t bx = place_of(track.x_m), by = place_of(track.y_m);
   const Eigen::Vector2d middle = turn * middle_m + Eigen::Vector2d(track.x_m, track.y_m);
@@ -135,18 +143,26 @@ void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, do
   const std::int32_t first_x = bounded(middle.x() - half_m, bx), last_x = bounded(middle.x() + half_m, bx);
   const std::int32_t first_y = bounded(middle.y() - half_m, by), last_y = bounded(middle.y() + half_m, by);
   const auto step_x = static_cast<float>(turn.c * kPlace_m), step_y = static_cast<float>(-turn.s * kPlace_m);
+  constexpr FourFloats kLanes = {0.0F, 1.0F, 2.0F, 3.0F};
   for (std::int32_t iy = first_y; iy <= last_y; ++iy) {
     const Eigen::Vector2d first =
         turn.back({(first_x + 0.5) * kPlace_m - track.x_m, (iy + 0.5) * kPlace_m - track.y_m});
-    float x = static_cast<float>(first.x()), y = static_cast<float>(first.y());
-    std::uint32_t index = index_of(first_x, iy), column = index % kPlacesAcross;
-    for (std::int32_t ix = first_x; ix <= last_x; ++ix) {
-      visit(ix, iy, index, x, y);
-      x += step_x, y += step_y;
-      ++index, ++column;
-      if (column == kPlacesAcross) index -= kPlacesAcross, column = 0;
+    const auto x = static_cast<float>(first.x()), y = static_cast<float>(first.y());
+    for (std::int32_t ix = first_x; ix <= last_x; ix += static_cast<std::int32_t>(kFour)) {
+      const FourFloats steps = static_cast<float>(ix - first_x) + kLanes;
+      visit(ix, iy, first_of_four(static_cast<std::uint32_t>(last_x - ix + 1)), x + steps * step_x, y + steps * step_y);
     }
   }
+}
+
+template <typename Visit>
+void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
+  each_four(track, middle_m, half_m,
+            [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
+              for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(kFour); ++lane) {
+                if (those[lane] != 0) visit(ix + lane, iy, x[lane], y[lane]);
+              }
+            });
 }
 
 void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
@@ -154,69 +170,91 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
   const auto drift_m = static_cast<float>(track.drift_m);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   const float most_m = sight.seen_most_m();
-  each_around(track, sensor_m, static_cast<double>(most_m),
-              [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
-                const float dx = x - sx, dy = y - sy;
-                if (!(dx * dx + dy * dy < most_m * most_m)) return;
-                const std::uint8_t seen = sight.seen(dx, dy);
-                if (seen == 0) return;
-                Place& place = place_at(ix, iy, index);
-                if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
-                if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift_m = drift_m;
-                if ((seen & Sight::kLow) == 0) return;
-                place.low_ms = now_ms, place.low_drift_m = drift_m;
-                if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
-              });
+  const Sight::Bounds& in = sight.seen_within();
+  const auto put = [&](std::int32_t ix, std::int32_t iy, std::int32_t seen) {
+    Place& place = place_at(ix, iy);
+    if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
+    if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift_m = drift_m;
+    if ((seen & Sight::kLow) == 0) return;
+    place.low_ms = now_ms, place.low_drift_m = drift_m;
+    if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
+  };
+  each_four(track, sensor_m, static_cast<double>(most_m),
+            [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
+              const FourFloats dx = x - sx, dy = y - sy;
+              those &= (dx * dx + dy * dy < all_four(most_m * most_m)) & (dx >= all_four(in.low_x)) &
+                       (dx <= all_four(in.high_x)) & (dy >= all_four(in.low_y)) & (dy <= all_four(in.high_y));
+              if (!any_of(those)) return;
+              const FourInts seen = sight.seen(dx, dy) & those;
+              for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(kFour); ++lane) {
+                if (seen[lane] != 0) put(ix + lane, iy, seen[lane]);
+              }
+            });
   // Where the machine stands, nothing lies.
-  each_around(track, {0.0, 0.0}, sweep.radius_m(),
-              [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
-                if (!(sweep.distance_now(x, y) < -kInside_m)) return;
-                Place& place = place_at(ix, iy, index);
-                place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
-                place.thing_low_ms = place.thing_high_ms = 0;
-              });
+  each_around(track, {0.0, 0.0}, sweep.radius_m(), [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+    if (!(sweep.distance_now(x, y) < -kInside_m)) return;
+    Place& place = place_at(ix, iy);
+    place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
+    place.thing_low_ms = place.thing_high_ms = 0;
+  });
 }
 
 void Places::confirm(const Track& track, const Sweep& sweep, std::uint32_t now_ms) {
   const auto drift_m = static_cast<float>(track.drift_m);
   const double reach_m = sweep.radius_m() + static_cast<double>(confirm_m_);
-  each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
+  each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     if (!(sweep.distance_now(x, y) <= confirm_m_)) return;
-    Place& place = place_at(ix, iy, index);
+    Place& place = place_at(ix, iy);
     place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
   });
 }
 
+// Whether the one was remembered when the other was last seen. The memory of a wall ends place by place: what is left
+// of it behind the machine is still part of it.
+bool Places::was_there_with(const Place* near, const Place& place) const {
+  if (near == nullptr || near->thing_high_ms == 0) return false;
+  const bool was_seen_before = near->thing_high_ms < place.thing_high_ms;
+  const std::uint32_t before_ms = was_seen_before ? place.thing_high_ms - near->thing_high_ms : 0;
+  return before_ms <= memory_ms_ && place.thing_drift_m - near->thing_drift_m <= drift_most_m_;
+}
+
 // It, or a neighbour, was there for long. What went out of sight then is taken to be still there.
-bool Places::is_settled(const Place& place, std::uint32_t now_ms) const {
+bool Places::is_settled(const Place& place) const {
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
       const Place* const near = known_at(place.ix + dx, place.iy + dy);
-      if (near == nullptr || near->thing_high_ms == 0 || now_ms - near->thing_high_ms > memory_ms_) continue;
-      if (near->thing_high_ms - near->first_ms >= settle_ms_) return true;
+      if (was_there_with(near, place) && near->thing_high_ms - near->first_ms >= settle_ms_) return true;
     }
   }
   return false;
 }
 
-bool Places::has_thing_around(std::int32_t ix, std::int32_t iy, const Track& track, std::uint32_t now_ms) const {
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      const Place* const near = known_at(ix + dx, iy + dy);
-      if (near != nullptr && is_remembered(near->thing_high_ms, near->thing_drift_m, track, now_ms)) return true;
+// Whether a thing goes on so many steps along an axis: there, a place more or less far, and little aside of the line.
+bool Places::goes_on(const Place& place, const std::int32_t* axis, std::int32_t times) const {
+  const std::int32_t along_x = axis[0] > 0 ? 1 : 0, along_y = axis[1] > 0 ? 1 : axis[1] < 0 ? -1 : 0;
+  const bool is_diagonal = along_x * along_y != 0;
+  const std::int32_t along_most = is_diagonal ? 2 : 1, aside_most_mm = is_diagonal ? kAsideDiagonal_mm : kAside_mm;
+  for (std::int32_t dy = -kAsidePlaces; dy <= kAsidePlaces; ++dy) {
+    for (std::int32_t dx = -kAsidePlaces; dx <= kAsidePlaces; ++dx) {
+      const std::int32_t along = dx * along_x + dy * along_y;
+      if (along > along_most || along < -along_most) continue;
+      const Place* const near = known_at(place.ix + times * axis[0] + dx, place.iy + times * axis[1] + dy);
+      if (!was_there_with(near, place) || near->thing_high_ms - near->first_ms < settle_ms_) continue;
+      const std::int32_t x_mm = kPlace_mm * (near->ix - place.ix) + near->high_x_mm - place.high_x_mm;
+      const std::int32_t y_mm = kPlace_mm * (near->iy - place.iy) + near->high_y_mm - place.high_y_mm;
+      const std::int32_t aside_mm = x_mm * along_y - y_mm * along_x;
+      if (aside_mm <= aside_most_mm && aside_mm >= -aside_most_mm) return true;
     }
   }
   return false;
 }
 
-// Whether it goes on in a straight line: half a metre to both sides, or a metre to one, along any of four axes. The
-// face of a wall does. A person does not, even with the back to a wall.
-bool Places::is_long(const Place& place, const Track& track, std::uint32_t now_ms) const {
+// Whether it goes on in a line: half a metre to both sides, or a metre to one, along any of four axes. The face of a
+// wall does, with the tips of its rock. A person does not, even with the back to a wall.
+bool Places::is_long(const Place& place) const {
   constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};  // half a metre in places
   for (const auto& axis : kAxes) {
-    const auto goes_on = [&](std::int32_t times) {
-      return has_thing_around(place.ix + times * axis[0], place.iy + times * axis[1], track, now_ms);
-    };
+    const auto goes_on = [&](std::int32_t times) { return this->goes_on(place, axis, times); };
     const bool ahead = goes_on(1), behind = goes_on(-1);
     if ((ahead && behind) || (ahead && goes_on(2)) || (behind && goes_on(-2))) return true;
   }
@@ -229,8 +267,25 @@ void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uin
   if (may_go && sight.passed_high(x, y)) place->thing_high_ms = 0;
 }
 
+// A wall: long and settled, or right behind such a place, seen from the sensor. For so long as a thing needs to settle
+// it stays one: where neighbours go out of sight, nothing new was seen. `away`: from the sensor to it, on the ground.
+bool Places::is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const {
+  const auto is_known = [&](const Place& p) { return p.long_ms != 0 && now_ms - p.long_ms <= settle_ms_; };
+  const bool is_fresh = place->long_ms != 0 && 2 * (now_ms - place->long_ms) < settle_ms_;
+  if (!is_fresh && is_settled(*place) && is_long(*place)) place->long_ms = now_ms;
+  if (is_known(*place)) return true;
+  for (std::int32_t dy = -1; dy <= 1; ++dy) {
+    for (std::int32_t dx = -1; dx <= 1; ++dx) {
+      const Place* const near = known_at(place->ix + dx, place->iy + dy);
+      if (dx * away.x() + dy * away.y() < 0.0 && was_there_with(near, *place) && is_known(*near)) return true;
+    }
+  }
+  return false;
+}
+
 // What a place is to the sweep: false if it is free.
-bool Places::is_hazard(const Place* place, const Track& track, std::uint32_t now_ms, Hazard* hazard) const {
+bool Places::is_hazard(Place* place, const Track& track, const Eigen::Vector2d& away, std::uint32_t now_ms,
+                       Hazard* hazard) const {
   hazard->margin_m = protection_m_ + kPlaceCorner_m;
   hazard->approach_m_s = hazard->sooner_s = 0.0F;
   hazard->kind = POSE_WALL_PLANAR_STOP_UNSEEN;
@@ -242,10 +297,25 @@ bool Places::is_hazard(const Place* place, const Track& track, std::uint32_t now
   hazard->kind =
       static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) + (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
   if (!is_high) return true;
-  const bool is_settled_there = is_settled(*place, now_ms);
-  if (is_settled_there && is_long(*place, track, now_ms)) return true;
+  if (is_wall(place, away, now_ms)) return true;
   hazard->approach_m_s = approach_m_s_;
-  hazard->sooner_s = is_settled_there ? sooner_s_ : 0.0F;
+  hazard->sooner_s = is_settled(*place) ? sooner_s_ : 0.0F;
+  return true;
+}
+
+// A place in the way, and what is gone goes. False if it is none.
+bool Places::find_at(const Look& look, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard, Count* count) {
+  const float dx = hazard->x_m - look.sensor_x_m, dy = hazard->y_m - look.sensor_y_m;
+  Place* const place = is_of(places_[hazard->place], ix, iy) ? &places_[hazard->place] : nullptr;
+  if (place != nullptr) let_go(place, look.sight, dx, dy, look.now_ms);
+  if (place != nullptr && is_near && place->doubt_ms == look.now_ms) ++count->doubtful;
+  const Eigen::Vector2d away = look.turn * Eigen::Vector2d(static_cast<double>(dx), static_cast<double>(dy));
+  if (!is_hazard(place, look.track, away, look.now_ms, hazard)) return false;
+  const bool is_blind = hazard->kind == POSE_WALL_PLANAR_STOP_UNSEEN;
+  if (!is_blind) ++count->things;
+  if (!is_near && !(hazard->approach_m_s > 0.0F)) return false;
+  if (look.sweep.distance_now(hazard->x_m, hazard->y_m) < kNotUnder_m) return false;
+  if (is_blind) ++count->blind;
   return true;
 }
 
@@ -254,24 +324,23 @@ std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const
   const float still_reach_m = protection_m_ + kPlaceCorner_m + kCellCorner_m + drift_most_m_ + sweep.growth_m(0.0F);
   const float walk_reach_m = still_reach_m + sweep.growth_m(approach_m_s_) - sweep.growth_m(0.0F);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
+  const Look look{sight, track, sweep, Turn2(track.yaw_rad), sx, sy, now_ms};
   std::uint32_t found = 0;
-  const double half_m = sweep.half_m() + static_cast<double>(walk_reach_m);
-  each_around(track, sweep.middle_m(), half_m,
-              [&](std::int32_t ix, std::int32_t iy, std::uint32_t index, float x, float y) {
-                const bool is_near = sweep.concerns(x, y, still_reach_m);
-                if (!is_near && (places_[index].thing_high_ms == 0 || !sweep.concerns(x, y, walk_reach_m))) return;
-                Place* const place = is_of(places_[index], ix, iy) ? &places_[index] : nullptr;
-                if (place != nullptr) let_go(place, sight, x - sx, y - sy, now_ms);
-                if (place != nullptr && is_near && place->doubt_ms == now_ms) ++count->doubtful;
-                Hazard hazard{x, y, 0.0F, 0.0F, 0.0F, index, 0};
-                if (!is_hazard(place, track, now_ms, &hazard)) return;
-                const bool is_blind = hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN;
-                if (!is_blind) ++count->things;
-                if (!is_near && !(hazard.approach_m_s > 0.0F)) return;
-                if (sweep.distance_now(x, y) < kNotUnder_m) return;
-                if (is_blind) ++count->blind;
-                hazards[found++] = hazard;  // there is room for every place
-              });
+  const auto find = [&](std::int32_t ix, std::int32_t iy, float x, float y, bool is_near) {
+    const std::uint32_t index = index_of(ix, iy);
+    if (!is_near && places_[index].thing_high_ms == 0) return;
+    Hazard hazard{x, y, 0.0F, 0.0F, 0.0F, index, 0};
+    if (find_at(look, ix, iy, is_near, &hazard, count)) hazards[found++] = hazard;  // there is room for every place
+  };
+  each_four(track, sweep.middle_m(), sweep.half_m() + static_cast<double>(walk_reach_m),
+            [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
+              those &= sweep.concerns(x, y, walk_reach_m);
+              if (!any_of(those)) return;
+              const FourTruths near = sweep.concerns(x, y, still_reach_m);
+              for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(kFour); ++lane) {
+                if (those[lane] != 0) find(ix + lane, iy, x[lane], y[lane], near[lane] != 0);
+              }
+            });
   return found;
 }
 

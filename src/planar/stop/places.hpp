@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
+#include "planar/pose2.hpp"
 #include "planar/stop/sight.hpp"
 #include "planar/stop/sweep.hpp"
 
@@ -36,7 +37,9 @@ struct Place {
   std::uint32_t first_ms;                         // of the high returns that go on until now
   std::uint32_t low_first_ms;                     // likewise of the low ones
   std::uint32_t doubt_first_ms, doubt_ms;         // doubtful returns
+  std::uint32_t long_ms;                          // last part of something long that stands still
   float low_drift_m, top_drift_m, thing_drift_m;  // the track's, then
+  std::uint8_t high_x_mm, high_y_mm;              // where in it the high returns are, in the mean of the last ones
 };
 
 class Places {
@@ -67,21 +70,35 @@ class Places {
 
  private:
   template <typename Visit>
+  void each_four(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
+  template <typename Visit>
   void each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
   void let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const;
-  bool is_hazard(const Place* place, const Track& track, std::uint32_t now_ms, Hazard* hazard) const;
+  bool is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const;
+  // What find_hazards looks from.
+  struct Look {
+    const Sight& sight;
+    const Track& track;
+    const Sweep& sweep;
+    Turn2 turn;  // from base to the ground
+    float sensor_x_m, sensor_y_m;
+    std::uint32_t now_ms;
+  };
+  bool find_at(const Look& look, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard, Count* count);
+  bool is_hazard(Place* place, const Track& track, const Eigen::Vector2d& away, std::uint32_t now_ms,
+                 Hazard* hazard) const;
   static std::uint32_t index_of(std::int32_t ix, std::int32_t iy);
   static bool is_of(const Place& place, std::int32_t ix, std::int32_t iy) {
     return place.ix == static_cast<std::int16_t>(ix) && place.iy == static_cast<std::int16_t>(iy);
   }
   Place& place_at(std::int32_t ix, std::int32_t iy);
-  Place& place_at(std::int32_t ix, std::int32_t iy, std::uint32_t index);
   const Place* known_at(std::int32_t ix, std::int32_t iy) const;
   void doubt(Place* place, std::uint32_t now_ms);
   bool is_remembered(std::uint32_t when_ms, float drift_m, const Track& track, std::uint32_t now_ms) const;
-  bool is_settled(const Place& place, std::uint32_t now_ms) const;
-  bool has_thing_around(std::int32_t ix, std::int32_t iy, const Track& track, std::uint32_t now_ms) const;
-  bool is_long(const Place& place, const Track& track, std::uint32_t now_ms) const;
+  bool was_there_with(const Place* near, const Place& place) const;
+  bool is_settled(const Place& place) const;
+  bool goes_on(const Place& place, const std::int32_t* axis, std::int32_t times) const;
+  bool is_long(const Place& place) const;
   bool is_free(const Place& place, const Track& track, std::uint32_t now_ms) const;
 
   Span<Place> places_;

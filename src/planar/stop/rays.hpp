@@ -20,9 +20,12 @@ class Rays {
 
   std::uint64_t points() const { return points_; }
 
-  // visit(FourPlaces from the sensor, FourTruths which of them are returns in range and not of the machine).
+  // visit(x and y from the sensor, how far they lie below a plane through the sensor with these slopes, which of them
+  // are returns in range and not of the machine).
   template <typename Visit>
-  void each_four(const Visit& visit) const {
+  void each_four(float slope_x, float slope_y, const Visit& visit) const {
+    float fall[3];
+    for (int k = 0; k < 3; ++k) fall[k] = slope_x * R_[k] + slope_y * R_[3 + k] - R_[6 + k];
     const bool row_is_plain = is_xyz32_in_a_row(cloud_);
     for (std::uint32_t row = 0; row < rows_of(cloud_); ++row) {
       const unsigned char* point = row_of(cloud_, row);
@@ -36,7 +39,7 @@ class Rays {
         }
         FourTruths those = first_of_four(left);
         const FourPlaces at = in_base(raw, &those);
-        visit(at, those);
+        visit(at.x, at.y, fall[0] * raw.x + fall[1] * raw.y + fall[2] * raw.z, those);
         point += std::size_t{kFour} * cloud_.point_step;
       }
     }

@@ -100,7 +100,7 @@ StopSettings default_stop_settings() {
   s.thing_height_m = 0.3, s.thing_width_m = 0.3, s.floor_band_m = 0.13;
   s.slope_max_rad = 0.12, s.kink_max_rad = 0.08;
   s.speed_max_m_s = 1.0, s.turn_max_rad_s = 0.4, s.deceleration_m_s2 = 1.0;
-  s.latency_s = 0.2, s.stale_s = 0.25, s.scan_s = 0.1, s.delay_s = 0.3, s.slack_s = 0.3;
+  s.latency_s = 0.2, s.stale_s = 0.25, s.scan_s = 0.1, s.delay_s = 0.3, s.slack_s = 0.35;
   s.restart_s = 1.0, s.restart_speed_m_s = 0.08;
   s.approach_m_s = 1.6, s.settle_s = 2.0, s.creep_m_s = 0.1;
   s.memory_s = 60.0, s.drift_max_m = 0.3, s.confirm_m = 2.5, s.protection_m = 0.1;

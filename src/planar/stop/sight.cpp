@@ -11,25 +11,26 @@ namespace {
 
 constexpr std::uint32_t kRingCells = kRings * kAzimuths;  // of one kind
 constexpr std::uint32_t kCounts = (kRings + 1) * kRow;    // a ring behind the last: where passes end
-constexpr float kBefore_m = 0.2F;        // a ray that ends on a thing shows nothing so shortly before it
-constexpr float kHeightNoise_m = 0.02F;  // of a ray, from its range and the floor's plane
-constexpr float kLevel = 1e-4F;          // a slope: less than a millimetre within reach
-constexpr float kPlaceHalf_m = 0.0707F;  // half the diagonal of a place of 0.1 m
-constexpr std::uint32_t kSides = 24;     // azimuths to each side at most, near the sensor
+constexpr float kReach_m = kRings * kRing_m;
+constexpr float kBefore_m = 0.2F;               // a ray that ends on a thing shows nothing so shortly before it
+constexpr float kHeightNoise_m = 0.02F;         // of a ray, from its range and the floor's plane
+constexpr float kLevel = 1e-4F;                 // a slope: less than a millimetre within reach
+constexpr float kPlaceHalf_m = 0.0707F;         // half the diagonal of a place of 0.1 m
+constexpr std::uint32_t kEdge = kAzimuths / 4;  // steps of one edge of the diamond
+constexpr std::uint32_t kSides = 24;            // azimuths to each side at most, near the sensor
 // Doubtful: so many rays pass for each that returns, and it is a few.
 constexpr std::uint32_t kPassesEach = 4, kReturnsFew = 3;
 // One ray in the counts of a word, and their bits; as Sight has their shifts.
 constexpr std::uint64_t kLowOne = 1ULL, kTallOne = 1ULL << 16U, kHighOne = 1ULL << 32U, kTopOne = 1ULL << 48U;
-// And the bits of these counts:
-constexpr std::uint64_t kLowMask = 0xFFFFULL, kTallMask = kLowMask << 16U, kTopMask = kLowMask << 48U;
-constexpr std::uint8_t kFull = 255;  // counts of returns stay there
+// Steps of a diamond's edge are twice as wide in the middle as at its corners. This much of a parabola on each half of
+// the edge makes them even to 4 %: the usual short form of the arc tangent, 0.273 * 4 / pi.
+constexpr float kBend = 0.3476F;
 
 }  // namespace
 
 void Sight::lay_out(Arena& arena) {
   passes_ = arena.take<std::uint64_t>(kCounts);
-  low_return_ = arena.take<std::uint8_t>(kRingCells);
-  high_return_ = arena.take<std::uint8_t>(kRingCells);
+  returns_ = arena.take<std::uint8_t>(2 * kRingCells);
   seen_ = arena.take<std::uint8_t>(kRingCells);
 }
 
@@ -43,8 +44,11 @@ void Sight::open(const StopSettings& settings, const Mount& mount) {
   kink_ = static_cast<float>(settings.kink_max_rad);
   half_width_m_ = static_cast<float>(0.5 * settings.thing_width_m) - kPlaceHalf_m;
   for (std::uint32_t a = 0; a < kAzimuths; ++a) {
-    // Along the diamond |x| + |y| = 1, counted from (0, -1) to the left.
-    const float p = (static_cast<float>(a) + 0.5F) * (4.0F / kAzimuths);
+    // Along the diamond |x| + |y| = 1, counted from (0, -1) to the left: first without the bend.
+    const float edge = (static_cast<float>(a % kEdge) + 0.5F) * (2.0F / kEdge) - 1.0F;
+    const float away =
+        (1.0F + kBend - std::sqrt((1.0F + kBend) * (1.0F + kBend) - 4.0F * kBend * std::fabs(edge))) / (2.0F * kBend);
+    const float p = static_cast<float>(a / kEdge) + 0.5F + (edge < 0.0F ? -0.5F : 0.5F) * away;
     const float x = p < 1.0F ? p : p < 3.0F ? 2.0F - p : p - 4.0F;
     const float y = p < 2.0F ? p - 1.0F : 3.0F - p;
     const float length = std::sqrt(x * x + y * y);
@@ -54,89 +58,117 @@ void Sight::open(const StopSettings& settings, const Mount& mount) {
 
 void Sight::clear() {
   passes_.fill(0);
-  low_return_.fill(0), high_return_.fill(0);
+  returns_.fill(0);
 }
 
-std::uint32_t Sight::azimuth_of(float x, float y) {
-  const float sum = std::fabs(x) + std::fabs(y);
-  const float t = sum > 0.0F ? y / sum : 0.0F;
-  const float p = x >= 0.0F ? 1.0F + t : 3.0F - t;
-  return static_cast<std::uint32_t>(p * (kAzimuths / 4.0F)) & (kAzimuths - 1U);
-}
-
-// The first ring whose middle lies at this distance or behind it, kRings at most.
-FourInts ring_from(FourFloats distance_m) {
-  const FourFloats last = all_four(static_cast<float>(kRings));
-  const FourFloats ring = distance_m * (1.0F / kRing_m) + 0.5F;
-  return cut_off(smaller_of(larger_of(ring, all_four(0.0F)), last));
-}
-
-FourInts azimuths_of(const FourPlaces& p) {
-  const FourFloats t = p.y / (magnitude_of(p.x) + magnitude_of(p.y));
-  const FourFloats at = p.x >= all_four(0.0F) ? 1.0F + t : 3.0F - t;
+FourInts azimuths_of(FourFloats x, FourFloats y) {
+  constexpr float kNotZero = 1e-20F;  // m: where there is no direction
+  const FourFloats t = y / larger_of(magnitude_of(x) + magnitude_of(y), all_four(kNotZero));
+  const FourFloats across = 2.0F * magnitude_of(t) - 1.0F, bend = 0.5F * kBend * across * (1.0F - magnitude_of(across));
+  const FourFloats at = 2.0F - signed_by(1.0F - (t + signed_by(bend, t)), x);
   return cut_off(at * (kAzimuths / 4.0F)) & static_cast<std::int32_t>(kAzimuths - 1);
 }
 
-// Where rays that fall are in each band of heights: heights are straight lines from the sensor to the return.
-void Sight::put_falling(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those) {
-  const float H = sensor_height_m_;
-  const FourFloats per_m = range_m / (H - height_m);
-  const FourFloats end_m = height_m > all_four(band_m_) ? range_m - kBefore_m : range_m;
-  const auto from = [&](float level_m) { return ring_from(smaller_of((H - level_m) * per_m, end_m)); };
-  const FourInts top = from(top_m_), tall = from(tall_m_), thing = from(thing_m_ - kHeightNoise_m);
-  const FourInts low = from(band_m_ + kHeightNoise_m), hang = from(hang_m_);
-  those &= top < low;
+std::uint32_t Sight::azimuth_of(float x, float y) {
+  return static_cast<std::uint32_t>(azimuths_of(all_four(x), all_four(y))[0]);
+}
+
+// The first ring whose middle lies at this distance, in rings, or behind it.
+FourInts ring_from(FourFloats rings) {
+  return cut_off(rings + 0.5F);
+}
+
+using Words = std::uint32_t[kFour];
+
+// The word of a ring in each lane's azimuth. Shifts: there is no product of four integers in SSE2.
+FourInts word_of(FourInts ring, FourInts azimuth) {
+  static_assert(kRow == (1U << 9U) + (1U << 3U), "a product of kRow");
+  return (ring << 9) + (ring << 3) + azimuth;
+}
+
+// Where rays that fall are in each band of heights: heights are straight lines from the sensor to the return. Rings per
+// metre of height, and where the ray ends, in rings.
+void Sight::put_falling(FourInts azimuth, FourFloats per_m, FourFloats end, FourTruths those) {
+  const auto from = [&](float fall_m) { return word_of(ring_from(smaller_of(fall_m * per_m, end)), azimuth); };
+  // A sensor in the machine's height sees from its own place on.
+  const FourInts top = fall_.top_m > 0.0F ? from(fall_.top_m) : azimuth, low = from(fall_.low_m);
+  const std::uint32_t lanes = bits_of(those & (top < low));
+  Words at[4];
+  store_four(top, at[0]), store_four(from(fall_.tall_m), at[1]);
+  store_four(from(fall_.thing_m), at[2]), store_four(low, at[3]);
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    if (those[lane] == 0) continue;
-    std::uint64_t* const cells = passes_.data() + azimuth[lane];
-    cells[static_cast<std::uint32_t>(top[lane]) * kRow] += kHighOne + kTopOne;
-    cells[static_cast<std::uint32_t>(hang[lane]) * kRow] -= kTopOne;
-    cells[static_cast<std::uint32_t>(tall[lane]) * kRow] += kTallOne;
-    cells[static_cast<std::uint32_t>(thing[lane]) * kRow] += kLowOne - kHighOne;
-    cells[static_cast<std::uint32_t>(low[lane]) * kRow] -= kLowOne + kTallOne;
+    if ((lanes >> lane & 1U) == 0) continue;
+    passes_[at[0][lane]] += kHighOne;
+    passes_[at[1][lane]] += kTallOne;
+    passes_[at[2][lane]] += kLowOne - kHighOne;
+    passes_[at[3][lane]] -= kLowOne + kTallOne;
+  }
+  if (!(fall_.hang_m > 0.0F)) return;  // the sensor is below all that hangs
+  store_four(from(fall_.hang_m), at[1]);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if ((lanes >> lane & 1U) == 0) continue;
+    passes_[at[0][lane]] += kTopOne;
+    passes_[at[1][lane]] -= kTopOne;
   }
 }
 
 // The same for rays that rise or are level; they are in the machine's height from the sensor on.
-void Sight::put_level(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those) {
-  const float H = sensor_height_m_, thing_m = thing_m_ - kHeightNoise_m;
-  if (!(H > band_m_ + kHeightNoise_m && H < top_m_) || !any_of(those)) return;
-  const FourFloats least = kLevel * range_m, rise = height_m - H, per_m = range_m / (rise > least ? rise : least);
-  const FourFloats end_m = height_m > all_four(band_m_) ? range_m - kBefore_m : range_m;
-  const auto until = [&](float level_m) { return ring_from(smaller_of((level_m - H) * per_m, end_m)); };
-  const FourInts top = until(top_m_), tall = until(tall_m_), thing = until(thing_m);
-  const FourInts hang = H < hang_m_ ? until(hang_m_) : all_four_ints(0);
-  const std::uint64_t tall_one = H < tall_m_ ? kTallOne : 0U, low_one = H < thing_m ? kLowOne : 0U;
+void Sight::put_level(FourInts azimuth, FourFloats per_m, FourFloats end, FourTruths those) {
+  const auto until = [&](float rise_m) { return word_of(ring_from(smaller_of(rise_m * per_m, end)), azimuth); };
+  const std::uint32_t lanes = bits_of(those);
+  Words at[5];
+  store_four(azimuth, at[0]), store_four(until(rise_.hang_m), at[1]), store_four(until(rise_.top_m), at[2]);
+  store_four(until(rise_.tall_m), at[3]), store_four(until(rise_.thing_m), at[4]);
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    if (those[lane] == 0) continue;
-    std::uint64_t* const cells = passes_.data() + azimuth[lane];
-    cells[0] += kHighOne + tall_one + low_one;
-    cells[static_cast<std::uint32_t>(hang[lane]) * kRow] += kTopOne;
-    cells[static_cast<std::uint32_t>(top[lane]) * kRow] -= kHighOne + kTopOne;
-    if (tall_one != 0) cells[static_cast<std::uint32_t>(tall[lane]) * kRow] -= tall_one;
-    if (low_one != 0) cells[static_cast<std::uint32_t>(thing[lane]) * kRow] -= low_one;
+    if ((lanes >> lane & 1U) == 0) continue;
+    passes_[at[0][lane]] += kHighOne + kTallOne + kLowOne;
+    passes_[at[1][lane]] += kTopOne;
+    passes_[at[2][lane]] -= kHighOne + kTopOne;
+    passes_[at[3][lane]] -= kTallOne;
+    passes_[at[4][lane]] -= kLowOne;
   }
 }
 
-void Sight::put_returns(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those) {
-  those &= (height_m > all_four(band_m_)) & (height_m < all_four(top_m_)) & (range_m < all_four(kRings * kRing_m));
-  if (!any_of(those)) return;
-  const FourInts ring = cut_off(range_m * (1.0F / kRing_m));
+void Sight::put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those) {
+  those &= (fall_m < all_four(band_fall_m_)) & (fall_m > all_four(top_fall_m_)) & (range_m < all_four(kReach_m));
+  const std::uint32_t lanes = bits_of(those);
+  if (lanes == 0) return;
+  constexpr float kEighths = 8.0F / kRing_m;
+  const FourInts eighths = cut_off(smaller_of(range_m * kEighths, all_four(8.0F * kRings - 1.0F)));
+  const FourInts high = (fall_m <= all_four(thing_fall_m_)) & static_cast<std::int32_t>(kRingCells);
+  static_assert(kAzimuths == 1U << 9U, "a shift of the ring");
+  Words cell, inside;
+  store_four(((eighths >> 3) << 9) + azimuth + high, cell);
+  store_four((eighths & 7) << kCountBits, inside);
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    if (those[lane] == 0) continue;
-    const std::uint32_t at = static_cast<std::uint32_t>(ring[lane]);
-    const std::uint32_t cell = (at < kRings ? at : kRings - 1) * kAzimuths + static_cast<std::uint32_t>(azimuth[lane]);
-    std::uint8_t& count = (height_m[lane] < thing_m_ ? low_return_ : high_return_)[cell];
-    if (count < kFull) ++count;
+    if ((lanes >> lane & 1U) == 0) continue;
+    std::uint8_t& word = returns_[cell[lane]];
+    const std::uint32_t count = word & kCountMost;
+    word = static_cast<std::uint8_t>(inside[lane] | (count < kCountMost ? count + 1 : count));
   }
 }
 
-void Sight::put(const FourPlaces& p, FourFloats height_m, FourFloats range_m, FourTruths those) {
-  const FourInts azimuth = azimuths_of(p);
-  const FourTruths falls = sensor_height_m_ - height_m > kLevel * range_m;
-  put_falling(azimuth, height_m, range_m, those & falls);
-  put_level(azimuth, height_m, range_m, those & ~falls);
-  put_returns(azimuth, height_m, range_m, those);
+void Sight::put(FourFloats x, FourFloats y, FourFloats fall_m, FourFloats range_m, FourTruths those) {
+  const FourInts azimuth = azimuths_of(x, y);
+  const FourFloats level_m = kLevel * range_m, rings = range_m * (1.0F / kRing_m);
+  const FourTruths falls = fall_m > level_m;
+  const FourFloats per_m = rings / larger_of(magnitude_of(fall_m), level_m);
+  const FourFloats before = fall_m < all_four(band_fall_m_) ? all_four(kBefore_m / kRing_m) : all_four(0.0F);
+  const FourFloats end = smaller_of(larger_of(rings - before, all_four(0.0F)), all_four(kRings));
+  const FourTruths falling = those & falls, rising = those & ~falls;
+  if (any_of(falling)) put_falling(azimuth, per_m, end, falling);
+  if (is_within_ && any_of(rising)) put_level(azimuth, per_m, end, rising);
+  put_returns(azimuth, fall_m, range_m, those);
+}
+
+// How far rays fall, or rise, from the sensor to each height; 0 to heights that they never come to.
+void Sight::set_heights() {
+  const float H = sensor_height_m_, thing_m = thing_m_ - kHeightNoise_m, low_m = band_m_ + kHeightNoise_m;
+  const auto above = [](float m) { return m > 0.0F ? m : 0.0F; };
+  fall_ = {above(H - top_m_), above(H - hang_m_), above(H - tall_m_), above(H - thing_m), above(H - low_m)};
+  rise_ = {above(top_m_ - H), above(hang_m_ - H), above(tall_m_ - H), above(thing_m - H), 0.0F};
+  is_within_ = H > low_m && H < top_m_;
+  band_fall_m_ = H - band_m_, thing_fall_m_ = H - thing_m_, top_fall_m_ = H - top_m_;
 }
 
 std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
@@ -144,28 +176,51 @@ std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
   const float a = static_cast<float>(ground.slope_x), b = static_cast<float>(ground.slope_y);
   const Eigen::Vector3d& s = mount_.sensor_base_m;
   sensor_height_m_ = static_cast<float>(s.z() - ground.height_m - ground.slope_x * s.x() - ground.slope_y * s.y());
-  const float H = sensor_height_m_, room_m = top_m_ - H, below_m = -band_m_;
+  set_heights();
+  const float room_m = top_m_ > sensor_height_m_ ? top_m_ - sensor_height_m_ : 0.0F;
+  const float floor_m = sensor_height_m_ + band_m_;
   // Where no floor is seen it may be lower or higher than the plane: only near places can then be seen low.
   reach_m_ = ground.seen ? kRings * kRing_m : 0.5F * (thing_m_ - band_m_) / kink_ + 0.5F;
   const float widest_m = half_width_m_ / static_cast<float>(kAzimuthMost_rad);
   seen_most_m_ = (reach_m_ < widest_m ? reach_m_ : widest_m) + kRing_m;
-  std::uint32_t used = 0;
+  FourInts used = all_four_ints(0);
   constexpr float kNearest_m = 0.05F;  // straight below the sensor there is no azimuth
-  rays.each_four([&](const FourPlaces& p, FourTruths those) {
-    const FourFloats height = H + p.z - a * p.x - b * p.y, range = root_of(p.x * p.x + p.y * p.y);
-    used += sum_of_lanes(-those);
+  rays.each_four(a, b, [&](FourFloats x, FourFloats y, FourFloats fall, FourTruths those) {
+    const FourFloats range = root_of(x * x + y * y);
+    used -= those;
     // Below the floor: a mirror image, of which the way is unknown. Upwards and out of the machine's height: no use.
-    those &= (height >= below_m) & (range > kNearest_m) & ((height < H) | (height - H <= room_m * range));
-    if (any_of(those)) put(p, height, range, those);
+    those &= (fall <= floor_m) & (range > kNearest_m) & (fall >= -room_m * range);
+    if (any_of(those)) put(x, y, fall, range, those);
   });
   add_up();
   widen();
-  return used;
+  bound();
+  return sum_of_lanes(used);
 }
 
 void Sight::add_up() {
   std::uint64_t* const cells = passes_.data();
   for (std::uint32_t k = kRow; k < kCounts; ++k) cells[k] += cells[k - kRow];
+}
+
+// The kinds of rays that pass in four cells: a ray that is low is a tall one's as well.
+void Sight::put_kinds(const std::uint64_t* passes, std::uint8_t* kinds) {
+  using EightCounts = std::uint16_t __attribute__((vector_size(16)));
+  using TwoWords = std::uint64_t __attribute__((vector_size(16)));
+  constexpr EightCounts kKinds = {kLow | kTall, kTall, 0, kTop, kLow | kTall, kTall, 0, kTop};
+  EightCounts front, back;
+  std::memcpy(&front, passes, sizeof(front));
+  std::memcpy(&back, passes + 2, sizeof(back));
+  // The kinds of two cells in one word's lowest bytes.
+  const auto front_kinds = reinterpret_cast<EightCounts>(front != 0) & kKinds;
+  const auto both_kinds = front_kinds | (reinterpret_cast<EightCounts>(back != 0) & kKinds) << 8;
+  TwoWords words;
+  std::memcpy(&words, &both_kinds, sizeof(words));
+  words |= words >> 32;
+  words |= words >> 16;
+  const std::uint64_t even = words[0], odd = words[1];
+  kinds[0] = static_cast<std::uint8_t>(even), kinds[1] = static_cast<std::uint8_t>(odd);
+  kinds[2] = static_cast<std::uint8_t>(even >> 8U), kinds[3] = static_cast<std::uint8_t>(odd >> 8U);
 }
 
 // A place is seen where any azimuth lets a ray pass that lies within the smallest thing, were it there.
@@ -180,11 +235,7 @@ void Sight::widen() {
       std::memset(out, 0, kAzimuths);
       continue;
     }
-    for (std::uint32_t a = 0; a < kAzimuths; ++a) {
-      const bool is_low = (passes[a] & kLowMask) != 0, is_tall = (passes[a] & (kLowMask | kTallMask)) != 0;
-      const bool is_top = (passes[a] & kTopMask) != 0;
-      row[kSides + a] = static_cast<std::uint8_t>((is_low ? kLow : 0) | (is_tall ? kTall : 0) | (is_top ? kTop : 0));
-    }
+    for (std::uint32_t a = 0; a < kAzimuths; a += 4) put_kinds(passes + a, row + kSides + a);
     std::memcpy(row, row + kAzimuths, kSides);
     std::memcpy(row + kSides + kAzimuths, row + kSides, kSides);
     const auto whole = static_cast<std::uint32_t>(steps) - 1U;
@@ -196,14 +247,38 @@ void Sight::widen() {
   }
 }
 
-std::uint8_t Sight::seen(float x, float y) const {
-  const float r_m = std::sqrt(x * x + y * y), half_m = half_width_m_;
-  const auto first = static_cast<std::uint32_t>((r_m > half_m ? r_m - half_m : 0.0F) / kRing_m + 0.5F);
-  const auto end = static_cast<std::uint32_t>((r_m + half_m) / kRing_m + 0.5F);
-  const std::uint32_t azimuth = azimuth_of(x, y);
-  std::uint8_t seen = 0;
-  for (std::uint32_t ring = first; ring < end && ring < kRings; ++ring) {
-    seen = static_cast<std::uint8_t>(seen | seen_[ring * kAzimuths + azimuth]);
+// A sensor that looks ahead sees half of the places around it: the rest needs no look.
+void Sight::bound() {
+  seen_within_ = {};
+  for (std::uint32_t eight = 0; eight < kAzimuths; eight += 8) {
+    std::uint32_t ring = kRings;
+    while (ring > 0 && are_zero(seen_.data() + (ring - 1) * kAzimuths + eight)) --ring;
+    if (ring == 0) continue;
+    for (std::uint32_t a = eight; a < eight + 8; ++a) {
+      constexpr float kCell_m = 0.2F;  // from the middle of a cell to places that look it up
+      const float far_m = static_cast<float>(ring) * kRing_m;
+      const float x = far_m * direction_x_[a], y = far_m * direction_y_[a];
+      Bounds& in = seen_within_;
+      in.low_x = x - kCell_m < in.low_x ? x - kCell_m : in.low_x;
+      in.high_x = x + kCell_m > in.high_x ? x + kCell_m : in.high_x;
+      in.low_y = y - kCell_m < in.low_y ? y - kCell_m : in.low_y;
+      in.high_y = y + kCell_m > in.high_y ? y + kCell_m : in.high_y;
+    }
+  }
+}
+
+FourInts Sight::seen(FourFloats x, FourFloats y) const {
+  const FourFloats r_m = root_of(x * x + y * y);
+  const FourInts azimuth = azimuths_of(x, y);
+  const FourInts first = ring_from(larger_of(r_m - half_width_m_, all_four(0.0F)) * (1.0F / kRing_m));
+  const FourInts end = ring_from(smaller_of((r_m + half_width_m_) * (1.0F / kRing_m), all_four(kRings - 0.5F)));
+  FourInts seen = all_four_ints(0);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    std::uint32_t all = 0;
+    for (std::int32_t ring = first[lane]; ring < end[lane]; ++ring) {
+      all |= seen_[static_cast<std::uint32_t>(ring) * kAzimuths + static_cast<std::uint32_t>(azimuth[lane])];
+    }
+    seen[lane] = static_cast<std::int32_t>(all);
   }
   return seen;
 }
@@ -213,9 +288,10 @@ bool Sight::passed_high(float x, float y) const {
   return ring < kRings && count_of(ring * kRow + azimuth_of(x, y), kHighShift) != 0;
 }
 
-Sight::Return Sight::returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t count,
+Sight::Return Sight::returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t word,
                               std::uint32_t passes) const {
-  const float r_m = (static_cast<float>(ring) + 0.5F) * kRing_m;
+  const std::uint32_t count = word & kCountMost, eighth = word >> kCountBits;
+  const float r_m = (static_cast<float>(ring) + (static_cast<float>(eighth) + 0.5F) * 0.125F) * kRing_m;
   return {r_m * direction_x_[azimuth], r_m * direction_y_[azimuth], is_high,
           count <= kReturnsFew && passes >= kPassesEach * count};
 }

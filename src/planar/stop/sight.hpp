@@ -3,9 +3,9 @@
 //
 // What one frame saw around the sensor: how many rays passed over each place at which height, and what returned there.
 //
-// Cells are polar about the sensor. Azimuths are in equal steps of a diamond's edge, so that no arc tangent is needed:
-// a step is from 0.0078 to 0.0157 rad. A ray that ends on the floor, or beyond, counts in each cell over whose middle
-// it passes within a band of heights; a ray that ends on a thing counts up to 0.2 m before it.
+// Cells are polar about the sensor. Azimuths are in steps along a diamond's edge, bent so that no arc tangent is needed
+// and a step is from 0.0115 to 0.0126 rad. A ray that ends on the floor, or beyond, counts in each cell over whose
+// middle it passes within a band of heights; a ray that ends on a thing counts up to 0.2 m before it.
 
 #pragma once
 
@@ -21,7 +21,7 @@ constexpr std::uint32_t kAzimuths = 512;       // steps of a turn
 constexpr std::uint32_t kRings = 80;           // up to 8 m from the sensor
 constexpr float kRing_m = 0.1F;                // as wide as a place
 constexpr std::uint32_t kRow = kAzimuths + 8;  // words of a ring: no power of two, or all rings share a cache's set
-constexpr double kAzimuthMost_rad = 0.015625;  // the widest step: 2 * 4 / 512
+constexpr double kAzimuthMost_rad = 0.0126;    // the widest step; a test looks at all of them
 
 class Sight {
  public:
@@ -32,13 +32,19 @@ class Sight {
 
   enum Seen : std::uint8_t { kLow = 1, kTall = 2, kTop = 4, kAll = 7 };
 
-  // How a place at (x, y) about the sensor was seen in this frame: kLow where the smallest thing would have been hit,
+  // How places at (x, y) about the sensor were seen in this frame: kLow where the smallest thing would have been hit,
   // kTall where a person would have been, kTop where a thing that hangs into the machine's height would have been.
-  std::uint8_t seen(float x, float y) const;
-  // No place is seen so further away than this.
+  FourInts seen(FourFloats x, FourFloats y) const;
+  // No place is seen further away than this, nor outside of these bounds.
   float seen_most_m() const { return seen_most_m_; }
+  struct Bounds {
+    float low_x, high_x, low_y, high_y;
+  };
+  const Bounds& seen_within() const { return seen_within_; }
   // Whether rays passed there above thing_height_m.
   bool passed_high(float x, float y) const;
+  // Which azimuth a direction is in.
+  static std::uint32_t azimuth_of(float x, float y);
 
   struct Return {
     float x, y;  // about the sensor
@@ -49,8 +55,8 @@ class Sight {
   template <typename Visit>
   void each_return(const Visit& visit) const {
     for (std::uint32_t ring = 0; ring < kRings; ++ring) {
-      const std::uint8_t* const low = low_return_.data() + ring * kAzimuths;
-      const std::uint8_t* const high = high_return_.data() + ring * kAzimuths;
+      const std::uint8_t* const low = returns_.data() + ring * kAzimuths;
+      const std::uint8_t* const high = low + kRings * kAzimuths;
       for (std::uint32_t eight = 0; eight < kAzimuths; eight += 8) {
         if (are_zero(low + eight) && are_zero(high + eight)) continue;
         for (std::uint32_t a = eight; a < eight + 8; ++a) {
@@ -67,31 +73,44 @@ class Sight {
   // cell.
   static constexpr unsigned kLowShift = 0, kTallShift = 16, kHighShift = 32, kTopShift = 48;  // bits
 
+  static constexpr unsigned kCountBits = 5;  // of a word of returns
+  static constexpr std::uint32_t kCountMost = (1U << kCountBits) - 1U;
+
   static bool are_zero(const std::uint8_t* eight) {
     std::uint64_t word;
     std::memcpy(&word, eight, sizeof(word));
     return word == 0;
   }
-  static std::uint32_t azimuth_of(float x, float y);
   std::uint32_t count_of(std::uint32_t cell, unsigned shift) const {
     return static_cast<std::uint16_t>(passes_[cell] >> shift);
   }
-  Return returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t count,
+  Return returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t word,
                   std::uint32_t passes) const;
+  // From the sensor to each height.
+  struct Heights {
+    float top_m, hang_m, tall_m, thing_m, low_m;  // no less than 0
+  };
   void clear();
+  void set_heights();
   void add_up();
+  static void put_kinds(const std::uint64_t* passes, std::uint8_t* kinds);
   void widen();
-  void put(const FourPlaces& p, FourFloats height_m, FourFloats range_m, FourTruths those);
-  void put_falling(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those);
-  void put_level(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those);
-  void put_returns(FourInts azimuth, FourFloats height_m, FourFloats range_m, FourTruths those);
+  void bound();
+  void put(FourFloats x, FourFloats y, FourFloats fall_m, FourFloats range_m, FourTruths those);
+  void put_falling(FourInts azimuth, FourFloats per_m, FourFloats end, FourTruths those);
+  void put_level(FourInts azimuth, FourFloats per_m, FourFloats end, FourTruths those);
+  void put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those);
 
-  Span<std::uint64_t> passes_;                   // rays by cell, one ring more than cells
-  Span<std::uint8_t> low_return_, high_return_;  // saturated
-  Span<std::uint8_t> seen_;                      // widened over azimuths
+  Span<std::uint64_t> passes_;  // rays by cell, one ring more than cells
+  Span<std::uint8_t> returns_;  // low ones, then high ones: count, saturated, and eighth of the ring of the last one
+  Span<std::uint8_t> seen_;     // widened over azimuths
   float direction_x_[kAzimuths], direction_y_[kAzimuths];
   Mount mount_;
   float sensor_height_m_ = 0.0F;
+  Bounds seen_within_{};
+  Heights fall_{}, rise_{};
+  float band_fall_m_ = 0.0F, thing_fall_m_ = 0.0F, top_fall_m_ = 0.0F;  // from the sensor to these heights
+  bool is_within_ = false;  // the sensor is in the machine's height, above low things' floor
   float band_m_ = 0.0F, thing_m_ = 0.0F, tall_m_ = 0.0F, top_m_ = 0.0F, hang_m_ = 0.0F;
   float kink_ = 0.0F, reach_m_ = 0.0F, half_width_m_ = 0.0F, seen_most_m_ = 0.0F;
 };

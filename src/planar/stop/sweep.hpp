@@ -50,8 +50,9 @@ class Sweep {
   void set_motion(const SweepMotion& motion, double reaction_s);
 
   // False where a hazard lies too far away to matter at the top speed.
-  bool concerns(float x_m, float y_m, float reach_m) const {
-    return x_m >= low_x_ - reach_m && x_m <= high_x_ + reach_m && y_m >= low_y_ - reach_m && y_m <= high_y_ + reach_m;
+  FourTruths concerns(FourFloats x_m, FourFloats y_m, float reach_m) const {
+    return (x_m >= low_x_ - reach_m) & (x_m <= high_x_ + reach_m) & (y_m >= low_y_ - reach_m) &
+           (y_m <= high_y_ + reach_m);
   }
   // The middle of the square around the whole sweep, and half its side.
   Eigen::Vector2d middle_m() const {

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstdio>
+#include <cstring>
 #include <string>
+#include <vector>
 
 #include "planar/encounter/machine.hpp"
 #include "planar/encounter/sensor.hpp"
@@ -41,10 +43,11 @@ struct Plan {
 
 struct Outcome {
   bool contact = false;
-  double contact_m_s = 0.0, contact_s = 0.0, moved_m = 0.0, drove_s = 0.0, top_m_s = 0.0, lasted_s = 0.0;
-  std::uint32_t stops = 0, frames = 0;  // from motion
-  std::uint32_t stop_reasons = 0;       // of the last such
-  std::uint32_t reasons = 0;            // of the last frame
+  double contact_m_s = 0.0, contact_s = 0.0, moved_m = 0.0, drove_s = 0.0, lasted_s = 0.0;
+  double top_m_s = 0.0, top_near_m_s = 0.0;                         // and while a thing was near
+  double top_stop_m_s = 0.0;                                        // at the stop that came at most speed
+  std::uint32_t stops = 0, frames = 0;                              // from motion
+  std::uint32_t stops_by[POSE_WALL_PLANAR_STOP_REASON_COUNT] = {};  // of these; one may have several reasons
   Kind touched = Kind::clear;
 };
 
@@ -70,8 +73,21 @@ class StopUnderTest {
   pose_wall_planar_stop* get() { return stop_; }
   pose_wall_planar_stop_result& result() { return result_; }
 
+  // Keeps all that the stop knows, and brings it back.
+  void keep() {
+    kept_.resize(block_.size());
+    std::memcpy(kept_.data(), block_.data(), kept_.size());
+    kept_result_ = result_;
+  }
+  void bring_back() {
+    std::memcpy(block_.data(), kept_.data(), kept_.size());
+    result_ = kept_result_;
+  }
+
  private:
   AlignedBlock block_;
+  std::vector<unsigned char> kept_;
+  pose_wall_planar_stop_result kept_result_{};
   pose_wall_planar_stop* stop_ = nullptr;
   pose_wall_planar_stop_result result_{};
 };
@@ -81,36 +97,84 @@ class Encounter {
   Encounter(const Plan& plan, const pose_wall_planar_stop_settings& settings, StopUnderTest* stop, Draw* draw)
       : plan_(plan), settings_(settings), stop_(stop), draw_(draw) {}
 
-  Outcome run(bool verbose = false) {
-    stop_->open(plan_.sensor, settings_);
-    if (pose_wall_planar_stop_confirm(stop_->get()) != POSE_WALL_OK) return out_;
-    constexpr double kStep_s = 0.02;
-    const double phase_s = draw_->within(0.0, 0.1);
-    const auto steps = static_cast<int>(plan_.lasts_s / kStep_s);
-    double stood_s = 0.0;
-    for (int k = 0; k < steps; ++k) {
-      const double now_s = k * kStep_s;
-      if (now_s + phase_s >= next_frame_s_) {
-        frame(now_s);
-        next_frame_s_ += 0.1;
-        if (verbose) print(now_s);
-      }
-      deliver(now_s);
-      obey(now_s);
-      plan_.machine.step(now_s, kStep_s);
-      for (Thing& thing : plan_.world.things) thing.step(now_s, kStep_s);
-      watch(now_s, kStep_s);
-      if (out_.contact) break;
-      stood_s = plan_.machine.rim_m_s <= 0.0 ? stood_s + kStep_s : 0.0;
-      if (out_.moved_m > 0.0 && stood_s > 0.8 && !is_walking(now_s)) break;
-      if (out_.moved_m <= 0.0 && now_s > 1.7 && stood_s > 1.6) break;  // it never starts
-    }
-    out_.reasons = stop_->result().reasons;
+  // Prints every stop from motion.
+  void tell_stops() { tells_stops_ = true; }
+  // Prints every frame.
+  void tell_frames() { tells_frames_ = true; }
+
+  Outcome run() {
+    if (!begin()) return out_;
+    while (step() && !is_over()) continue;
     return out_;
   }
 
+  // Drives for so long, whatever happens.
+  void run_up(double seconds) {
+    if (!begin()) return;
+    while (now_s_ < seconds && step()) continue;
+  }
+  // What happens from now on, in another draw; `stop` holds what it held when the run-up had ended. Times of the event
+  // are from now on.
+  Outcome run_on(const Plan& event, Draw* draw) {
+    draw_ = draw;
+    plan_.world.things = event.world.things, plan_.world.dust = event.world.dust;
+    plan_.world.puddles = event.world.puddles;
+    for (Thing& t : plan_.world.things) t.walks_from_s += now_s_, t.walks_until_s += now_s_;
+    plan_.loss = event.loss, plan_.loss_from_s = now_s_ + event.loss_from_s, plan_.dirt_to_rad = event.dirt_to_rad;
+    plan_.kind = event.kind;
+    plan_.lasts_s = now_s_ + event.lasts_s;
+    out_ = Outcome();
+    const double began_s = now_s_;
+    while (step() && !is_over()) continue;
+    out_.lasted_s -= began_s;
+    return out_;
+  }
+  const Machine& machine() const { return plan_.machine; }
+
  private:
   static std::int64_t ns(double s) { return 1000000000LL + static_cast<std::int64_t>(s * 1e9 + 0.5); }
+
+  static constexpr double kStep_s = 0.02;
+
+  bool begin() {
+    stop_->open(plan_.sensor, settings_);
+    phase_s_ = draw_->within(0.0, 0.1);
+    return pose_wall_planar_stop_confirm(stop_->get()) == POSE_WALL_OK;
+  }
+
+  // False after a contact and at the plan's end.
+  bool step() {
+    if (now_s_ + phase_s_ >= next_frame_s_) {
+      frame(now_s_);
+      next_frame_s_ += 0.1;
+      if (tells_frames_) print(now_s_);
+    }
+    deliver(now_s_);
+    obey(now_s_);
+    plan_.machine.step(now_s_, kStep_s);
+    for (Thing& thing : plan_.world.things) thing.step(now_s_, kStep_s);
+    watch(now_s_, kStep_s);
+    stood_s_ = plan_.machine.rim_m_s <= 0.0 ? stood_s_ + kStep_s : 0.0;
+    now_s_ += kStep_s;
+    return !out_.contact && now_s_ < plan_.lasts_s;
+  }
+
+  // It stands again and nothing comes, or it never starts, or nothing is left that it could drive into.
+  bool is_over() const {
+    if (is_walking(now_s_)) return false;
+    if (out_.moved_m > 0.0) return stood_s_ > 0.4 || has_passed_all();
+    return now_s_ > settings_.settle_s + settings_.restart_s + 1.0 && stood_s_ > 1.6;
+  }
+
+  bool has_passed_all() const {
+    if (plan_.drive != Drive::straight) return false;
+    const Machine& m = plan_.machine;
+    for (const Thing& t : plan_.world.things) {
+      const double ahead_m = std::cos(m.yaw_rad) * (t.x_m - m.x_m) + std::sin(m.yaw_rad) * (t.y_m - m.y_m);
+      if (ahead_m + t.reach_m() > 0.0) return false;
+    }
+    return !plan_.world.things.empty();
+  }
 
   bool is_walking(double now_s) const {
     for (const Thing& t : plan_.world.things) {
@@ -171,9 +235,13 @@ class Encounter {
   void obey(double now_s) {
     const auto& result = stop_->result();
     const bool stops = result.state == POSE_WALL_PLANAR_STOP_STOP;
-    if (stops && !was_stopped_) {
-      out_.stops += plan_.machine.rim_m_s > 0.01 ? 1U : 0U;
-      out_.stop_reasons = result.reasons;
+    if (stops && !was_stopped_ && plan_.machine.rim_m_s > 0.01) {
+      ++out_.stops;
+      out_.top_stop_m_s = std::fmax(out_.top_stop_m_s, plan_.machine.rim_m_s);
+      for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
+        out_.stops_by[bit] += (result.reasons >> bit) & 1U;
+      }
+      if (tells_stops_) print(now_s);
     }
     was_stopped_ = stops;
     const double allowed = stops ? 0.0 : result.allowed_speed_m_s;
@@ -187,7 +255,10 @@ class Encounter {
     out_.top_m_s = std::fmax(out_.top_m_s, m.rim_m_s);
     out_.lasted_s = now_s;
     for (const Thing& thing : plan_.world.things) {
-      if (!m.touches(thing)) continue;
+      constexpr double kNear_m = 6.0;
+      const double far_m = m.distance(thing.x_m, thing.y_m);
+      if (far_m < kNear_m) out_.top_near_m_s = std::fmax(out_.top_near_m_s, m.rim_m_s);
+      if (far_m > thing.reach_m() || !m.touches(thing)) continue;
       out_.contact = true;
       out_.contact_m_s = m.rim_m_s;
       out_.contact_s = now_s;
@@ -216,8 +287,9 @@ class Encounter {
   Draw* draw_;
   Scan scan_;
   Outcome out_;
+  double now_s_ = 0.0, phase_s_ = 0.0, stood_s_ = 0.0;
   double next_frame_s_ = 0.0, stamp_s_ = 0.0, arrives_s_ = 0.0;
-  bool waits_ = false, was_stopped_ = true;
+  bool waits_ = false, was_stopped_ = true, tells_stops_ = false, tells_frames_ = false;
 };
 
 }  // namespace pose_wall::test

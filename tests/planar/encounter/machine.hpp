@@ -51,6 +51,14 @@ struct Machine {
   }
   double wanted() const { return wanted_; }
 
+  // From the footprint; 0 inside.
+  double distance(double x, double y) const {
+    const double c = std::cos(yaw_rad), s = std::sin(yaw_rad), dx = x - x_m, dy = y - y_m;
+    const double qx = c * dx + s * dy, qy = c * dy - s * dx;
+    const double ox = std::fmax(std::fmax(back_m - qx, qx - front_m), 0.0);
+    return std::hypot(ox, std::fmax(std::fabs(qy) - half_m, 0.0));
+  }
+
   // Whether the machine touches a thing with a surface that moves towards it.
   bool touches(const Thing& thing) const {
     if (thing.bottom_m > top_m || rim_m_s <= 0.0) return false;

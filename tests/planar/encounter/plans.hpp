@@ -12,7 +12,6 @@ namespace pose_wall::test {
 inline pose_wall_planar_stop_settings encounter_settings() {
   pose_wall_planar_stop_settings settings;
   (void)pose_wall_planar_stop_settings_init(&settings);
-  settings.restart_s = 0.3, settings.settle_s = 1.0, settings.creep_m_s = 0.0;  // encounters are short
   return settings;
 }
 
@@ -129,14 +128,14 @@ inline void furnish(Plan* plan, Draw* draw) {
   if (plan->kind == Kind::dust || draw->happens(0.15)) {
     w.dust.push_back(
         {ahead, draw->within(-1.5, 1.5), draw->within(0.3, 1.5), draw->within(0.5, 2.0), draw->within(0.002, 0.3)});
-    if (plan->kind == Kind::dust && draw->happens(0.5)) {
+    if (plan->kind == Kind::dust) {
       w.things.push_back(round_thing(ahead + draw->within(-1.0, 1.0), y, 0.2, -0.1, 1.7));
     }
   }
   if (plan->kind == Kind::puddle || draw->happens(0.1)) {
     const double long_m = draw->within(0.3, 4.0), px = 2.25 + draw->within(0.0, 5.0), py = draw->within(-1.5, 1.5);
     w.puddles.push_back({px, px + long_m, py - 1.0, py + 1.0, draw->happens(0.5)});
-    if (plan->kind == Kind::puddle && draw->happens(0.7)) {
+    if (plan->kind == Kind::puddle) {
       const double at = px + draw->within(0.0, long_m);
       w.things.push_back(draw->happens(0.5) ? round_thing(at, y, 0.2, -0.1, 1.7)
                                             : round_thing(at, y, draw->within(0.15, 0.3), -0.1, 0.35));
@@ -146,16 +145,20 @@ inline void furnish(Plan* plan, Draw* draw) {
 
 // Nothing stands nearer than what _confirm vouches for, and nothing on the machine's own ground when it turns.
 inline void clear_start(Plan* plan, const pose_wall_planar_stop_settings& settings) {
-  const double room = plan->drive == Drive::spot || plan->drive == Drive::reverse ? 1.0 : settings.confirm_m;
-  (void)room;
   auto& things = plan->world.things;
   for (auto& t : things) {
-    const double half = t.is_round() ? t.half_x_m : std::hypot(t.half_x_m, t.half_y_m);
+    const double half = t.reach_m();
     const double dx = std::fmax(std::fabs(t.x_m) - 2.25, 0.0), dy = std::fmax(std::fabs(t.y_m) - 0.6, 0.0);
     const double far = std::hypot(dx, dy) - half;
     const bool is_low = t.top_m < settings.tall_m || t.bottom_m > 0.0;
     if (is_low && far < settings.confirm_m) t.x_m = 2.25 + settings.confirm_m + half + 0.05;
   }
+}
+
+inline void draw_loss(Plan* plan, double until_s, Draw* draw) {
+  plan->loss = static_cast<Loss>(1 + draw->below(5));
+  plan->loss_from_s = draw->within(0.5, until_s);
+  plan->dirt_to_rad = draw->within(-0.4, 0.7);
 }
 
 inline Plan draw_plan(Draw* draw, const pose_wall_planar_stop_settings& settings) {
@@ -181,11 +184,7 @@ inline Plan draw_plan(Draw* draw, const pose_wall_planar_stop_settings& settings
       }
     }
   }
-  if (draw->happens(0.2)) {
-    plan.loss = static_cast<Loss>(1 + draw->below(5));
-    plan.loss_from_s = draw->within(0.5, 6.0);
-    plan.dirt_to_rad = draw->within(-0.4, 0.7);
-  }
+  if (draw->happens(0.2)) draw_loss(&plan, 6.0, draw);
   clear_start(&plan, settings);
   return plan;
 }

@@ -46,6 +46,7 @@ struct Thing {
   bool is_person = false;
 
   bool is_round() const { return half_y_m < 0.0; }
+  double reach_m() const { return is_round() ? half_x_m : std::hypot(half_x_m, half_y_m); }
   void step(double from_s, double seconds) {
     if (from_s < walks_from_s || from_s >= walks_until_s) return;
     x_m += seconds * velocity_x_m_s;
@@ -74,7 +75,7 @@ struct World {
 
   float floor_at(float x, float y) const {
     const float k = 6.2831853F / static_cast<float>(floor_length_m);
-    return static_cast<float>(floor_wave_m) * sine_(k * x + 0.6F * k * y + static_cast<float>(floor_phase));
+    return static_cast<float>(floor_wave_m) * (*sine_)(k * x + 0.6F * k * y + static_cast<float>(floor_phase));
   }
   // Slopes of the floor along x and y.
   void slopes_at(double x, double y, double* along, double* across) const {
@@ -84,14 +85,14 @@ struct World {
   float wall_at(float x) const {
     const float k = 6.2831853F / static_cast<float>(wall_length_m);
     return static_cast<float>(half_width_m) +
-           static_cast<float>(wall_wave_m) * sine_(k * x + static_cast<float>(wall_phase));
+           static_cast<float>(wall_wave_m) * (*sine_)(k * x + static_cast<float>(wall_phase));
   }
 
   // Range of a ray (unit direction), 0 without a return.
   float cast(const Vec3& from, const Vec3& d, Draw* draw) const;
 
  private:
-  const QuickSine& sine_ = quick_sine();
+  const QuickSine* sine_ = &quick_sine();
 
   float to_road(const Vec3& from, const Vec3& d, float most, bool* is_floor) const;
   float to_thing(const Thing& thing, const Vec3& from, const Vec3& d, float most) const;
@@ -134,6 +135,8 @@ inline float World::to_road(const Vec3& from, const Vec3& d, float most, bool* i
 
 inline float World::to_thing(const Thing& thing, const Vec3& from, const Vec3& d, float most) const {
   const float dx = from.x - static_cast<float>(thing.x_m), dy = from.y - static_cast<float>(thing.y_m);
+  const float past = dx * d.y - dy * d.x, reach = static_cast<float>(thing.reach_m());
+  if (past * past > reach * reach * (d.x * d.x + d.y * d.y)) return most;  // it passes beside all of it
   float enter = 0.0F, leave = most;
   const auto slab = [&](float p, float v, float low, float high) {
     if (std::fabs(v) < 1e-7F) {

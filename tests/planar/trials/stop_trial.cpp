@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// pose_wall_planar_stop_trial [--encounters N] [--seed S] [--only K] [--clear HOURS] [--dust HOURS]
+// pose_wall_planar_stop_trial [--encounters N] [--seed S] [--only K] [--clear HOURS] [--dust HOURS [--density PER_M]]
 // Contacts in drawn encounters, or false stops on a clear road. Exit status 1 if there was a contact.
 
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
-#include "planar/encounter/plans.hpp"
+#include "planar/encounter/events.hpp"
 
 namespace {
 
@@ -20,7 +21,7 @@ using pose_wall::test::StopUnderTest;
 
 struct Arguments {
   std::uint64_t encounters = 1000, seed = 1, only = 0;
-  double clear_h = 0.0, dust_h = 0.0;
+  double clear_h = 0.0, dust_h = 0.0, density_per_m = 0.001;  // hours that pass in the simulator
   bool has_only = false;
 };
 
@@ -32,6 +33,7 @@ Arguments arguments_of(int argc, char** argv) {
     if (std::strcmp(argv[k], "--seed") == 0) a.seed = std::strtoull(value, nullptr, 10);
     if (std::strcmp(argv[k], "--only") == 0) a.only = std::strtoull(value, nullptr, 10), a.has_only = true;
     if (std::strcmp(argv[k], "--clear") == 0) a.clear_h = std::strtod(value, nullptr);
+    if (std::strcmp(argv[k], "--density") == 0) a.density_per_m = std::strtod(value, nullptr);
     if (std::strcmp(argv[k], "--dust") == 0) a.dust_h = std::strtod(value, nullptr);
   }
   return a;
@@ -42,85 +44,143 @@ std::uint64_t seed_of(std::uint64_t seed, std::uint64_t encounter) {
   return pose_wall::Random(mixed.next() ^ (encounter * 0xD1B54A32D192ED03ULL)).next();
 }
 
-int encounters(const Arguments& a) {
-  const pose_wall_planar_stop_settings settings = pose_wall::test::encounter_settings();
-  StopUnderTest stop;
-  constexpr auto kKinds = static_cast<std::size_t>(pose_wall::test::Kind::kinds);
-  std::uint64_t runs[kKinds] = {}, contacts[kKinds] = {}, moved[kKinds] = {}, stopped[kKinds] = {}, total = 0;
-  std::uint64_t frames = 0, whole = 0, lost = 0;
-  double metres = 0.0;
-  const std::uint64_t first = a.has_only ? a.only : 0, end = a.has_only ? a.only + 1 : a.encounters;
-  for (std::uint64_t k = first; k < end; ++k) {
-    Draw draw(seed_of(a.seed, k));
-    const Plan plan = pose_wall::test::draw_plan(&draw, settings);
-    const Outcome out = Encounter(plan, settings, &stop, &draw).run(a.has_only);
-    const auto kind = static_cast<std::size_t>(plan.kind);
-    ++runs[kind];
-    moved[kind] += out.moved_m > 0.1 ? 1 : 0;
-    stopped[kind] += out.stops > 0 ? 1 : 0;
-    frames += out.frames, metres += out.moved_m;
-    whole += out.top_m_s > 0.9 ? 1 : 0;
-    lost += plan.loss_from_s < out.lasted_s ? 1 : 0;
-    if (!out.contact) continue;
-    ++contacts[kind], ++total;
-    std::printf("contact: encounter %llu %s drive %d sensor %d loss %d at %.2f s, %.2f m/s\n",
-                static_cast<unsigned long long>(k), pose_wall::test::name_of(plan.kind), static_cast<int>(plan.drive),
-                static_cast<int>(plan.sensor.pattern), static_cast<int>(plan.loss), out.contact_s, out.contact_m_s);
-    std::fflush(stdout);
+// So many events begin from one run-up, and every eighth encounter from standstill with all things there already.
+constexpr std::uint64_t kOfOneRunUp = 16, kFromStandstill = 8;
+
+class Encounters {
+ public:
+  explicit Encounters(const Arguments& a) : arguments_(a), settings_(pose_wall::test::encounter_settings()) {}
+
+  Outcome run(std::uint64_t k, Plan* plan) {
+    Draw draw(seed_of(arguments_.seed, k));
+    if (k % kFromStandstill == 0) {
+      *plan = pose_wall::test::draw_plan(&draw, settings_);
+      plan->lasts_s = 10.0;
+      Encounter encounter(*plan, settings_, &still_, &draw);
+      if (arguments_.has_only) encounter.tell_frames();
+      return encounter.run();
+    }
+    run_up(k / kOfOneRunUp);
+    Encounter encounter = *base_;
+    if (arguments_.has_only) encounter.tell_frames();
+    driven_.bring_back();
+    *plan = pose_wall::test::draw_event(road_, encounter.machine(), settings_, &draw);
+    return encounter.run_on(*plan, &draw);
   }
-  for (std::size_t k = 1; k < kKinds; ++k) {
-    std::printf("%-15s %8llu encounters, moved in %8llu, stopped from motion in %8llu, contacts %llu\n",
-                pose_wall::test::name_of(static_cast<pose_wall::test::Kind>(k)),
-                static_cast<unsigned long long>(runs[k]), static_cast<unsigned long long>(moved[k]),
-                static_cast<unsigned long long>(stopped[k]), static_cast<unsigned long long>(contacts[k]));
+
+ private:
+  void run_up(std::uint64_t which) {
+    if (base_.has_value() && which_ == which) return;
+    which_ = which;
+    Draw draw(seed_of(arguments_.seed + 1000003, which));
+    road_ = pose_wall::test::draw_run_up(&draw, settings_);
+    base_.emplace(road_, settings_, &driven_, &draw);
+    base_->run_up(draw.within(4.8, 7.0));
+    driven_.keep();
   }
-  std::printf(
-      "seed %llu: %llu encounters, %llu contacts, %llu frames, %.0f m, above 0.9 m/s in %llu, sensor lost in "
-      "%llu\n",
-      static_cast<unsigned long long>(a.seed), static_cast<unsigned long long>(end - first),
-      static_cast<unsigned long long>(total), static_cast<unsigned long long>(frames), metres,
-      static_cast<unsigned long long>(whole), static_cast<unsigned long long>(lost));
-  return total == 0 ? 0 : 1;
+
+  Arguments arguments_;
+  pose_wall_planar_stop_settings settings_;
+  StopUnderTest still_, driven_;
+  Plan road_;
+  std::optional<Encounter> base_;
+  std::uint64_t which_ = 0;
+};
+
+using Count = unsigned long long;
+
+struct Tally {
+  Count runs = 0, moved = 0, stopped = 0, fast = 0, contacts = 0, creeping = 0;  // contacts: faster than creep_m_s
+
+  void add(const Outcome& out, double creep_m_s) {
+    const bool creeps = out.contact && out.contact_m_s <= creep_m_s;
+    ++runs;
+    moved += out.moved_m > 0.1 ? 1 : 0;
+    stopped += out.stops > 0 ? 1 : 0;
+    fast += out.top_near_m_s >= 0.9 ? 1 : 0;
+    contacts += out.contact && !creeps ? 1 : 0;
+    creeping += creeps ? 1 : 0;
+  }
+  void print(const char* name) const {
+    std::printf(
+        "%-15s %7llu encounters, moved in %7llu, 0.9 m/s near a thing in %7llu, stopped from motion in %7llu, "
+        "contacts %llu, creeping %llu\n",
+        name, runs, moved, fast, stopped, contacts, creeping);
+  }
+};
+
+void print_contact(Count k, const Plan& plan, const Outcome& out) {
+  std::printf("contact: encounter %llu %s drive %d sensor %d loss %d at %.2f s, %.2f m/s\n", k,
+              pose_wall::test::name_of(plan.kind), static_cast<int>(plan.drive), static_cast<int>(plan.sensor.pattern),
+              static_cast<int>(plan.loss), out.contact_s, out.contact_m_s);
 }
 
-// Drives on a road without things, with or without thin dust, and counts stops.
+int encounters(const Arguments& a) {
+  Encounters all(a);
+  constexpr auto kKinds = static_cast<std::size_t>(pose_wall::test::Kind::kinds);
+  Tally tallies[kKinds] = {}, total;
+  Count frames = 0, lost = 0;
+  double metres = 0.0;
+  const double creep_m_s = pose_wall::test::encounter_settings().creep_m_s;
+  const std::uint64_t first = a.has_only ? a.only : 0, end = a.has_only ? a.only + 1 : a.encounters;
+  for (std::uint64_t k = first; k < end; ++k) {
+    Plan plan;
+    const Outcome out = all.run(k, &plan);
+    tallies[static_cast<std::size_t>(plan.kind)].add(out, creep_m_s);
+    total.add(out, creep_m_s);
+    frames += out.frames, metres += out.moved_m;
+    lost += plan.loss != pose_wall::test::Loss::none && plan.loss_from_s < out.lasted_s ? 1 : 0;
+    if (out.contact) print_contact(k, plan, out);
+    if (out.contact || (k + 1) % 500 == 0) {
+      std::printf("after %llu: %llu contacts, creeping %llu\n", total.runs, total.contacts, total.creeping);
+      std::fflush(stdout);
+    }
+  }
+  for (std::size_t k = 1; k < kKinds; ++k) tallies[k].print(name_of(static_cast<pose_wall::test::Kind>(k)));
+  total.print("all");
+  std::printf("seed %llu: %llu frames, %.0f m, sensor lost in %llu\n", Count{a.seed}, frames, metres, lost);
+  return total.contacts == 0 ? 0 : 1;
+}
+
+// A road without things, with or without thin dust.
+Plan draw_clear(Draw* draw, const pose_wall_planar_stop_settings& settings, double density_per_m) {
+  Plan plan = pose_wall::test::draw_run_up(draw, settings);
+  plan.machine.set_arc(1.0, 0.0);
+  plan.machine.yaw_rad = 0.0;
+  plan.wish_m_s = draw->happens(0.3) ? 1.0 : draw->within(0.5, 1.0);
+  plan.lasts_s = 60.0;
+  for (int j = 0; density_per_m > 0.0 && j < 8; ++j) {
+    plan.world.dust.push_back(
+        {4.0 + 6.0 * j, draw->within(-1.5, 1.5), draw->within(0.3, 1.5), draw->within(0.5, 2.0), density_per_m});
+  }
+  return plan;
+}
+
+// Every stop on such a road is a false one.
 int false_stops(const Arguments& a, bool has_dust) {
   const pose_wall_planar_stop_settings settings = pose_wall::test::encounter_settings();
   StopUnderTest stop;
   const double hours = has_dust ? a.dust_h : a.clear_h;
-  double drove_s = 0.0;
-  std::uint64_t stops = 0, by[POSE_WALL_PLANAR_STOP_REASON_COUNT] = {}, runs = 0;
-  double metres = 0.0;
-  for (std::uint64_t k = 0; drove_s < hours * 3600.0 && k < 1000000; ++k, ++runs) {
+  Outcome all;
+  std::uint64_t runs = 0, stuck = 0;
+  for (std::uint64_t k = a.only; all.lasted_s < hours * 3600.0 && k < 1000000; ++k, ++runs) {
     Draw draw(seed_of(a.seed + 77, k));
-    Plan plan = pose_wall::test::draw_plan(&draw, settings);
-    if (plan.drive != pose_wall::test::Drive::straight) continue;
-    plan.world.things.clear(), plan.world.puddles.clear(), plan.world.dust.clear();
-    plan.world.face_m = 1000.0;
-    plan.loss = pose_wall::test::Loss::none;
-    plan.machine.set_arc(1.0, 0.0);
-    plan.machine.yaw_rad = 0.0;
-    plan.lasts_s = 60.0;
-    if (has_dust) {
-      for (int j = 0; j < 8; ++j) {
-        plan.world.dust.push_back({4.0 + 6.0 * j, draw.within(-1.5, 1.5), draw.within(0.3, 1.5), draw.within(0.5, 2.0),
-                                   draw.within(0.002, 0.05)});
-      }
-    }
-    const Outcome out = Encounter(plan, settings, &stop, &draw).run(a.has_only && a.only == k);
-    drove_s += out.drove_s, metres += out.moved_m;
-    stops += out.stops;
-    for (std::uint32_t bit = 0; out.stops > 0 && bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
-      by[bit] += (out.stop_reasons >> bit) & 1U;
-    }
+    const Plan plan = draw_clear(&draw, settings, has_dust ? a.density_per_m : 0.0);
+    Encounter encounter(plan, settings, &stop, &draw);
+    if (a.has_only) encounter.tell_stops();
+    const Outcome out = encounter.run();
+    all.drove_s += out.drove_s, all.moved_m += out.moved_m, all.lasted_s += out.lasted_s;
+    all.stops += out.stops;
+    stuck += out.lasted_s < plan.lasts_s - 1.0 ? 1 : 0;
+    for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) all.stops_by[bit] += out.stops_by[bit];
   }
-  std::printf("%s: %llu stops in %.2f h of driving, %.0f m: %.2f an hour\n", has_dust ? "dust" : "clear",
-              static_cast<unsigned long long>(stops), drove_s / 3600.0, metres,
-              static_cast<double>(stops) * 3600.0 / drove_s);
+  std::printf(
+      "%s: %u stops in %.2f h, %.2f h of them driving, %.0f m: %.1f an hour of driving; it stood at the end of "
+      "%llu of %llu runs\n",
+      has_dust ? "dust" : "clear", all.stops, all.lasted_s / 3600.0, all.drove_s / 3600.0, all.moved_m,
+      all.drove_s > 0.0 ? all.stops * 3600.0 / all.drove_s : 0.0, Count{stuck}, Count{runs});
   for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
-    if (by[bit] > 0) {
-      std::printf("  %s %llu\n", pose_wall_planar_stop_reason_name(bit), static_cast<unsigned long long>(by[bit]));
-    }
+    if (all.stops_by[bit] > 0) std::printf("  %s %u\n", pose_wall_planar_stop_reason_name(bit), all.stops_by[bit]);
   }
   return 0;
 }
