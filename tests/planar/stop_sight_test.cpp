@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
+#include "planar/stop/places.hpp"
 #include "planar/stop/sight.hpp"
 
 #include <gtest/gtest.h>
@@ -218,6 +219,18 @@ TEST(StopSight, TheFloorIsFoundOnASlopeAndBesideAHeap) {
   test.look(os1(), world, 3);
   EXPECT_TRUE(test.ground().seen);
   EXPECT_NEAR(test.ground().slope_x, 0.036, 0.012);
+}
+
+// As a float the sum would lose millimetres within a day without a given motion.
+TEST(StopTrack, DriftIsToldHoweverMuchHasAddedUp) {
+  pose_wall::planar::Track track;
+  for (int frame = 0; frame < 100000; ++frame) track.add_drift(1.0);
+  const std::uint32_t then = track.drift_steps;
+  EXPECT_EQ(track.drift_since_m(then), 0.0F);
+  for (int frame = 0; frame < 100; ++frame) track.add_drift(0.0025);
+  EXPECT_GE(track.drift_since_m(then), 0.25F);
+  EXPECT_LT(track.drift_since_m(then), 0.252F);
+  EXPECT_LT(pose_wall::planar::Track::drift_between_m(track.drift_steps, then), 0.0F);
 }
 
 }  // namespace

@@ -70,18 +70,18 @@ const Place* Places::known_at(std::int32_t ix, std::int32_t iy) const {
   return is_of(place, ix, iy) ? &place : nullptr;
 }
 
-bool Places::is_remembered(std::uint32_t when_ms, float drift_m, const Track& track, std::uint32_t now_ms) const {
-  return when_ms != 0 && now_ms - when_ms <= memory_ms_ && static_cast<float>(track.drift_m) - drift_m <= drift_most_m_;
+bool Places::is_remembered(std::uint32_t when_ms, std::uint32_t drift, const Track& track, std::uint32_t now_ms) const {
+  return when_ms != 0 && now_ms - when_ms <= memory_ms_ && track.drift_since_m(drift) <= drift_most_m_;
 }
 
 bool Places::is_thing(const Place& place, const Track& track, std::uint32_t now_ms) const {
-  return is_remembered(place.thing_low_ms, place.thing_drift_m, track, now_ms) ||
-         is_remembered(place.thing_high_ms, place.thing_drift_m, track, now_ms);
+  return is_remembered(place.thing_low_ms, place.thing_drift, track, now_ms) ||
+         is_remembered(place.thing_high_ms, place.thing_drift, track, now_ms);
 }
 
 bool Places::is_free(const Place& place, const Track& track, std::uint32_t now_ms) const {
-  return is_remembered(place.low_ms, place.low_drift_m, track, now_ms) &&
-         is_remembered(place.top_ms, place.top_drift_m, track, now_ms) && place.tall_ms != 0 &&
+  return is_remembered(place.low_ms, place.low_drift, track, now_ms) &&
+         is_remembered(place.top_ms, place.top_drift, track, now_ms) && place.tall_ms != 0 &&
          now_ms - place.tall_ms <= delay_ms_;
 }
 
@@ -104,7 +104,7 @@ void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Ve
                          std::uint32_t now_ms) {
   const Turn2 turn(track.yaw_rad);
   const Eigen::Vector2d origin = turn * sensor_m + Eigen::Vector2d(track.x_m, track.y_m);
-  const auto drift_m = static_cast<float>(track.drift_m);
+  const std::uint32_t drift = track.drift_steps;
   sight.each_return([&](const Sight::Return& hit) {
     const Eigen::Vector2d at = turn * Eigen::Vector2d(static_cast<double>(hit.x), static_cast<double>(hit.y)) + origin;
     Place& place = place_at(place_of(at.x()), place_of(at.y()));
@@ -120,7 +120,7 @@ void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Ve
     if (is_new) first_ms = now_ms;
     if (is_new && hit.is_high) place.long_ms = 0;
     last_ms = now_ms;
-    place.thing_drift_m = drift_m;
+    place.thing_drift = drift;
     if (!hit.is_high) return;
     const auto x_mm = static_cast<std::int32_t>((at.x() - place.ix * kPlace_m) * 1000.0);
     const auto y_mm = static_cast<std::int32_t>((at.y() - place.iy * kPlace_m) * 1000.0);
@@ -167,16 +167,16 @@ void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, do
 
 void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
                       std::uint32_t now_ms) {
-  const auto drift_m = static_cast<float>(track.drift_m);
+  const std::uint32_t drift = track.drift_steps;
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   const float most_m = sight.seen_most_m();
   const Sight::Bounds& in = sight.seen_within();
   const auto put = [&](std::int32_t ix, std::int32_t iy, std::int32_t seen) {
     Place& place = place_at(ix, iy);
     if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
-    if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift_m = drift_m;
+    if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift = drift;
     if ((seen & Sight::kLow) == 0) return;
-    place.low_ms = now_ms, place.low_drift_m = drift_m;
+    place.low_ms = now_ms, place.low_drift = drift;
     if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
   };
   each_four(track, sensor_m, static_cast<double>(most_m),
@@ -194,18 +194,18 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
   each_around(track, {0.0, 0.0}, sweep.radius_m(), [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     if (!(sweep.distance_now(x, y) < -kInside_m)) return;
     Place& place = place_at(ix, iy);
-    place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
+    place.low_ms = place.top_ms = now_ms, place.low_drift = place.top_drift = drift;
     place.thing_low_ms = place.thing_high_ms = 0;
   });
 }
 
 void Places::confirm(const Track& track, const Sweep& sweep, std::uint32_t now_ms) {
-  const auto drift_m = static_cast<float>(track.drift_m);
+  const std::uint32_t drift = track.drift_steps;
   const double reach_m = sweep.radius_m() + static_cast<double>(confirm_m_);
   each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     if (!(sweep.distance_now(x, y) <= confirm_m_)) return;
     Place& place = place_at(ix, iy);
-    place.low_ms = place.top_ms = now_ms, place.low_drift_m = place.top_drift_m = drift_m;
+    place.low_ms = place.top_ms = now_ms, place.low_drift = place.top_drift = drift;
   });
 }
 
@@ -215,7 +215,7 @@ bool Places::was_there_with(const Place* near, const Place& place) const {
   if (near == nullptr || near->thing_high_ms == 0) return false;
   const bool was_seen_before = near->thing_high_ms < place.thing_high_ms;
   const std::uint32_t before_ms = was_seen_before ? place.thing_high_ms - near->thing_high_ms : 0;
-  return before_ms <= memory_ms_ && place.thing_drift_m - near->thing_drift_m <= drift_most_m_;
+  return before_ms <= memory_ms_ && Track::drift_between_m(near->thing_drift, place.thing_drift) <= drift_most_m_;
 }
 
 // It, or a neighbour, was there for long. What went out of sight then is taken to be still there.
@@ -290,10 +290,10 @@ bool Places::is_hazard(Place* place, const Track& track, const Eigen::Vector2d& 
   hazard->approach_m_s = hazard->sooner_s = 0.0F;
   hazard->kind = POSE_WALL_PLANAR_STOP_UNSEEN;
   if (place == nullptr) return true;
-  const bool is_low = is_remembered(place->thing_low_ms, place->thing_drift_m, track, now_ms);
-  const bool is_high = is_remembered(place->thing_high_ms, place->thing_drift_m, track, now_ms);
+  const bool is_low = is_remembered(place->thing_low_ms, place->thing_drift, track, now_ms);
+  const bool is_high = is_remembered(place->thing_high_ms, place->thing_drift, track, now_ms);
   if (!is_low && !is_high) return !is_free(*place, track, now_ms);
-  hazard->margin_m += kCellCorner_m + static_cast<float>(track.drift_m) - place->thing_drift_m;
+  hazard->margin_m += kCellCorner_m + track.drift_since_m(place->thing_drift);
   hazard->kind =
       static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) + (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
   if (!is_high) return true;

@@ -25,21 +25,33 @@ constexpr float kPlaceCorner_m = 0.0707F, kCellCorner_m = 0.0640F;
 // Base on the ground, and the bound of the errors that have added up.
 struct Track {
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
-  double drift_m = 0.0;
+  // In steps of 0.01 mm, and only differences count: so it may grow for years, as a clock does. It comes round after
+  // 21 km, and memory_s ends long before.
+  std::uint32_t drift_steps = 0;
+
+  void add_drift(double m) { drift_steps += static_cast<std::uint32_t>(m * kDriftStepsPerM) + 1U; }
+  float drift_since_m(std::uint32_t steps) const { return drift_between_m(steps, drift_steps); }
+  // Negative if the second was first.
+  static float drift_between_m(std::uint32_t first, std::uint32_t second) {
+    return static_cast<float>(static_cast<std::int32_t>(second - first)) / static_cast<float>(kDriftStepsPerM);
+  }
+
+ private:
+  static constexpr double kDriftStepsPerM = 1e5;
 };
 
 struct Place {
-  std::int16_t ix, iy;                            // which place of the ground this is
-  std::uint32_t low_ms;                           // seen free low; 0: never
-  std::uint32_t tall_ms;                          // seen free of people
-  std::uint32_t top_ms;                           // seen free of what hangs
-  std::uint32_t thing_low_ms, thing_high_ms;      // last return; 0: none, or seen gone
-  std::uint32_t first_ms;                         // of the high returns that go on until now
-  std::uint32_t low_first_ms;                     // likewise of the low ones
-  std::uint32_t doubt_first_ms, doubt_ms;         // doubtful returns
-  std::uint32_t long_ms;                          // last part of something long that stands still
-  float low_drift_m, top_drift_m, thing_drift_m;  // the track's, then
-  std::uint8_t high_x_mm, high_y_mm;              // where in it the high returns are, in the mean of the last ones
+  std::int16_t ix, iy;                              // which place of the ground this is
+  std::uint32_t low_ms;                             // seen free low; 0: never
+  std::uint32_t tall_ms;                            // seen free of people
+  std::uint32_t top_ms;                             // seen free of what hangs
+  std::uint32_t thing_low_ms, thing_high_ms;        // last return; 0: none, or seen gone
+  std::uint32_t first_ms;                           // of the high returns that go on until now
+  std::uint32_t low_first_ms;                       // likewise of the low ones
+  std::uint32_t doubt_first_ms, doubt_ms;           // doubtful returns
+  std::uint32_t long_ms;                            // last part of something long that stands still
+  std::uint32_t low_drift, top_drift, thing_drift;  // the track's steps, then
+  std::uint8_t high_x_mm, high_y_mm;                // where in it the high returns are, in the mean of the last ones
 };
 
 class Places {
@@ -94,7 +106,7 @@ class Places {
   Place& place_at(std::int32_t ix, std::int32_t iy);
   const Place* known_at(std::int32_t ix, std::int32_t iy) const;
   void doubt(Place* place, std::uint32_t now_ms);
-  bool is_remembered(std::uint32_t when_ms, float drift_m, const Track& track, std::uint32_t now_ms) const;
+  bool is_remembered(std::uint32_t when_ms, std::uint32_t drift, const Track& track, std::uint32_t now_ms) const;
   bool was_there_with(const Place* near, const Place& place) const;
   bool is_settled(const Place& place) const;
   bool goes_on(const Place& place, const std::int32_t* axis, std::int32_t times) const;

@@ -155,12 +155,13 @@ void Stop::move_on(const Motion& motion, double seconds) {
     rim = larger(rim, rim_of(m->speed_m_s[k], m->turn_rad_s[k]));
     is_still = is_still && std::fabs(m->speed_m_s[k]) + std::fabs(m->turn_rad_s[k]) <= kStill;
   }
-  if (!is_known) v = w = 0.0, rim = settings_.speed_max_m_s;
-  if (!is_known || seconds > settings_.stale_s + kGap_s) {
-    track_.drift_m += 2.0 * settings_.drift_max_m + settings_.speed_max_m_s * seconds;
+  const bool is_followed = is_known && seconds <= settings_.stale_s + kGap_s;
+  if (!is_followed) {
+    v = w = 0.0;
+    track_.add_drift(2.0 * settings_.drift_max_m);  // nothing is remembered
   } else if (!is_still) {
-    track_.drift_m += seconds * (settings_.speed_error_ratio * rim + settings_.speed_error_m_s +
-                                 settings_.turn_error_rad_s * sweep_.radius_m());
+    track_.add_drift(seconds * (settings_.speed_error_ratio * rim + settings_.speed_error_m_s +
+                                settings_.turn_error_rad_s * sweep_.radius_m()));
   }
   const double yaw = track_.yaw_rad + 0.5 * w * seconds;
   const Eigen::Vector2d step = Turn2(yaw) * (v * seconds * mount_.forward_base);
