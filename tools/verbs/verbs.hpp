@@ -19,6 +19,7 @@ constexpr int kExitInterrupted = 130;  // as shells have it: 128 + SIGINT
 void add_scan(CLI::App& app, int& exit_code);
 void add_map(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
+void add_drive(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_motion(CLI::App& app, int& exit_code);
