@@ -147,10 +147,10 @@ void add_drive(CLI::App& app, int& exit_code) {
   verb->add_option("-o,--output", options->output,
                    tr("Folder for drive.csv (one row a frame), drive.svg (map, route, way driven, people, stops), "
                       "map.yaml, map.pgm and trail.pwt"));
-  verb->add_flag("-q,--quiet", options->quiet, tr("No table and no progress"));
+  verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
   verb->footer(tr(
       "Examples:\n"
-      "  pose_wall drive --seed 3 -o story\n"
+      "  pose_wall drive --seed 2 -o story\n"
       "  pose_wall drive --network twin --people 0 --no-lost-wall\n"
       "1. A driver takes the machine through the roads. SLAM makes the map.\n"
       "2. The machine is restarted somewhere. It looks for its place. Until the place is unique it creeps along the\n"
