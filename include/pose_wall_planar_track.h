@@ -130,6 +130,12 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_track_step(pose_wall_planar_tracker* 
                                                       const pose_wall_planar_track_input* input,
                                                       pose_wall_planar_track_command* command);
 
+/* The machine got another command than the last step gave: the obstacle stop, or a driver, has changed it. The model of
+ * the drive goes on with this one; without the call the tracker takes a stop for slip. Fails iff: NULL, not open,
+ * POSE_WALL_E_BUSY, POSE_WALL_E_VALUE_RANGE (not within 1000 m/s and rad/s); nothing has then changed. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_track_obeyed(pose_wall_planar_tracker* tracker, double speed_m_s,
+                                                        double turn_rad_s);
+
 /* "following", ...; static storage. */
 const char* pose_wall_planar_track_state_name(uint32_t state);
 

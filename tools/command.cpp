@@ -70,6 +70,7 @@ constexpr Example kExamples[] = {
     {"pose_wall map -o map --poses poses.tum aces.clf.gz", translatable("a map of planar scans")},
     {"pose_wall localise map --restart 20 aces.clf.gz", translatable("the place in a map, after restarts")},
     {"pose_wall plan map/map.yaml --from 0,0,0 --to 12,3,90", translatable("a route through a map")},
+    {"pose_wall drive --seed 2 -o story", translatable("a machine that follows its own map, in the simulator")},
     {"pose_wall report -c road/pose_wall.yaml -o report.html road/frames",
      translatable("the same as a page for a browser")},
     {"pose_wall info road.bag", translatable("contents of a recording")},
@@ -96,6 +97,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_map(app, exit_code);
   add_localise(app, exit_code);
   add_plan(app, exit_code);
+  add_drive(app, exit_code);
   add_doctor(app, exit_code);
   add_sim(app, exit_code);
   add_demo(app, exit_code);

@@ -10,7 +10,8 @@ said=$(groff -man -Tutf8 -ww -z "$page" 2>&1) || complain "$said"
 [ -z "$said" ] || complain "$said"
 text=$(groff -man -Tutf8 -P-cbou "$page")
 for word in NAME SYNOPSIS VERBS "EXIT STATUS" voxel_leaf "pose_wall run" "pose_wall doctor" "pose_wall sim" \
-  "pose_wall demo" "pose_wall scan" "pose_wall map" "pose_wall localise" "pose_wall plan" "pose_wall report" \
+  "pose_wall demo" "pose_wall scan" "pose_wall map" "pose_wall localise" "pose_wall plan" "pose_wall drive" \
+  "pose_wall report" \
   "pose_wall info" \
   "pose_wall eval" "pose_wall campaign" "pose_wall replay-box" \
   "pose_wall explain" "pose_wall check-config" "pose_wall completion"; do

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "sim/network.hpp"
+#include "sim/network_people.hpp"
 #include "sim/network_scan.hpp"
 #include "sim/random.hpp"
 #include "sim/sensors.hpp"
@@ -422,6 +423,78 @@ TEST(SimNetwork, CloudsAgreeWithTheRays) {
   EXPECT_GT(walls, 10000U);
   EXPECT_GT(floors, 5000U);
   EXPECT_GT(roofs, 3000U);
+}
+
+TEST(SimNetwork, PillarsAndDarkWallsInClouds) {
+  NetworkPlan plan = plan_of(200, 3);
+  plan.prop_pitch_m = 0.0;  // props have the label of pillars
+  const Network network(plan, 3);
+  Sensor sensor = find_sensor("os1-64")->sensor;
+  sensor.range_noise_m = 0.0;
+  StandingPose pose;
+  const Place p = network.graph().edges[1].line[6], q = network.graph().edges[1].line[8];
+  pose.at = {p.x(), p.y(), 0.0};
+  const Frame bare = network_cloud(network, sensor, pose, 0, 1);
+  CloudScene scene;
+  scene.pillars.push_back({q, 0.25, 1.75});
+  const Frame with_pillar = network_cloud(network, sensor, pose, 0, 1, scene);
+  std::size_t on_pillar = 0;
+  for (std::size_t i = 0; i < with_pillar.count(); ++i) {
+    if (with_pillar.labels[i] != Label::kObject) continue;
+    ++on_pillar;
+    const float* const at = &with_pillar.xyz_intensity[4 * i];
+    EXPECT_NEAR((Place(static_cast<double>(at[0]), static_cast<double>(at[1])) + p - q).norm(), 0.25, 1e-4);
+    EXPECT_LT(static_cast<double>(at[2]) + pose.height_m, 1.75 + 1e-4);
+  }
+  EXPECT_GT(on_pillar, 100U);
+  CloudScene dark;
+  dark.dark_at = p;
+  dark.dark_radius_m = 6.0;
+  EXPECT_LT(network_cloud(network, sensor, pose, 0, 1, dark).count(), bare.count() * 3 / 4);
+  CloudScene lossy;
+  lossy.dropout = 0.5;
+  const double left = static_cast<double>(network_cloud(network, sensor, pose, 0, 1, lossy).count());
+  EXPECT_NEAR(left / static_cast<double>(bare.count()), 0.5, 0.02);
+  lossy.dropout = 1.0;
+  EXPECT_EQ(network_cloud(network, sensor, pose, 0, 1, lossy).count(), 0U);
+}
+
+TEST(SimNetwork, PeopleStepInWaitAndKeepOff) {
+  const Network network(plan_of(200, 3), 3);
+  const std::vector<Place>& way = network.graph().edges[1].line;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::vector<Person> people = draw_people(network, way, 2, 4.0, false, seed);
+    ASSERT_EQ(people.size(), 2U);
+    Footprint machine{{way[0].x(), way[0].y(), 0.0}, 2.1, 2.4, 0.6};
+    for (Person& person : people) {
+      EXPECT_TRUE(network.is_open(person.at()));
+      const Place before = person.at();
+      machine.at = {before.x() + 20.0, before.y(), 0.0};
+      person.step(machine, 0.1);
+      EXPECT_EQ((person.at() - before).norm(), 0.0) << "nobody is near";
+      machine.at = {before.x() + 4.5, before.y(), 0.0};
+      for (int k = 0; k < 600; ++k) {
+        const Place last = person.at();
+        person.step(machine, 0.1);
+        EXPECT_LE((person.at() - last).norm(), 0.1 * kWalkMost_mps + 1e-9);
+        EXPECT_GE(machine.distance_m(person.at()), person.pillar().radius_m);
+      }
+    }
+  }
+}
+
+TEST(SimNetwork, LossesAreDrawnOnTheWay) {
+  const Network network(plan_of(200, 3), 3);
+  bool is_drawn[3] = {};
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Loss loss = draw_loss(network, network.graph().edges[1].line, seed);
+    is_drawn[static_cast<int>(loss.kind)] = true;
+    EXPECT_EQ(loss.radius_m > 0.0, loss.kind == LossKind::kDarkWall);
+    EXPECT_EQ(loss.share > 0.0, loss.kind != LossKind::kDarkWall);
+    EXPECT_GT(loss.lasts_s, 1.0);
+    EXPECT_LT(loss.from_m, network.graph().edges[1].length_m);
+  }
+  EXPECT_TRUE(is_drawn[0] && is_drawn[1] && is_drawn[2]);
 }
 
 }  // namespace

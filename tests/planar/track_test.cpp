@@ -276,6 +276,40 @@ TEST(Track, WrongArgumentsAreRefusedAndTheRouteStays) {
   EXPECT_EQ(pose_wall_planar_track_memory_needed(&settings), 0U);
 }
 
+// A stop lets the machine stand: what is learnt must not change, and the next command begins at rest.
+TEST(Track, AStoppedMachineTeachesNoSlip) {
+  const auto slip_after_stop = [](bool is_told) {
+    LoopTracker tracker(usual_track());
+    const auto route = route_of({{20.0, 0.0, 1}});
+    EXPECT_EQ(pose_wall_planar_track_route(tracker.tracker, route.data(), static_cast<std::uint32_t>(route.size()),
+                                           nullptr, nullptr),
+              POSE_WALL_OK);
+    pose_wall_planar_track_command command{};
+    command.struct_size = sizeof(command);
+    for (int k = 1; k <= 200; ++k) {  // it stands for 20 s at the route's first metre
+      const pose_wall_planar_track_input input = good_input(1.0, k * 100000000LL);
+      EXPECT_EQ(pose_wall_planar_track_step(tracker.tracker, &input, &command), POSE_WALL_OK);
+      if (is_told) {
+        EXPECT_EQ(pose_wall_planar_track_obeyed(tracker.tracker, 0.0, 0.0), POSE_WALL_OK);
+      }
+    }
+    if (is_told) {
+      EXPECT_LT(command.speed_m_s, 0.05) << "each command begins at rest";
+    }
+    return command.slip;
+  };
+  EXPECT_EQ(slip_after_stop(true), 0.0);
+  EXPECT_GT(slip_after_stop(false), 0.2) << "the tracker that was not told learns slip";
+}
+
+TEST(Track, ObeyedRefusesWhatIsNoCommand) {
+  LoopTracker tracker(usual_track());
+  EXPECT_EQ(pose_wall_planar_track_obeyed(nullptr, 0.0, 0.0), POSE_WALL_E_NULL);
+  EXPECT_EQ(pose_wall_planar_track_obeyed(tracker.tracker, std::nan(""), 0.0), POSE_WALL_E_VALUE_RANGE);
+  EXPECT_EQ(pose_wall_planar_track_obeyed(tracker.tracker, 0.0, 1e9), POSE_WALL_E_VALUE_RANGE);
+  EXPECT_EQ(pose_wall_planar_track_obeyed(tracker.tracker, -0.2, 0.1), POSE_WALL_OK);
+}
+
 // Garbage for an hour: no command that is not finite or beyond its limits.
 TEST(Track, CommandsKeepTheirLimitsWhateverComesIn) {
   const pose_wall_planar_track_settings settings = usual_track();

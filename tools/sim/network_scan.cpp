@@ -25,9 +25,10 @@ void each_beam(const PlanarSensor& sensor, const PlanePose& at, Visit visit) {
 
 class CloudCaster {
  public:
-  CloudCaster(const Network& network, const Sensor& sensor, const StandingPose& pose)
+  CloudCaster(const Network& network, const Sensor& sensor, const StandingPose& pose, const CloudScene& scene)
       : network_(network),
         sensor_(sensor),
+        scene_(scene),
         origin_(pose.at.x_m, pose.at.y_m, pose.height_m),
         R_world_lidar_(rotation_z(pose.at.yaw_rad) * rotation_y(pose.pitch_rad) * rotation_x(pose.roll_rad)) {}
 
@@ -39,6 +40,13 @@ class CloudCaster {
 
   Met meet(const Vector& direction_lidar) const {
     const Ray ray{origin_, R_world_lidar_ * direction_lidar};
+    const Met met = meet_road(ray, direction_lidar.y());
+    const double pillar_m = scene_.pillars.empty() ? kNever : meet_pillars(ray, met.range_m);
+    return pillar_m < met.range_m ? Met{pillar_m, 1.0, Label::kObject} : met;
+  }
+
+ private:
+  Met meet_road(const Ray& ray, double to_left) const {
     const bool looks_down = ray.direction.z() < 0.0;
     const Surface& level = looks_down ? network_.floor() : network_.roof();
     const double reach_m = level.relief.reach_m();
@@ -48,25 +56,45 @@ class CloudCaster {
     const Place across(ray.direction.x(), ray.direction.y());
     const double share = across.norm();
     Met met;
-    if (share > 1e-9) met = meet_wall(ray, across / share, share, end_m, direction_lidar.y());
+    if (share > 1e-9) met = meet_wall(ray, across / share, share, end_m, to_left);
     if (!(level_from_m < std::min(met.range_m, sensor_.range_ceiling_m))) return met;
     const double level_m = reach_m > 0.0 ? level.hit(ray, level_from_m) : level_from_m;
     if (!(level_m < std::min(met.range_m, sensor_.range_ceiling_m))) return met;
     return {level_m, std::abs(ray.direction.z()), looks_down ? Label::kFloor : Label::kRoof};
   }
 
- private:
   Met meet_wall(const Ray& ray, const Place& across, double share, double end_m, double to_left) const {
     const PlaneHit hit = network_.cast({ray.origin.x(), ray.origin.y()}, across, end_m * share);
     if (!std::isfinite(hit.range_m)) return {};
     const WallKind kind = network_.walls()[hit.segment].kind;
     const Label rock = to_left > 0.0 ? Label::kWallLeft : Label::kWallRight;
     const Label label = kind == WallKind::kRock ? rock : (kind == WallKind::kSteel ? Label::kSteel : Label::kObject);
-    return {hit.range_m / share, hit.cosine * share, label};
+    const Place at(ray.origin.x() + across.x() * hit.range_m, ray.origin.y() + across.y() * hit.range_m);
+    const bool is_dark = (at - scene_.dark_at).squaredNorm() < scene_.dark_radius_m * scene_.dark_radius_m;
+    return {hit.range_m / share, hit.cosine * share, is_dark ? Label::kNone : label};
+  }
+
+  // The nearest pillar up to end_m, or kNever. Their tops are not seen.
+  double meet_pillars(const Ray& ray, double end_m) const {
+    double best_m = kNever;
+    const Place across(ray.direction.x(), ray.direction.y());
+    const double share2 = across.squaredNorm();
+    if (share2 < 1e-18) return best_m;
+    for (const Pillar& pillar : scene_.pillars) {
+      const Place to(pillar.at.x() - ray.origin.x(), pillar.at.y() - ray.origin.y());
+      const double middle = to.dot(across) / share2;
+      const double under = pillar.radius_m * pillar.radius_m - (to - middle * across).squaredNorm();
+      if (!(under > 0.0)) continue;
+      const double range_m = middle - std::sqrt(under / share2);
+      const double z_m = ray.origin.z() + range_m * ray.direction.z();
+      if (range_m > 0.0 && range_m < std::min(best_m, end_m) && z_m < pillar.height_m) best_m = range_m;
+    }
+    return best_m;
   }
 
   const Network& network_;
   const Sensor& sensor_;
+  const CloudScene& scene_;
   Vector origin_;
   Matrix R_world_lidar_;
 };
@@ -107,15 +135,16 @@ void true_scan(const Network& network, const PlanarSensor& sensor, const PlanePo
 }
 
 Frame network_cloud(const Network& network, const Sensor& sensor, const StandingPose& pose, std::uint32_t frame_index,
-                    std::uint64_t seed) {
-  const CloudCaster caster(network, sensor, pose);
-  Random random(mix(seed) ^ mix(frame_index + 1u));
+                    std::uint64_t seed, const CloudScene& scene) {
+  const CloudCaster caster(network, sensor, pose, scene);
+  Random random(mix(seed) ^ mix(frame_index + 1u)), lost(mix(seed ^ 0x1057u), frame_index);
   const double grazing = std::sin(sensor.grazing_limit_deg * kRadPerDeg);
   Frame frame;
   for (const Beam& beam : beams_of(sensor, frame_index)) {
     const CloudCaster::Met met = caster.meet(beam.direction);
     const double range_m = met.range_m + sensor.range_bias_m + sensor.range_noise_m * random.gaussian();
     if (met.label == Label::kNone || met.cosine < grazing) continue;
+    if (scene.dropout > 0.0 && lost.chance(scene.dropout)) continue;
     if (!(range_m >= sensor.range_floor_m && range_m <= sensor.range_ceiling_m)) continue;
     const Vector p = range_m * beam.direction;
     for (int axis = 0; axis < 3; ++axis) frame.xyz_intensity.push_back(static_cast<float>(p[axis]));

@@ -49,9 +49,25 @@ struct StandingPose {
   double roll_rad = 0.0, pitch_rad = 0.0;  // R = Rz(yaw) Ry(pitch) Rx(roll)
 };
 
+// Someone or something upright on the floor: a cylinder.
+struct Pillar {
+  Place at = Place::Zero();
+  double radius_m = 0.2;
+  double height_m = 1.75;
+};
+
+// What is not part of the network, for the moment of a frame.
+struct CloudScene {
+  std::vector<Pillar> pillars;
+  // Walls in this circle give no return; 0: none.
+  Place dark_at = Place::Zero();
+  double dark_radius_m = 0.0;
+  double dropout = 0.0;  // share of all beams that give no return
+};
+
 // A frame of one of sensor_models() in the network, x ahead, z up. The roads have flat floors and roofs with relief,
 // and walls that are the same at every height.
 Frame network_cloud(const Network& network, const Sensor& sensor, const StandingPose& pose, std::uint32_t frame_index,
-                    std::uint64_t seed);
+                    std::uint64_t seed, const CloudScene& scene = {});
 
 }  // namespace pose_wall::tools::sim

@@ -20,6 +20,7 @@ void add_scan(CLI::App& app, int& exit_code);
 void add_map(CLI::App& app, int& exit_code);
 void add_localise(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
+void add_drive(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
 void add_motion(CLI::App& app, int& exit_code);

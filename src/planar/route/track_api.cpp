@@ -114,6 +114,18 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_track_step(pose_wall_planar_tracker* t
   return POSE_WALL_OK;
 }
 
+POSE_WALL_EXPORT int32_t pose_wall_planar_track_obeyed(pose_wall_planar_tracker* tracker, double speed_m_s,
+                                                       double turn_rad_s) {
+  if (tracker == nullptr) return POSE_WALL_E_NULL;
+  const HeldTracker::Inside inside(held_of(tracker));
+  if (inside.status() != POSE_WALL_OK) return inside.status();
+  constexpr double kMost = 1000.0;  // no machine: more is a wrong unit
+  const bool is_sound = speed_m_s >= -kMost && speed_m_s <= kMost && turn_rad_s >= -kMost && turn_rad_s <= kMost;
+  if (!is_sound) return POSE_WALL_E_VALUE_RANGE;
+  inside.body().obeyed({speed_m_s, turn_rad_s});
+  return POSE_WALL_OK;
+}
+
 POSE_WALL_EXPORT const char* pose_wall_planar_track_state_name(uint32_t state) {
   return state < sizeof(kStates) / sizeof(kStates[0]) ? kStates[state] : "unknown";
 }

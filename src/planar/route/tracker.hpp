@@ -24,6 +24,11 @@ class Tracker {
   void take_route(const pose_wall_planar_path_pose* poses, std::uint32_t count, pose_wall_planar_clearance clearance,
                   void* context);
   void step(const pose_wall_planar_track_input& input, pose_wall_planar_track_command* command);
+  // In place of the last command.
+  void obeyed(const Rates& rates) {
+    now_ = rates;
+    model_.command(rates);
+  }
 
  private:
   enum class Phase : std::uint32_t { idle, leg, stopping, done, off_path };

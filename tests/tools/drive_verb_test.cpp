@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Proves: the parts of pose_wall_planar drive a simulated machine to its goal together; a person in the way stops it;
+// a place that is not unique is never driven from; what is refused is named. Does not prove: how often they fail.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drive/story.hpp"
+#include "drive/story_files.hpp"
+#include "planar/plane_pose.hpp"
+#include "ran_command.hpp"
+#include "sim/network_kinds.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+using test::command;
+using test::contains;
+using test::Ran;
+
+// A road of 60 m, taught.
+class TaughtRoad {
+ public:
+  explicit TaughtRoad(const char* kind = "corridor", double length_m = 60.0, double share = 0.6)
+      : network(plan_of(kind, length_m), 1),
+        model(drive_sensor("mid360")),
+        roads(teach_roads(
+            network, model, 1, [](double) { return true; }, share)) {}
+
+  // From one keyframe to another.
+  StorySettings way(std::size_t from, std::size_t to) const {
+    StorySettings settings;
+    settings.people = 0;
+    settings.loses_walls = false;
+    settings.start = roads.marks.at(from).truth;
+    settings.goal = roads.marks.at(to).map;
+    settings.time_most_s = 150.0;
+    return settings;
+  }
+
+  sim::Network network;
+  const sim::SensorModel& model;
+  TaughtRoads roads;
+
+ private:
+  static sim::NetworkPlan plan_of(const char* kind, double length_m) {
+    sim::NetworkPlan plan = sim::find_network_kind(kind)->plan;
+    plan.length_m = length_m;
+    return plan;
+  }
+};
+
+TEST(DriveStory, ReachesItsGoalWithoutAContact) {
+  const TaughtRoad road;
+  DriveStory story(road.network, road.model, road.roads, road.way(30, 60));
+  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  EXPECT_TRUE(end.has_arrived) << end.reason;
+  EXPECT_EQ(end.contacts, 0U);
+  EXPECT_EQ(end.wrong_places, 0U);
+  EXPECT_LT(end.error_worst_m, 0.2);
+  EXPECT_LT(end.off_route_worst_m, 0.2);
+  const StoryFrame& last = story.frames().back();
+  EXPECT_LT(distance_m(last.truth, story.goal()), 0.3);
+  const std::string csv = story_as_csv(story.frames());
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), story.frames().size() + 1);
+  EXPECT_TRUE(contains(story_table(story, end, road.roads), "reached"));
+  EXPECT_TRUE(contains(story_picture(story, end, road.roads, "t"), "<polyline"));
+}
+
+TEST(DriveStory, APersonWhoStaysStopsTheMachineAndTheReasonSaysSo) {
+  const TaughtRoad road;
+  StorySettings settings = road.way(20, 64);
+  settings.people = 1;
+  settings.people_stay = true;
+  settings.time_most_s = 400.0;
+  DriveStory story(road.network, road.model, road.roads, settings);
+  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  EXPECT_FALSE(end.has_arrived);
+  EXPECT_EQ(end.contacts, 0U);
+  EXPECT_TRUE(contains(end.reason, "the stop held it for 60 s: ")) << end.reason;
+  EXPECT_TRUE(contains(end.reason, "thing")) << end.reason;
+  EXPECT_GT(story.frames().back().nearest_m, 0.05);
+  EXPECT_LT(story.frames().back().nearest_m, 4.0) << "it stopped for something else";
+}
+
+TEST(DriveStory, AGoalInTheRockHasThePlannersReason) {
+  const TaughtRoad road;
+  StorySettings settings = road.way(30, 60);
+  settings.goal = combined(*settings.goal, {0.0, 12.0, 0.0});
+  DriveStory story(road.network, road.model, road.roads, settings);
+  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  EXPECT_FALSE(end.has_arrived);
+  EXPECT_TRUE(contains(end.reason, "there is no route. The machine does not fit at the goal")) << end.reason;
+  EXPECT_LT(end.driven_m, 20.0) << "it drives nowhere without a route";
+}
+
+TEST(DriveStory, TwinRoadsAreNeverTakenForEachOther) {
+  const TaughtRoad road("twin", 110.0, kTaughtShare);
+  StorySettings settings = road.way(road.roads.marks.size() / 2, 0);
+  settings.time_most_s = 30.0;
+  DriveStory story(road.network, road.model, road.roads, settings);
+  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  EXPECT_EQ(end.wrong_places, 0U);
+  EXPECT_EQ(end.contacts, 0U);
+  for (const StoryFrame& frame : story.frames()) {
+    if (frame.phase == PilotPhase::kFollowing) break;
+    EXPECT_LE(std::abs(frame.command.speed_m_s), 0.2 + 1e-9) << "faster than a creep at " << frame.time_s << " s";
+  }
+  EXPECT_NE(story.frames().front().place_state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_UNIQUE});
+}
+
+TEST(DriveStory, TheSameSeedGivesTheSameBits) {
+  const TaughtRoad road;
+  StorySettings settings = road.way(30, 60);
+  settings.people = 2;
+  settings.loses_walls = true;
+  settings.time_most_s = 8.0;
+  std::string csv[2];
+  for (std::string& text : csv) {
+    DriveStory story(road.network, road.model, road.roads, settings);
+    (void)story.run([](const StoryFrame&) { return true; });
+    text = story_as_csv(story.frames());
+  }
+  EXPECT_GT(csv[0].size(), 5000U);
+  EXPECT_EQ(csv[0], csv[1]);
+}
+
+TEST(DriveVerb, FaultsOfUsage) {
+  const std::pair<std::vector<std::string>, const char*> usage[] = {
+      {{"drive", "--network", "rok"}, "'rock'"},
+      {{"drive", "--sensor", "vlp61"}, "'vlp16'"},
+      {{"drive", "--people", "99"}, "20"},
+      {{"drive", "--people", "-1"}, "--people"},
+      {{"drive", "--seed", "-1"}, "--seed"},
+      {{"drive", "--goal", "1,2"}, "--goal: '1,2' is refused; allowed: x,y,yaw"},
+      {{"drive", "--gaol", "1,2,3"}, "--gaol"},
+  };
+  for (const auto& [words, answer] : usage) {
+    const Ran ran = command(words);
+    EXPECT_EQ(ran.exit_status, 2) << ran.errors;
+    EXPECT_TRUE(contains(ran.errors, answer)) << answer << " in: " << ran.errors;
+  }
+}
+
+TEST(DriveVerb, TheFolderMustBeWritable) {
+  const test::TempFolder folder;
+  const std::string file = folder.write("in_the_way", "x");
+  const Ran ran = command({"drive", "-o", file});
+  EXPECT_EQ(ran.exit_status, 2) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "in_the_way")) << ran.errors;
+}
+
+}  // namespace
+}  // namespace pose_wall::tools

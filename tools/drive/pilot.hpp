@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// From where the machine believes to be to what it wishes to do next: it looks for its place, plans, follows.
+
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drive/machine.hpp"
+#include "drive/road_feeler.hpp"
+#include "planar/map_files.hpp"
+#include "planar/planned_route.hpp"
+#include "pose_wall_planar_localise.h"
+
+namespace pose_wall::tools {
+
+enum class PilotPhase { kLocating, kFollowing, kArrived, kGivenUp };
+// "locating"; no language.
+const char* pilot_phase_name(PilotPhase phase);
+
+class DrivePilot {
+ public:
+  // The map must outlive it. Throws PlanarError.
+  DrivePilot(const MapFile& map, const pose_wall_planar_pose& goal, double speed_max_m_s);
+
+  struct Look {
+    std::int64_t stamp_ns = 0, now_ns = 0;
+    const pose_wall_planar_scan* scan = nullptr;  // none: no frame came
+    const pose_wall_planar_localise_result* where = nullptr;
+    Motion measured;
+  };
+  Motion wish(const Look& look);
+  // What the stop made of the wish, and why, by its reasons.
+  void obeyed(const Motion& command, std::uint32_t stop_reasons);
+
+  PilotPhase phase() const { return phase_; }
+  // Of giving up, a sentence.
+  const std::string& reason() const { return reason_; }
+  const PlannedRoute& route() const { return route_; }
+  std::size_t plans() const { return plans_; }
+  const pose_wall_planar_track_command& track() const { return command_; }
+
+ private:
+  void locate_or_plan(const Look& look);
+  void plan_from(const pose_wall_planar_pose& base);
+  Motion follow(const Look& look);
+  Motion creep(const Look& look);
+  void give_up(std::string reason);
+
+  const MapFile& map_;
+  pose_wall_planar_pose goal_;
+  std::vector<RoutePlanner> planners_;  // by falling margins
+  RoutePlanner* planner_ = nullptr;     // of the route
+  PartBlock track_block_;
+  pose_wall_planar_tracker* tracker_ = nullptr;
+  pose_wall_planar_track_command command_{};
+  PlannedRoute route_;
+  RoadFeeler feeler_;
+  PilotPhase phase_ = PilotPhase::kLocating;
+  std::string reason_;
+  std::size_t plans_ = 0;
+  bool wants_to_move_ = false;
+  std::int64_t now_ns_ = 0, moved_ns_ = -1, sought_ns_ = -1;
+  double crept_m_ = 0.0;
+  int unique_looks_ = 0;
+};
+
+}  // namespace pose_wall::tools
