@@ -107,7 +107,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_check(const pose_wall_p
                                                                pose_wall_planar_fault* fault);
 
 /* The machine's motion, each part with its bit. Give both the measured motion and the command under way: the stop
- * covers all between them. Without any it assumes every motion that the settings allow. Speeds are along +x of base,
+ * covers all between them. Without any it assumes every motion that the settings allow. Speeds are along forward_axis,
  * negative backwards; turns are to the left. */
 enum pose_wall_planar_stop_given { POSE_WALL_PLANAR_STOP_MEASURED = 1, POSE_WALL_PLANAR_STOP_COMMANDED = 2 };
 typedef struct pose_wall_planar_stop_motion {

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright (c) 2026 the pose_wall authors */
 
-/* The tracker of pose_wall_planar: drives a machine on tracks along a route. pose_wall_planar.h is the manual of what
+/* clang-format off */
+/*
+ * The tracker of pose_wall_planar: drives a machine on tracks along a route. pose_wall_planar.h is the manual of what
  * all parts share. The library drives nothing itself: commands go to the caller.
  *
  * POSES     of the turning centre, as in pose_wall_planar_plan.h, in the frame of the route.
@@ -9,15 +11,17 @@
  *           towards stops), with the law of a path follower in place of a point ahead: the route's own curvature, and
  *           feedback of the cross error and of the heading that lets both fade without overshoot within settle_m of
  *           way. Commands of the last delay_s and since the pose's time have not shown yet: the pose is carried
- *           forward by them, through a model of the drive (Smith 1957). How much the tracks slip, and to which side, is
- * learnt on the way. STOPS     The machine stops at cusps, before and after turns on the spot, and at the end, within
- * stop_within_m, and goes on when its speed has died down by the model, and by measurement where there is one. FAILURES
- * Without a pose, with one that is not finite, too uncertain or too old, the command is 0 at once and the state
- * NO_POSE; it goes on by itself with the next good pose. Too far from the route, or turned too far off it, the command
- * is 0 and the state OFF_PATH until a new route is set. SAFETY    The tracker avoids nothing. The obstacle stop is a
- * part of its own (pose_wall_planar_stop.h). COST      A step takes some 2 microseconds, without the clearance
- * callback.
+ *           forward by them, through a model of the drive (Smith 1957). How much the tracks slip, and to which side,
+ *           is learnt on the way.
+ * STOPS     The machine stops at cusps, before and after turns on the spot, and at the end, within stop_within_m. It
+ *           goes on when its speed has died down by the model, and by measurement where there is one.
+ * FAILURES  Without a pose, with one that is none, too uncertain, too old or of the future, the command is 0 at once
+ *           and the state NO_POSE. It goes on by itself with the next good pose. Too far from the route, or turned too
+ *           far off it, the command is 0 and the state OFF_PATH until a new route is set.
+ * SAFETY    The tracker avoids nothing. The obstacle stop is a part of its own (pose_wall_planar_stop.h).
+ * COST      A step takes some 2 microseconds, without the clearance callback.
  */
+/* clang-format on */
 
 #ifndef POSE_WALL_PLANAR_TRACK_H
 #define POSE_WALL_PLANAR_TRACK_H

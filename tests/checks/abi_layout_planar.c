@@ -247,12 +247,14 @@ static int planar_localise_layout(void) {
   MEMBER(pose_wall_planar_localise_settings, struct_size);
   MEMBER(pose_wall_planar_localise_settings, tiles_most);
   MEMBER(pose_wall_planar_localise_settings, work);
-  MEMBER(pose_wall_planar_localise_settings, reserved);
+  MEMBER(pose_wall_planar_localise_settings, map_is_whole);
   MEMBER(pose_wall_planar_localise_settings, odometry_m);
   MEMBER(pose_wall_planar_localise_settings, odometry_rad);
   padded += struct_end("pose_wall_planar_localise_settings", sizeof(pose_wall_planar_localise_settings));
   MEMBER(pose_wall_planar_localise_result, struct_size);
   MEMBER(pose_wall_planar_localise_result, state);
+  MEMBER(pose_wall_planar_localise_result, reason);
+  MEMBER(pose_wall_planar_localise_result, reserved);
   MEMBER(pose_wall_planar_localise_result, stamp_ns);
   MEMBER(pose_wall_planar_localise_result, pose);
   MEMBER(pose_wall_planar_localise_result, covariance);

@@ -217,6 +217,8 @@ TEST(Track, WithoutAGoodPoseItStandsAndGoesOnWithTheNext) {
   expect_stop([](auto& i) { i.pose_level_m = 0.51; });
   expect_stop([](auto& i) { i.pose_level_m = -1.0; });
   expect_stop([](auto& i) { i.pose_ns -= 600000000; });
+  expect_stop([](auto& i) { i.pose_ns += 100000000; });
+  expect_stop([](auto& i) { i.pose_ns = std::numeric_limits<std::int64_t>::max(); });
   expect_stop([](auto& i) { i.pose_ns = std::numeric_limits<std::int64_t>::min(); });
   const auto off = steps(tracker, 40, &now_ns, [](auto& i) { i.pose.y_m = 0.6; });
   EXPECT_EQ(off.state, static_cast<std::uint32_t>(POSE_WALL_TRACK_OFF_PATH));

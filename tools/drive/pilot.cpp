@@ -16,7 +16,6 @@ namespace {
 constexpr double kStands_s = 3.0;      // while it looks for its place, before it creeps
 constexpr int kUniqueLooks = 5;        // in a row, before it believes its place
 constexpr double kCreepMost_m = 60.0;  // in search of its place
-constexpr double kPatience_s = 60.0;   // before a stop
 constexpr double kNoPose_s = 5.0;      // without a good pose, before it creeps
 constexpr double kLevel = 2.0;         // standard deviations that a pose may be off
 constexpr double kStill = 1e-3;        // m/s and rad/s
@@ -47,8 +46,8 @@ const char* pilot_phase_name(PilotPhase phase) {
   return kNames[static_cast<int>(phase)];
 }
 
-DrivePilot::DrivePilot(const MapFile& map, const pose_wall_planar_pose& goal, double speed_max_m_s)
-    : map_(map), goal_(goal), track_block_([speed_max_m_s] {
+DrivePilot::DrivePilot(const MapFile& map, const pose_wall_planar_pose& goal, double speed_max_m_s, double patience_s)
+    : map_(map), goal_(goal), patience_s_(patience_s), track_block_([speed_max_m_s] {
         const pose_wall_planar_track_settings settings = drive_track_settings(speed_max_m_s);
         return pose_wall_planar_track_memory_needed(&settings);
       }()) {
@@ -135,8 +134,8 @@ void DrivePilot::obeyed(const Motion& command, std::uint32_t stop_reasons) {
   if (phase_ == PilotPhase::kLocating) crept_m_ += kFrame_s * std::abs(command.speed_m_s);
   if (!wants_to_move_ || is_moving(command)) moved_ns_ = now_ns_;
   const bool is_under_way = phase_ == PilotPhase::kFollowing || phase_ == PilotPhase::kLocating;
-  if (is_under_way && seconds_since(moved_ns_, now_ns_) > kPatience_s) {
-    give_up(say("the stop held it for {:.0f} s: {}", kPatience_s, stop_reasons_text(stop_reasons)));
+  if (is_under_way && seconds_since(moved_ns_, now_ns_) > patience_s_) {
+    give_up(say("the stop held it for {:.0f} s: {}", patience_s_, stop_reasons_text(stop_reasons)));
   }
 }
 

@@ -23,8 +23,8 @@ const char* pilot_phase_name(PilotPhase phase);
 
 class DrivePilot {
  public:
-  // The map must outlive it. Throws PlanarError.
-  DrivePilot(const MapFile& map, const pose_wall_planar_pose& goal, double speed_max_m_s);
+  // The map must outlive it. It gives up once the stop has held it for patience_s. Throws PlanarError.
+  DrivePilot(const MapFile& map, const pose_wall_planar_pose& goal, double speed_max_m_s, double patience_s);
 
   struct Look {
     std::int64_t stamp_ns = 0, now_ns = 0;
@@ -52,6 +52,7 @@ class DrivePilot {
 
   const MapFile& map_;
   pose_wall_planar_pose goal_;
+  double patience_s_;
   std::vector<RoutePlanner> planners_;  // by falling margins
   RoutePlanner* planner_ = nullptr;     // of the route
   PartBlock track_block_;

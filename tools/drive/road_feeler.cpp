@@ -10,7 +10,7 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr double kCreep_m_s = 0.2;
-constexpr double kReach_m = 12.0;
+constexpr double kFelt_m = 12.0;
 constexpr double kBeside_m = 0.2;    // room wanted beside the machine
 constexpr double kLeast_m = 1.0;     // of free way, or it turns back
 constexpr double kCurve_1_m = 0.25;  // the sharpest
@@ -24,7 +24,7 @@ constexpr std::uint32_t kEachBeam = 5;
 // the stop's to judge.
 double RoadFeeler::free_m(double drive, double curvature_1_m) const {
   const double half_m = kHalfWidth_m + kBeside_m, end_m = drive > 0.0 ? kFront_m : kRear_m;
-  double free_m = kReach_m;
+  double free_m = kFelt_m;
   for (const sim::Place& thing : things_) {
     const double ahead_m = drive * thing.x(), aside_m = thing.y();
     double along_m = ahead_m, beside_m = aside_m;
@@ -41,7 +41,7 @@ double RoadFeeler::free_m(double drive, double curvature_1_m) const {
 
 RoadFeeler::Arc RoadFeeler::best(double drive) const {
   Arc best;
-  double most_m = -kReach_m;
+  double most_m = -kFelt_m;
   for (int k = -kArcs; k <= kArcs; ++k) {
     const double share = static_cast<double>(k) / kArcs;
     const Arc arc{share * kCurve_1_m, free_m(drive, share * kCurve_1_m)};
@@ -58,7 +58,7 @@ Motion RoadFeeler::creep(const pose_wall_planar_scan& scan) {
   things_.clear();
   for (std::uint32_t k = 0; k < scan.beams; k += kEachBeam) {
     const double range_m = static_cast<double>(scan.range_m[k]);
-    if (!(range_m > scan.range_min_m && range_m < kReach_m + kRear_m)) continue;
+    if (!(range_m > scan.range_min_m && range_m < kFelt_m + kRear_m)) continue;
     const double angle_rad = scan.sensor.yaw_rad + scan.angle_min_rad + k * scan.angle_step_rad;
     things_.emplace_back(scan.sensor.x_m + range_m * std::cos(angle_rad),
                          scan.sensor.y_m + range_m * std::sin(angle_rad));

@@ -88,7 +88,7 @@ DriveStory::DriveStory(const sim::Network& network, const sim::SensorModel& mode
       sight_(model),
       finder_(roads.trail),
       guard_(model, /*has_looked=*/true),
-      pilot_(roads.map, goal_, kStorySpeed_m_s),
+      pilot_(roads.map, goal_, kStorySpeed_m_s, settings.patience_s),
       odometry_before_(pose_of(machine_.odometry())) {}
 
 // When the machine has its first route, people stand along it, and what will be lost is drawn.

@@ -29,6 +29,7 @@ struct StorySettings {
   std::optional<pose_wall_planar_pose> goal;   // in map; none: where the map began
   std::optional<pose_wall_planar_pose> start;  // of base, truly; none: drawn
   double time_most_s = 1800.0;
+  double patience_s = 60.0;  // before a stop
 };
 
 // What was true, believed and done at a frame.

@@ -151,7 +151,7 @@ void Daemon::look_around(std::atomic<bool>& looked) {
     if (guard_) guard_->confirm();
   }
   // A worker that hangs is a reason to be started anew.
-  if (runtime_.is_alive()) service_.alive();
+  if (runtime_.is_alive() && (!guard_ || guard_->is_alive())) service_.alive();
 }
 
 void Daemon::run(const std::atomic<bool>& stop_asked, std::atomic<bool>& looked) {

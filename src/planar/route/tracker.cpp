@@ -16,6 +16,7 @@ constexpr double kStepMost_s = 0.5;       // a longer pause counts as so much
 constexpr double kTurnShare = 0.75;       // of turn_max, for the route's own curvature: the rest is for corrections
 constexpr double kSettled = 4.744;        // (1 + x) exp(-x) is a twentieth: both roots of the error at 1 / settle * x
 constexpr double kCorrectMost_rad = 0.6;  // a cross error asks for no steeper heading towards the route
+constexpr double kFuture_s = 0.02;        // two clocks of one machine; a pose further ahead is of another clock
 constexpr double kBrake = 0.7;            // share of speed_change that stops are planned with
 
 double towards(double from, double to, double most) {
@@ -61,7 +62,7 @@ double Tracker::step_seconds(std::int64_t now_ns) {
 
 bool Tracker::is_good(const pose_wall_planar_track_input& input, double age_s) const {
   return input.has_pose == 1 && is_pose(input.pose) && input.pose_level_m >= 0.0 &&
-         input.pose_level_m <= settings_.pose_level_max_m && age_s >= 0.0 && age_s <= settings_.pose_age_max_s;
+         input.pose_level_m <= settings_.pose_level_max_m && age_s >= -kFuture_s && age_s <= settings_.pose_age_max_s;
 }
 
 void Tracker::report(const OnPath& at, pose_wall_planar_track_command* command) const {
@@ -79,10 +80,11 @@ void Tracker::step(const pose_wall_planar_track_input& input, pose_wall_planar_t
   const double step_s = step_seconds(input.now_ns);
   model_.advance(step_s);
   const bool is_late = input.pose_ns <= last_ns_;
-  const double age_s =
+  double age_s =
       is_late ? static_cast<double>(static_cast<std::uint64_t>(last_ns_) - static_cast<std::uint64_t>(input.pose_ns)) *
                     kNanosecond_s
-              : 0.0;
+              : -static_cast<double>(static_cast<std::uint64_t>(input.pose_ns) - static_cast<std::uint64_t>(last_ns_)) *
+                    kNanosecond_s;
   if (phase_ == Phase::idle) {
     halt();
   } else if (!is_good(input, age_s)) {
@@ -91,6 +93,7 @@ void Tracker::step(const pose_wall_planar_track_input& input, pose_wall_planar_t
     command->state = POSE_WALL_TRACK_NO_POSE;
   } else {
     const Pose2 pose{input.pose.x_m, input.pose.y_m, wrapped(input.pose.yaw_rad)};
+    age_s = age_s > 0.0 ? age_s : 0.0;
     if (leg_.drive != 0 && phase_ == Phase::leg && input.pose_ns != last_pose_ns_) model_.learn(pose, age_s);
     if (leg_.drive == 0 || phase_ != Phase::leg) model_.learn_anew();
     last_pose_ns_ = input.pose_ns;

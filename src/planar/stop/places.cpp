@@ -292,7 +292,8 @@ bool Places::is_hazard(Place* place, const Track& track, const Eigen::Vector2d& 
   if (place == nullptr) return true;
   const bool is_low = is_remembered(place->thing_low_ms, place->thing_drift, track, now_ms);
   const bool is_high = is_remembered(place->thing_high_ms, place->thing_drift, track, now_ms);
-  if (!is_low && !is_high) return !is_free(*place, track, now_ms);
+  // What was low stays in doubt until it is seen gone: nobody who looks from a distance confirms it away.
+  if (!is_low && !is_high) return place->thing_low_ms != 0 || !is_free(*place, track, now_ms);
   hazard->margin_m += kCellCorner_m + track.drift_since_m(place->thing_drift);
   hazard->kind =
       static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) + (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));

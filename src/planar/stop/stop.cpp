@@ -25,6 +25,11 @@ constexpr double kStill = 1e-9;                        // m/s and rad/s: it stan
 constexpr std::uint32_t kFatal =
     POSE_WALL_PLANAR_STOP_R_STALE | POSE_WALL_PLANAR_STOP_R_INVALID | POSE_WALL_PLANAR_STOP_R_FROZEN;
 
+// Of two moments of which the second is not before the first; stamps may be any numbers.
+double nanoseconds_between(std::int64_t first_ns, std::int64_t second_ns) {
+  return static_cast<double>(static_cast<std::uint64_t>(second_ns) - static_cast<std::uint64_t>(first_ns));
+}
+
 double larger(double a, double b) {
   return a > b ? a : b;
 }
@@ -273,14 +278,17 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
   r.points_in = static_cast<std::uint32_t>(rays.points());
   const SweepMotion sweep_motion = sweep_of(motion, &r.rim_speed_m_s);
   if (!motion.is_known) r.reasons |= POSE_WALL_PLANAR_STOP_R_MISSING;
-  const bool goes_on = frames_ == 0 || cloud.stamp_ns > last_ns_;
+  // A stamp of the future is no last one: all that follow would seem to go back.
+  const bool is_of_future =
+      !((static_cast<double>(now_ns) - static_cast<double>(cloud.stamp_ns)) * kNanosecond_s >= -kFuture_s);
+  const bool goes_on = !is_of_future && (frames_ == 0 || cloud.stamp_ns > last_ns_);
   if (goes_on) {
     if (frames_ == 0) first_ns_ = cloud.stamp_ns;
-    const double since_s = frames_ == 0 ? 0.0 : static_cast<double>(cloud.stamp_ns - last_ns_) * kNanosecond_s;
+    const double since_s = frames_ == 0 ? 0.0 : kNanosecond_s * nanoseconds_between(last_ns_, cloud.stamp_ns);
     move_on(motion, since_s);
-    const double ms = static_cast<double>(cloud.stamp_ns - first_ns_) * 1e-6;
+    const double ms = 1e-6 * nanoseconds_between(first_ns_, cloud.stamp_ns);
     if (!(ms < kMomentMost_ms - kMomentFirst_ms)) places_.forget(), first_ns_ = cloud.stamp_ns;
-    now_ms_ = kMomentFirst_ms + static_cast<std::uint32_t>(static_cast<double>(cloud.stamp_ns - first_ns_) * 1e-6);
+    now_ms_ = kMomentFirst_ms + static_cast<std::uint32_t>(1e-6 * nanoseconds_between(first_ns_, cloud.stamp_ns));
     last_ns_ = cloud.stamp_ns;
     last_motion_ = motion;
     ++frames_;

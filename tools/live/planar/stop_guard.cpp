@@ -20,6 +20,9 @@ namespace {
 
 constexpr std::int64_t kTellEvery_ns = 100'000'000;
 constexpr double kNsPerS = 1e9;
+constexpr double kSetsOff_m_s = 0.01;  // a direction only: the allowed speed does not depend on it
+// Errors of measured motion that the stop reckons with: five standard deviations of a step of 0.1 s by scans.
+constexpr double kSpeedError_m_s = 0.1, kTurnError_rad_s = 0.03;
 
 // Along forward_axis, of a step in base.
 double along_forward(const pose_wall_config& config, const double* step_m) {
@@ -44,6 +47,10 @@ StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell)
       takes_motion_(loaded.planar.motion == "measured"),
       tell_(std::move(tell)),
       block_(pose_wall_planar_stop_memory_needed()) {
+  if (takes_motion_) {
+    settings_.speed_error_m_s = kSpeedError_m_s;
+    settings_.turn_error_rad_s = kTurnError_rad_s;
+  }
   open(*loaded.config.get());
   if (stop_ == nullptr) throw std::runtime_error("planar stop: the settings are refused");
   newest_.result.struct_size = sizeof newest_.result;
@@ -94,9 +101,15 @@ void StopGuard::note_motion(const LiveResult& result) {
   const pose_wall_motion_result& moved = result.publication.motion;
   std::optional<Measured> measured;
   if (result.publication.has_motion != 0 && moved.along_state == POSE_WALL_ALONG_MEASURED && moved.step_s > 0.0) {
-    measured = Measured{along_forward(result.config, moved.step_m) / moved.step_s, moved.step_rad[2] / moved.step_s,
-                        monotonic_ns()};
-    if (!std::isfinite(measured->speed_m_s) || !std::isfinite(measured->turn_rad_s)) measured.reset();
+    const double speed_m_s = along_forward(result.config, moved.step_m) / moved.step_s;
+    const double turn_rad_s = moved.step_rad[2] / moved.step_s;
+    const double speed_level_m_s = moved.step_protection_level[POSE_WALL_MOTION_ALONG] / moved.step_s;
+    const double turn_level_rad_s = moved.step_protection_level[POSE_WALL_MOTION_YAW] / moved.step_s;
+    // What errs by more than the stop reckons with is no measurement to it.
+    const bool is_good = std::isfinite(speed_m_s) && std::isfinite(turn_rad_s) &&
+                         speed_level_m_s <= settings_.speed_error_m_s && turn_level_rad_s <= settings_.turn_error_rad_s;
+    const bool may_stand = std::abs(speed_m_s) <= speed_level_m_s && std::abs(turn_rad_s) <= turn_level_rad_s;
+    if (is_good) measured = Measured{speed_m_s, turn_rad_s, may_stand, monotonic_ns()};
   }
   const std::lock_guard<std::mutex> locked(lock_);
   measured_ = measured;
@@ -112,6 +125,11 @@ pose_wall_planar_stop_motion StopGuard::motion_now() const {
   motion.given = POSE_WALL_PLANAR_STOP_MEASURED;
   motion.speed_m_s = measured_->speed_m_s;
   motion.turn_rad_s = measured_->turn_rad_s;
+  if (!measured_->may_stand) return motion;
+  // The noise of a machine that stands is no direction. It is taken to set off ahead; what was measured beside that
+  // widens the sweep.
+  motion.given |= POSE_WALL_PLANAR_STOP_COMMANDED;
+  motion.command_speed_m_s = kSetsOff_m_s;
   return motion;
 }
 
@@ -158,11 +176,11 @@ void StopGuard::run() {
     {
       std::unique_lock<std::mutex> locked(lock_);
       changed_.wait_for(locked, std::chrono::nanoseconds(kTick_ns), [this] { return ending_ || waiting_; });
-      if (ending_) return;
+      if (ending_) break;
       job.swap(waiting_);
       is_confirmed = std::exchange(confirmed_, false);
     }
-    if (is_confirmed && stop_ != nullptr) static_cast<void>(pose_wall_planar_stop_confirm(stop_));
+    if (is_confirmed) heed_look(news);
     if (job) {
       answer_frame(*job, &news);
     } else {
@@ -172,6 +190,19 @@ void StopGuard::run() {
     news.answered_ns = monotonic_ns();
     news.header_stamp_ns = header_stamp_ns_;
     put(news, job ? &*job : nullptr);
+  }
+  refuse(&news, POSE_WALL_PLANAR_STOP_R_STALE);  // the last word of an end in order
+  put(news, nullptr);
+}
+
+// Who looks while no frame comes vouches for a moment that the stop cannot date.
+void StopGuard::heed_look(const StopNews& news) {
+  constexpr std::uint32_t kNoFrame =
+      POSE_WALL_PLANAR_STOP_R_STALE | POSE_WALL_PLANAR_STOP_R_INVALID | POSE_WALL_PLANAR_STOP_R_FROZEN;
+  const bool sees = stop_ != nullptr && news.result.frames > 0 && (news.result.reasons & kNoFrame) == 0;
+  if (sees && pose_wall_planar_stop_confirm(stop_) == POSE_WALL_OK) {
+    const std::lock_guard<std::mutex> locked(lock_);
+    ++looks_;
   }
 }
 
@@ -202,6 +233,11 @@ StopNews StopGuard::stop_now() const {
   return news;
 }
 
+bool StopGuard::is_alive() const {
+  const std::lock_guard<std::mutex> locked(lock_);
+  return newest_.answered_ns == 0 || monotonic_ns() - newest_.answered_ns <= kHangs_ns;
+}
+
 PartHealth StopGuard::health() const {
   const StopNews news = stop_now();
   PartHealth health;
@@ -219,6 +255,7 @@ PartHealth StopGuard::health() const {
   health.add("frames lost to slowness", lost_);
   health.add("frames refused", refused_);
   health.add("stops", stops_);
+  health.add("looks heeded", looks_);
   health.add("latency worst ms", fmt::format("{:.1f}", static_cast<double>(latency_worst_ns_) * 1e-6));
   return health;
 }

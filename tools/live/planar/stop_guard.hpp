@@ -42,13 +42,16 @@ class StopGuard final : public StopBoard {
   // What motion measured, for the frames to come. From any thread.
   void note_motion(const LiveResult& result);
 
-  // Somebody has looked: close around the machine there is nothing (pose_wall_planar_stop_confirm). From any thread.
+  // Somebody has looked: close around the machine there is nothing (pose_wall_planar_stop_confirm). It counts only
+  // while frames come, and only as long as the machine's motion is known. From any thread.
   void confirm();
 
   StopNews stop_now() const override;
+  // False where its thread hangs.
+  bool is_alive() const;
   PartHealth health() const;
 
-  // Answers come at least so often; who has none for the second time takes the thread for dead.
+  // An answer comes every kTick_ns at least. If none came for kHangs_ns, the thread hangs, and the state is stop.
   static constexpr std::int64_t kTick_ns = 20'000'000, kHangs_ns = 200'000'000;
 
  private:
@@ -59,6 +62,7 @@ class StopGuard final : public StopBoard {
   };
   struct Measured {
     double speed_m_s = 0.0, turn_rad_s = 0.0;
+    bool may_stand = false;
     std::int64_t at_ns = 0;
   };
 
@@ -66,6 +70,7 @@ class StopGuard final : public StopBoard {
   void run();
   void answer_frame(const Job& job, StopNews* news);
   void answer_silence(StopNews* news);
+  void heed_look(const StopNews& news);
   void refuse(StopNews* news, std::uint32_t reason) const;
   void put(const StopNews& news, const Job* job);
   pose_wall_planar_stop_motion motion_now() const;
@@ -87,7 +92,7 @@ class StopGuard final : public StopBoard {
   std::optional<Measured> measured_;
   bool ending_ = false, confirmed_ = false;
   StopNews newest_;
-  std::uint64_t answered_ = 0, lost_ = 0, refused_ = 0, stops_ = 0;
+  std::uint64_t answered_ = 0, lost_ = 0, refused_ = 0, stops_ = 0, looks_ = 0;
   std::int64_t latency_worst_ns_ = 0;
 
   std::thread thread_;
