@@ -152,7 +152,7 @@ TEST_F(RoadwaySinkTest, ASavedMapIsWhereAMachineIsFoundAgain) {
   Hall set_down = furnished_hall();
   set_down.x_m = 1.5, set_down.y_m = 0.6, set_down.yaw_rad = 0.7;
   for (const char* file : {"trail.pwt", "map.yaml"}) {
-    open("localise", {"planar_map=" + folder.path() + "/" + file});
+    open("localise", {"planar_map=" + folder.path() + "/" + file, "planar_map_whole=yes"});
     Hall at = set_down;
     const RoadwayNews* news = nullptr;
     for (int k = 0; k < 60; ++k) {
@@ -191,7 +191,7 @@ TEST_F(RoadwaySinkTest, MapsThatCannotBeReadAreNamed) {
   folder.write("broken.yaml", "image: x.pgm\n");
   for (const char* file : {"nowhere.pwt", "broken.pwt", "nowhere.yaml", "broken.yaml"}) {
     try {
-      open("localise", {"planar_map=" + folder.path() + "/" + file});
+      open("localise", {"planar_map=" + folder.path() + "/" + file, "planar_map_whole=yes"});
       FAIL() << file;
     } catch (const std::runtime_error& fault) {
       EXPECT_NE(std::string(fault.what()).find(file), std::string::npos) << fault.what();

@@ -37,6 +37,11 @@ const std::vector<PlanarKeyRow>& planar_key_rows() {
             "localise: the map that is read, trail.pwt of `pose_wall map -o FOLDER` or of planar: map, or map.yaml as "
             "Nav2 has it. map: where the map is saved, a name in .pwt; a file that is there already is kept")},
        &PlanarSettings::map},
+      {{"planar_map_whole", kRoadwayGroup, OutsideKey::Type::kChoice, "", 0, 0, "no, yes",
+        translatable(
+            "localise: yes: the map holds every road where the machine can be, so a place between smooth walls "
+            "counts as unique, too. no: unique needs relief of the rock")},
+       &PlanarSettings::map_whole},
       {{"planar_cell", kRoadwayGroup, OutsideKey::Type::kNumber, "m", 0.02, 0.5, "",
         translatable("side of a cell of the map")},
        &PlanarSettings::cell_m},

@@ -17,6 +17,7 @@ namespace pose_wall::tools {
 struct PlanarSettings {
   std::string mode = "off";  // map: SLAM; localise: in the map of `map`
   std::string map;           // trail.pwt, or map.yaml
+  std::string map_whole = "no";
   std::string motion = "assumed";
   std::string tf = "off";
   std::string map_frame = "map", odom_frame = "odom";

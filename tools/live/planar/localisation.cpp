@@ -29,10 +29,11 @@ constexpr double kTrackStep_m = 0.3;
 // A kilometre of road takes some 300.
 constexpr std::uint32_t kTilesMost = 2048;
 
-pose_wall_planar_localise_settings settings_of_localisation() {
+pose_wall_planar_localise_settings settings_of_localisation(bool map_is_whole) {
   pose_wall_planar_localise_settings settings{};
   require_ok(pose_wall_planar_localise_settings_init(&settings), translatable("the settings of the map"));
   settings.tiles_most = kTilesMost;
+  settings.map_is_whole = map_is_whole ? 1 : 0;
   return settings;
 }
 
@@ -106,7 +107,7 @@ std::shared_ptr<const RoadwayMap> map_of(const std::filesystem::path& yaml) {
 class Localisation final : public PlaceFinder {
  public:
   explicit Localisation(const PlanarSettings& settings)
-      : settings_(settings_of_localisation()), block_(bytes_for(settings_)) {
+      : settings_(settings_of_localisation(settings.map_whole == "yes")), block_(bytes_for(settings_)) {
     require_ok(pose_wall_planar_localise_open(&settings_, block_.data(), block_.bytes(), &localise_),
                translatable("the settings of the map"));
     load(settings.map);

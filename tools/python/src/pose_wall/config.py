@@ -82,7 +82,8 @@ OUTSIDE_KEYS = frozenset((
     "source", "extrinsic_from", "sensor", "sensor_metadata", "udp_address", "udp_port", "udp_sender",
     "frame_points_max", "ros1", "ros2", "ros_distro", "http", "modbus", "mqtt", "mqtt_topic", "black_box",
     "black_box_mb", "recording", "recording_mb", "recording_clouds", "status_every_s",
-    "planar", "planar_map", "planar_cell", "planar_map_every_s", "planar_tf", "planar_map_frame", "planar_odom_frame",
+    "planar", "planar_map", "planar_map_whole", "planar_cell", "planar_map_every_s", "planar_tf", "planar_map_frame",
+    "planar_odom_frame",
     "planar_motion", "planar_x_min", "planar_x_max", "planar_y_min", "planar_y_max", "planar_floor_z", "planar_height",
     "planar_clearance", "planar_speed_max", "planar_turn_max_deg", "planar_deceleration", "planar_creep",
     "planar_latency", "planar_stale", "planar_scan_time"))
