@@ -654,10 +654,11 @@ class StopBlock(unittest.TestCase):
             self.expect(self.STOP, "starting" if cycle * CYCLE_MS < 200 else "silent")
 
     def test_old_words_in_turn_permit_nothing(self):
-        for _ in range(40):
-            for beat in (7, 8, 9):
-                self.cycle(beat << 8 | self.GO)
-                self.expect(self.STOP, "starting")
+        for words in ((7, 8, 9), (0, 85, 170), (0, 84, 168), (3, 131), (1, 86, 171)):
+            for _ in range(40):
+                for beat in words:
+                    self.cycle(beat << 8 | self.GO)
+                    self.expect(self.STOP, "starting")
 
     def test_what_is_no_such_word_stops_at_once(self):
         for wrong in (0x0003, 0x0006, 0x00FE, 0xFFFF, 0x10002, 0xFFFF0002):
@@ -667,10 +668,11 @@ class StopBlock(unittest.TestCase):
             self.expect(self.STOP, "version")
 
     def test_registers_that_are_read_seldom(self):
-        self.beats(10, self.GO, step=100)
+        self.beats(10, self.GO, step=84)
         self.expect(self.GO)
-        self.beats(10, self.GO, step=200)  # more than half of all: it cannot be told from a fall
-        self.expect(self.STOP, "starting")
+        for step in (85, 128, 200):  # a third of all or more: it cannot be told from a fall
+            self.beats(10, self.GO, step=step)
+            self.expect(self.STOP, "starting")
 
     def test_one_rise_at_least(self):
         self.beats(1, self.GO, diRises=-5)
