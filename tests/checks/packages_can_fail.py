@@ -20,7 +20,8 @@ class Image(BrokenProject):
         super().setUp()
         source = CHECKS.parent.parent
         shutil.copytree(source / "tools/plc", self.root / "tools/plc")
-        for path in ("include/pose_wall.h", "include/pose_wall_motion.h", "tests/checks/image_members.def",
+        for path in ("include/pose_wall.h", "include/pose_wall_motion.h", "include/pose_wall_planar_stop.h",
+                     "tests/checks/image_members.def",
                      "tests/checks/abi_layout.txt", "tools/live/modbus/README.md",
                      "tools/live/modbus/modbus_registers.hpp"):
             (self.root / path).parent.mkdir(parents=True, exist_ok=True)
