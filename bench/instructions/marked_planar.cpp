@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -31,10 +32,10 @@
 namespace pose_wall::bench {
 namespace {
 
-constexpr double kSpeed_m_s = 0.7;
-constexpr std::uint64_t kSeed = 1;
-constexpr int kParts = 5;
-constexpr const char* kNames[kParts] = {"engine", "scan", "match", "map", "stop"};
+constexpr double kSpeed_m_s = 0.7;  // of a roadheader that moves to another place
+constexpr std::uint64_t kSeed = 1;  // as in bench/README.md
+constexpr const char* kNames[] = {"engine", "scan", "match", "map", "stop"};
+constexpr std::size_t kParts = std::size(kNames);
 
 void must(std::int32_t status, const char* what) {
   if (status != POSE_WALL_OK) throw std::runtime_error(std::string(what) + ": " + pose_wall_planar_status_text(status));

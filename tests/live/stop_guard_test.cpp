@@ -78,7 +78,7 @@ TEST_F(StopGuardTest, NothingIsPermittedBeforeTheFirstFrameAndTheHeartbeatGoesOn
 }
 
 TEST_F(StopGuardTest, FramesPermitAndSilenceStopsAsSoonAsTheNewestIsStale) {
-  ASSERT_TRUE(is_brought_to_drive()) << stop_reason_names(guard_->stop_now().result.reasons);
+  ASSERT_TRUE(is_brought_to_drive()) << stop_reasons_text(guard_->stop_now().result.reasons);
   EXPECT_EQ(guard_->health().summary, "permits driving");
   ASSERT_TRUE(becomes_true([&] { return !drives(); }));
   // The first answer that stops, and the one before it; answers come at least every 20 ms on a machine that is idle.

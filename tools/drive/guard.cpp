@@ -3,10 +3,13 @@
 
 #include "drive/guard.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "language/language.hpp"
+#include "planar/stop_reasons.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -57,12 +60,7 @@ Motion DriveGuard::limit(const std::optional<pose_wall_cloud>& cloud, std::int64
 }
 
 std::string stop_reasons_text(std::uint32_t reasons) {
-  std::string text;
-  for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
-    if ((reasons >> bit & 1U) == 0) continue;
-    text += (text.empty() ? "" : " ") + std::string(pose_wall_planar_stop_reason_name(bit));
-  }
-  return text;
+  return fmt::format("{}", fmt::join(stop_reason_names(reasons), " "));
 }
 
 }  // namespace pose_wall::tools

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "drive/guard.hpp"
-#include "drive/place_finder.hpp"
 #include "language/language.hpp"
+#include "planar/map_localiser.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -44,7 +44,6 @@ class DrivePilot {
   const pose_wall_planar_track_command& track() const { return command_; }
 
  private:
-  void locate_or_plan(const Look& look);
   void plan_from(const pose_wall_planar_pose& base);
   Motion follow(const Look& look);
   Motion creep(const Look& look);

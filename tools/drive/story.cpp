@@ -47,6 +47,15 @@ sim::PlanePose draw_start(const sim::Network& network, const TaughtRoads& roads,
   throw PlanarError(tr("no place of the roads has room for the machine"));
 }
 
+MapLocaliser localiser_in(const std::string& trail) {
+  KnownMap map;
+  map.file = "trail";
+  map.trail = std::make_unique<SavedTrail>(map.file, trail);
+  pose_wall_planar_localise_settings settings{};
+  require_ok(pose_wall_planar_localise_settings_init(&settings), translatable("the settings of localisation"));
+  return MapLocaliser(map, settings);
+}
+
 // Of the machine's middle.
 sim::PlanePose start_of(const sim::Network& network, const TaughtRoads& roads, const StorySettings& settings) {
   if (!settings.start) return draw_start(network, roads, settings.seed);
@@ -86,7 +95,7 @@ DriveStory::DriveStory(const sim::Network& network, const sim::SensorModel& mode
       goal_(settings.goal ? *settings.goal : first_room(roads)),
       machine_(drive_tracks(), &network, start_of(network, roads, settings), sim::mix(settings.seed ^ 0xd2u)),
       sight_(model),
-      finder_(roads.trail),
+      finder_(localiser_in(roads.trail)),
       guard_(model, /*has_looked=*/true),
       pilot_(roads.map, goal_, kStorySpeed_m_s, settings.patience_s),
       odometry_before_(pose_of(machine_.odometry())) {}
@@ -183,7 +192,8 @@ StoryFrame DriveStory::take_frame() {
   look.stamp_ns = stamp_ns;
   look.now_ns = stamp_ns + static_cast<std::int64_t>(1e9 * kResult_s);
   look.scan = &sight_.look(cloud);
-  look.where = &finder_.find(*look.scan, pose_of(machine_.odometry()));
+  const pose_wall_planar_pose odometry = pose_of(machine_.odometry());
+  look.where = &finder_.process(*look.scan, &odometry);
   look.measured = measured_motion();
   row.wished = pilot_.wish(look);
   row.command = guard_.limit(cloud, look.now_ns, look.measured, row.wished);

@@ -14,9 +14,9 @@
 
 #include "drive/guard.hpp"
 #include "drive/pilot.hpp"
-#include "drive/place_finder.hpp"
 #include "drive/sight.hpp"
 #include "drive/taught_roads.hpp"
+#include "planar/map_localiser.hpp"
 #include "sim/network_people.hpp"
 
 namespace pose_wall::tools {
@@ -97,7 +97,7 @@ class DriveStory {
   pose_wall_planar_pose goal_;
   sim::TrackDrive machine_;
   DriveSight sight_;
-  PlaceFinder finder_;
+  MapLocaliser finder_;
   DriveGuard guard_;
   DrivePilot pilot_;
   std::vector<sim::Person> people_;

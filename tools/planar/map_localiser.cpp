@@ -4,6 +4,8 @@
 #include "planar/map_localiser.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "language/language.hpp"
 #include "planar/plane_pose.hpp"
@@ -70,6 +72,12 @@ pose_wall_planar_localise_settings take_localise_settings(std::vector<std::strin
   require_ok(pose_wall_planar_localise_settings_init(&settings), translatable("the settings of localisation"));
   take_settings(kLocaliseWords, pose_wall_planar_localise_settings_check, words, &settings);
   return settings;
+}
+
+double position_sigma_m(const pose_wall_planar_localise_result& where) {
+  const double xx = where.covariance[0], xy = where.covariance[1], yy = where.covariance[4];
+  const double variance = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+  return variance >= 0.0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
 }
 
 MapLocaliser::MapLocaliser(const KnownMap& map, const pose_wall_planar_localise_settings& settings) : block_(0) {

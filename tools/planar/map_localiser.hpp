@@ -22,6 +22,9 @@ std::vector<std::string> localise_setting_names();
 // The defaults, with the settings that `words` holds; these are taken out of it. Throws std::invalid_argument.
 pose_wall_planar_localise_settings take_localise_settings(std::vector<std::string>* words);
 
+// The larger standard deviation of the position; infinity without a pose.
+double position_sigma_m(const pose_wall_planar_localise_result& where);
+
 class MapLocaliser {
  public:
   // Takes as much memory as the map needs. Throws PlanarError for a map that is too large or empty.

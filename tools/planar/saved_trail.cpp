@@ -29,12 +29,14 @@ std::uint32_t trail_word_at(const std::string& bytes, std::size_t at) {
 }
 
 std::string trail_bytes_of(const std::filesystem::path& file) {
-  std::string bytes;
   try {
-    bytes = read_whole_file(file);
+    return read_whole_file(file);
   } catch (const std::runtime_error& error) {
     throw TrailFileError(error.what());
   }
+}
+
+void require_trail(const std::filesystem::path& file, const std::string& bytes) {
   if (bytes.size() < 2 * sizeof kTrailMagic || std::memcmp(bytes.data(), kTrailMagic, sizeof kTrailMagic) != 0) {
     refuse_trail(file,
                  tr("this is no map for localisation. Give the folder that `pose_wall map -o` wrote, its trail.pwt, or "
@@ -46,7 +48,6 @@ std::string trail_bytes_of(const std::filesystem::path& file) {
                  say("a trail of version {}; this program reads version {}. Make the map again with pose_wall map",
                      version, POSE_WALL_PLANAR_TRAIL_VERSION));
   }
-  return bytes;
 }
 
 pose_wall_planar_slam_settings settings_for(std::uint32_t keyframes) {
@@ -65,8 +66,10 @@ std::uint64_t bytes_for(std::uint32_t keyframes) {
 
 }  // namespace
 
-SavedTrail::SavedTrail(const std::filesystem::path& file) : block_(0) {
-  const std::string bytes = trail_bytes_of(file);
+SavedTrail::SavedTrail(const std::filesystem::path& file) : SavedTrail(file, trail_bytes_of(file)) {}
+
+SavedTrail::SavedTrail(const std::filesystem::path& file, const std::string& bytes) : block_(0) {
+  require_trail(file, bytes);
   std::int32_t status = POSE_WALL_E_BLOCK_SMALL;
   for (std::uint32_t most = kSavedKeyframesLeast; status == POSE_WALL_E_BLOCK_SMALL && most <= kSavedKeyframesMost;
        most *= 2) {

@@ -27,6 +27,8 @@ class SavedTrail {
  public:
   // Throws TrailFileError: not a trail, of another version, cut off or damaged, or it cannot be read.
   explicit SavedTrail(const std::filesystem::path& file);
+  // Bytes as pose_wall_planar_slam_save wrote them; faults call them `file`.
+  SavedTrail(const std::filesystem::path& file, const std::string& bytes);
 
   std::uint32_t keyframes() const { return keyframes_; }
   pose_wall_planar_keyframe keyframe(std::uint32_t number) const;

@@ -8,8 +8,6 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kSpacing_m = 0.05;  // of points along a surface
-
 Why doubt_of(Track track) {
   if (track == Track::tracked) return Why::none;
   if (track == Track::blind) return Why::few;
@@ -121,7 +119,7 @@ Where Localiser::track(Span<const ScanPoint> points, const BeamScan& scan, const
 }
 
 Where Localiser::process(const BeamScan& scan, const Pose2* odometry) {
-  const Span<const ScanPoint> points = even_points(scan, kSpacing_m, scan_points_);
+  const Span<const ScanPoint> points = even_points(scan, kMatchSpacing_m, scan_points_);
   where_ = is_tracking_ ? track(points, scan, odometry) : wander(points, scan, odometry);
   return where_;
 }

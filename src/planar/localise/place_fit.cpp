@@ -259,7 +259,7 @@ void find_walls(const Look& look, const Turn2& turn, Span<PatchWall> walls) {
 
 void move_along_walls(const PlaceMap& map, const Look& look, const Turn2& turn, const Eigen::Vector2d& place,
                       Span<PatchWall> walls) {
-  constexpr double kShift_m = 0.4;
+  constexpr double kShift_m = 0.4;  // a bump of rock and its hollow; README.md
   const double noise_m2 = look.sigma_m * look.sigma_m;
   for (std::uint32_t k = 0; k < look.point_count; ++k) {
     if (look.patch[k] == kPatchesMost) continue;

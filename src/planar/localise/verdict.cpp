@@ -18,7 +18,7 @@ constexpr double kFits = 0.85, kSeen = 0.75, kThroughMost = 0.1, kHolds_m = 0.3;
 constexpr std::uint32_t kPatchesLeast = 16;
 // Patches with relief, and their share: rock has 0.4 to 0.9 of them, smooth walls up to 0.36, at corners and niches.
 constexpr std::uint32_t kReliefLeast = 8;
-constexpr double kRelief = 0.4;
+constexpr double kRelief = 0.4;  // share of the patches: smooth walls have up to 0.36, rock 0.4 to 0.9 (README.md)
 
 bool is_same(const CandidatePlace& candidate, const Pose2& pose) {
   constexpr double kChain_m = 0.7, kYaw_rad = 0.2;

@@ -24,6 +24,7 @@ using pose_wall::planar::is_place;
 using pose_wall::planar::is_pose;
 using pose_wall::planar::is_within;
 using pose_wall::planar::kMatchPointsMost;
+using pose_wall::planar::kMatchSpacing_m;
 using pose_wall::planar::Matcher;
 using pose_wall::planar::pose_for_caller;
 using pose_wall::planar::pose_of;
@@ -33,8 +34,6 @@ using pose_wall::planar::Refined;
 using pose_wall::planar::ScanPoint;
 using pose_wall::planar::Slide;
 using pose_wall::planar::SurfaceMap;
-
-constexpr double kSpacing_m = 0.05;  // of matched points along a surface, as in SLAM
 
 // What lives in the block.
 struct Body {
@@ -127,7 +126,7 @@ pose_wall_planar_match_result no_match() {
 
 pose_wall_planar_match_result match(const Body& body, const BeamScan& scan, const pose_wall_planar_match_input& input) {
   pose_wall_planar_match_result out = no_match();
-  const auto points = even_points(scan, kSpacing_m, body.points);
+  const auto points = even_points(scan, kMatchSpacing_m, body.points);
   const Prior prior = prior_of(input);
   pose_wall::planar::Pose2 start = prior.pose;
   if ((input.reach_m > 0.0 || input.reach_rad > 0.0) && points.size() > 0) {
@@ -195,7 +194,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_add(pose_wall_planar_matcher* ma
   if (!is_pose(*base)) return POSE_WALL_E_POSE;
   return inside(matcher, [&](Body& body) {
     if (!body.has_begun || body.is_finished) return std::int32_t{POSE_WALL_E_ORDER};
-    body.map.add(even_points(read_beams(*scan, body.beams), kSpacing_m, body.points), pose_of(*base), true);
+    body.map.add(even_points(read_beams(*scan, body.beams), kMatchSpacing_m, body.points), pose_of(*base), true);
     return std::int32_t{POSE_WALL_OK};
   });
 }

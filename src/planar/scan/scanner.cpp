@@ -8,16 +8,13 @@
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
 #include "base/math/rotation.hpp"
+#include "planar/pose2.hpp"
 
 namespace pose_wall::planar {
 namespace {
 
 constexpr double kEndless_m = 1e6;   // longer than any range, and a float
 constexpr double kTiltSigmas = 3.0;  // the floor's tilt is within so many of its standard deviations
-
-bool is_within(double value, double least, double most) {
-  return value >= least && value <= most;
-}
 
 }  // namespace
 

@@ -10,7 +10,6 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kSpacing_m = 0.05;   // of matched points along a surface
 constexpr double kLookBack_m = 12.0;  // of travel that a scan is matched with
 constexpr std::uint32_t kLookBackMost = 60;
 constexpr double kTrusted = 0.75;  // share of points that a right pose explains at least, but for crowds
@@ -152,7 +151,7 @@ bool Slam::is_due(const Refined& placed) const {
 
 SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
   SlamStep step;
-  const Span<const ScanPoint> points = even_points(scan, kSpacing_m, scan_points_);
+  const Span<const ScanPoint> points = even_points(scan, kMatchSpacing_m, scan_points_);
   Prior prior;
   Refined placed;
   if (trail_.size() > 0) {

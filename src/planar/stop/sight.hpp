@@ -5,7 +5,7 @@
 //
 // Cells are polar about the sensor. Azimuths are in steps along a diamond's edge, bent so that no arc tangent is needed
 // and a step is from 0.0115 to 0.0126 rad. A ray that ends on the floor, or beyond, counts in each cell over whose
-// middle it passes within a band of heights; a ray that ends on a thing counts up to 0.2 m before it.
+// middle it passes within a band of heights. A ray that ends on a thing counts up to 0.2 m before it.
 
 #pragma once
 

@@ -30,6 +30,11 @@ double nanoseconds_between(std::int64_t first_ns, std::int64_t second_ns) {
   return static_cast<double>(static_cast<std::uint64_t>(second_ns) - static_cast<std::uint64_t>(first_ns));
 }
 
+// Negative for a stamp of the future.
+double age_s_of(std::int64_t stamp_ns, std::int64_t now_ns) {
+  return (static_cast<double>(now_ns) - static_cast<double>(stamp_ns)) * kNanosecond_s;
+}
+
 double larger(double a, double b) {
   return a > b ? a : b;
 }
@@ -176,7 +181,7 @@ void Stop::move_on(const Motion& motion, double seconds) {
 
 std::uint32_t Stop::frame_reasons(const pose_wall_cloud& cloud, const Rays& rays, std::int64_t now_ns) {
   std::uint32_t reasons = 0;
-  const double age_s = (static_cast<double>(now_ns) - static_cast<double>(cloud.stamp_ns)) * kNanosecond_s;
+  const double age_s = age_s_of(cloud.stamp_ns, now_ns);
   if (!(age_s <= settings_.stale_s)) reasons |= POSE_WALL_PLANAR_STOP_R_STALE;
   if (!(age_s >= -kFuture_s)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
   if (frames_ > 0 && !(cloud.stamp_ns > last_ns_)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
@@ -279,8 +284,7 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
   const SweepMotion sweep_motion = sweep_of(motion, &r.rim_speed_m_s);
   if (!motion.is_known) r.reasons |= POSE_WALL_PLANAR_STOP_R_MISSING;
   // A stamp of the future is no last one: all that follow would seem to go back.
-  const bool is_of_future =
-      !((static_cast<double>(now_ns) - static_cast<double>(cloud.stamp_ns)) * kNanosecond_s >= -kFuture_s);
+  const bool is_of_future = !(age_s_of(cloud.stamp_ns, now_ns) >= -kFuture_s);
   const bool goes_on = !is_of_future && (frames_ == 0 || cloud.stamp_ns > last_ns_);
   if (goes_on) {
     if (frames_ == 0) first_ns_ = cloud.stamp_ns;
@@ -308,7 +312,7 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
 
 void Stop::tick(std::int64_t now_ns, pose_wall_planar_stop_result* result) {
   last_.now_ns = now_ns;
-  const double age_s = (static_cast<double>(now_ns) - static_cast<double>(last_ns_)) * kNanosecond_s;
+  const double age_s = age_s_of(last_ns_, now_ns);
   if (frames_ == 0 || !(age_s <= settings_.stale_s) || !(age_s >= -kFuture_s)) {
     last_.reasons |=
         frames_ != 0 && !(age_s >= -kFuture_s) ? POSE_WALL_PLANAR_STOP_R_INVALID : POSE_WALL_PLANAR_STOP_R_STALE;

@@ -46,6 +46,22 @@ class Bytes {
   unsigned char* data_;
 };
 
+// What a part is saved to.
+struct Saved {
+  const unsigned char* data;
+  std::uint64_t count;
+};
+
+bool are_equal(const Saved& a, const Saved& b) {
+  return a.count == b.count && std::memcmp(a.data, b.data, a.count) == 0;
+}
+
+void require_whole_or_not_at_all(const Bytes& given, std::int32_t status, const Saved& before, const Saved& after) {
+  if (status == POSE_WALL_OK)
+    return require(are_equal(after, {given.data(), given.count()}), "saved to the same bytes");
+  require(are_equal(after, before), "a refusal changes nothing");
+}
+
 ScanOfInput* hall_seen(std::uint32_t step) {
   static ScanOfInput seen;
   Input none(nullptr, 0);
@@ -89,13 +105,10 @@ void load_trail(Bytes* saved, bool mended) {
     put_u32(sum_of(saved->data(), at), saved->data() + at);
   }
   const std::int32_t status = pose_wall_planar_slam_load(slam, saved->data(), saved->count(), nullptr);
+  require(status == POSE_WALL_OK || status == POSE_WALL_E_MAP_FILE || status == POSE_WALL_E_BLOCK_SMALL,
+          "a refusal that the header knows");
   const std::uint64_t has = save(slam, after);
-  if (status == POSE_WALL_OK) {
-    require(has == saved->count() && std::memcmp(after, saved->data(), has) == 0, "saved again to the same bytes");
-  } else {
-    require(status == POSE_WALL_E_MAP_FILE || status == POSE_WALL_E_BLOCK_SMALL, "a refusal that the header knows");
-    require(has == had && std::memcmp(after, before, has) == 0, "a refusal changes nothing");
-  }
+  require_whole_or_not_at_all(*saved, status, {before, had}, {after, has});
   drive_on(slam);
 }
 
@@ -137,13 +150,10 @@ void load_map(Bytes* saved, bool mended) {
     put_u32(sum_of(saved->data(), at), saved->data() + at);
   }
   const std::int32_t status = pose_wall_planar_map_load_all(map, saved->data(), saved->count());
+  require(status == POSE_WALL_OK || status == POSE_WALL_E_MAP_FILE || status == POSE_WALL_E_BUFFER_SMALL,
+          "a refusal that the header knows");
   const std::uint64_t has = save(map, after);
-  if (status == POSE_WALL_OK) {
-    require(has == saved->count() && std::memcmp(after, saved->data(), has) == 0, "saved again to the same bytes");
-  } else {
-    require(status == POSE_WALL_E_MAP_FILE || status == POSE_WALL_E_BUFFER_SMALL, "a refusal that the header knows");
-    require(has == had && std::memcmp(after, before, has) == 0, "a refusal changes nothing");
-  }
+  require_whole_or_not_at_all(*saved, status, {before, had}, {after, has});
   insert_next(map);
 }
 
@@ -169,7 +179,7 @@ void put_tile(const Bytes& saved, bool mended) {
   if (status != POSE_WALL_OK) {
     require(status == POSE_WALL_E_MAP_FILE || status == POSE_WALL_E_BUFFER_SMALL, "a refusal that the header knows");
     const std::uint64_t has = save(map, after);
-    require(has == had && std::memcmp(after, before, has) == 0, "a refusal changes nothing");
+    require(are_equal({after, has}, {before, had}), "a refusal changes nothing");
   }
   insert_next(map);
 }

@@ -13,6 +13,7 @@
 
 #include "live/planar/live_map.hpp"
 #include "planar/indexed_png.hpp"
+#include "planar/stop_reasons.hpp"
 #include "report/columns.hpp"
 
 namespace pose_wall::tools::live {
@@ -52,12 +53,8 @@ ordered_json place(const pose_wall_planar_pose& pose) {
 std::string stop_json(const StopNews& news) {
   const pose_wall_planar_stop_result& result = news.result;
   const bool has_frame = result.frames > 0;
-  ordered_json reasons = ordered_json::array();
-  for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
-    if ((result.reasons >> bit & 1U) != 0) reasons.push_back(pose_wall_planar_stop_reason_name(bit));
-  }
   ordered_json json = {{"state", pose_wall_planar_stop_state_name(result.state)},
-                       {"reasons", reasons},
+                       {"reasons", stop_reason_names(result.reasons)},
                        {"allowed_speed_m_s", number(result.allowed_speed_m_s)},
                        {"heartbeat", news.rounds}};
   json["age_ms"] = has_frame ? ordered_json((result.now_ns - result.stamp_ns) / 1'000'000) : ordered_json(nullptr);

@@ -18,8 +18,8 @@
 #include "planar/map_files.hpp"
 #include "planar/part_block.hpp"
 #include "planar/plane_pose.hpp"
+#include "planar/saved_trail.hpp"
 #include "pose_wall_planar_localise.h"
-#include "pose_wall_planar_slam.h"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -57,41 +57,22 @@ void require_map(std::int32_t status, const std::filesystem::path& file) {
   throw std::runtime_error(fmt::format("planar_map: {}: {}", file.string(), pose_wall_planar_status_text(status)));
 }
 
-// A saved trail, read by a SLAM that has room for it.
-class SavedTrail {
- public:
-  explicit SavedTrail(const std::filesystem::path& file) {
+void add_trail(pose_wall_planar_localise* localise, const std::filesystem::path& file) {
+  const SavedTrail trail = [&file] {
     const std::string saved = bytes_of(file);
-    std::int32_t status = POSE_WALL_E_BLOCK_SMALL;
-    for (std::uint32_t room = 4096; status == POSE_WALL_E_BLOCK_SMALL && room <= kRoomMost; room *= 4) {
-      pose_wall_planar_slam_settings settings{};
-      require_map(pose_wall_planar_slam_settings_init(&settings), file);
-      settings.keyframes_most = room;
-      std::uint64_t bytes = 0;
-      require_map(pose_wall_planar_slam_memory_needed(&settings, &bytes), file);
-      block_ = std::make_unique<PartBlock>(bytes);
-      require_map(pose_wall_planar_slam_open(&settings, block_->data(), block_->bytes(), &slam_), file);
-      status = pose_wall_planar_slam_load(slam_, saved.data(), saved.size(), nullptr);
+    try {
+      return SavedTrail(file, saved);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(fmt::format("planar_map: {}", error.what()));
     }
-    require_map(status, file);
+  }();
+  for (std::uint32_t k = 0; k < trail.keyframes(); ++k) {
+    const pose_wall_planar_keyframe keyframe = trail.keyframe(k);
+    std::vector<float> xy_m = trail.points(k);
+    xy_m.resize(xy_m.size() + 2);  // a keyframe without points has an address, too
+    require_map(pose_wall_planar_localise_add(localise, &keyframe.pose, xy_m.data(), keyframe.points), file);
   }
-
-  void put_into(pose_wall_planar_localise* localise, const std::filesystem::path& file) const {
-    pose_wall_planar_keyframe keyframe{};
-    keyframe.struct_size = sizeof keyframe;
-    std::vector<float> xy_m;
-    for (std::uint32_t k = 0; pose_wall_planar_slam_keyframe(slam_, k, &keyframe) == POSE_WALL_OK; ++k) {
-      xy_m.resize(2 * std::size_t{keyframe.points} + 2);
-      require_map(pose_wall_planar_slam_points(slam_, k, xy_m.data(), keyframe.points), file);
-      require_map(pose_wall_planar_localise_add(localise, &keyframe.pose, xy_m.data(), keyframe.points), file);
-    }
-  }
-
- private:
-  static constexpr std::uint32_t kRoomMost = 65536;  // of pose_wall_planar_slam_settings
-  std::unique_ptr<PartBlock> block_;
-  pose_wall_planar_slam* slam_ = nullptr;
-};
+}
 
 std::shared_ptr<const RoadwayMap> map_of(const std::filesystem::path& yaml) {
   MapFile file = read_map_files(yaml);
@@ -146,7 +127,7 @@ class Localisation final : public PlaceFinder {
   void load(const std::filesystem::path& file) {
     const bool is_trail = file.extension() == ".pwt";
     const std::filesystem::path yaml = is_trail ? file.parent_path() / "map.yaml" : file;
-    if (is_trail) SavedTrail(file).put_into(localise_, file);
+    if (is_trail) add_trail(localise_, file);
     if (!is_trail || std::filesystem::exists(yaml)) map_ = map_of(yaml);
     if (!map_) log_line(Grade::kWarning, "planar", fmt::format("there is no {}: no map is shown", yaml.string()));
     if (!is_trail) {

@@ -68,16 +68,13 @@ class Mapping final : public PlaceFinder {
     return poses;
   }
 
-  // Under another name first: whoever reads it, or a loss of power, finds a whole file.
   void save(const RoadwayMap* map) override {
     if (file_.empty() || last_.keyframes == 0) return;
     std::uint64_t bytes = 0;
     require_ok(pose_wall_planar_slam_save_bytes(slam_, &bytes), translatable("the trail"));
     std::string saved(static_cast<std::size_t>(bytes), '\0');
     require_ok(pose_wall_planar_slam_save(slam_, saved.data(), saved.size(), &bytes), translatable("the trail"));
-    const std::filesystem::path part = file_.string() + ".part";
-    write_whole_file(part, saved);
-    std::filesystem::rename(part, file_);
+    write_whole_file(file_, saved);
     if (map != nullptr) write_map_files(file_.parent_path() / "map.yaml", map->grid());
     log_line(Grade::kGood, "planar", fmt::format("saved {} keyframes in {}", last_.keyframes, file_.string()));
   }

@@ -14,6 +14,7 @@
 
 #include "config_file/key_table.hpp"
 #include "live/clocks.hpp"
+#include "planar/stop_reasons.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -33,13 +34,8 @@ double along_forward(const pose_wall_config& config, const double* step_m) {
 
 }  // namespace
 
-std::string stop_reason_names(std::uint32_t reasons) {
-  std::string names;
-  for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
-    if ((reasons >> bit & 1U) != 0)
-      names += (names.empty() ? "" : ", ") + std::string(pose_wall_planar_stop_reason_name(bit));
-  }
-  return names;
+std::string stop_reasons_text(std::uint32_t reasons) {
+  return fmt::format("{}", fmt::join(stop_reason_names(reasons), ", "));
 }
 
 StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell)
@@ -247,7 +243,7 @@ PartHealth StopGuard::health() const {
   health.grade = !is_stop ? Grade::kGood : is_stale ? Grade::kBad : Grade::kWarning;
   health.summary = !is_stop ? "permits driving" : is_stale ? "stops the machine: no frame comes" : "stops the machine";
   health.add("state", pose_wall_planar_stop_state_name(news.result.state));
-  health.add("reasons", stop_reason_names(news.result.reasons));
+  health.add("reasons", stop_reasons_text(news.result.reasons));
   health.add("allowed mm/s", fmt::format("{}", news.allowed_mm_s()));
   health.add("heartbeat", news.rounds);
   const std::lock_guard<std::mutex> locked(lock_);

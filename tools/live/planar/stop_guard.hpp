@@ -99,6 +99,6 @@ class StopGuard final : public StopBoard {
 };
 
 // "thing, nearing": names of the reasons.
-std::string stop_reason_names(std::uint32_t reasons);
+std::string stop_reasons_text(std::uint32_t reasons);
 
 }  // namespace pose_wall::tools::live

@@ -105,7 +105,7 @@ std::string PlanarMessages::stop_state(const StopNews& news) const {
   message.number(has_frame ? static_cast<double>(result.now_ns - result.stamp_ns) * 1e-9 : std::nan(""));
   message.number(result.allowed_speed_m_s);
   message.number(result.reasons);
-  message.text(stop_reason_names(result.reasons));
+  message.text(stop_reasons_text(result.reasons));
   message.number(has_frame ? result.time_to_contact_s : std::nan(""));
   for (const double number : {result.nearest_m[0], result.nearest_m[1], result.nearest_distance_m}) {
     message.number(has_frame ? number : std::nan(""));
