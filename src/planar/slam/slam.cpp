@@ -31,41 +31,12 @@ void Slam::open(const SlamSettings& settings) {
   near_.open();
   trail_.open();
   loops_.open();
-  pose_ = odometry_ = last_step_ = since_agreed_ = agreed_odometry_ = Pose2();
-  is_astray_ = is_full_ = false;
+  follower_.open(settings.odometry_m, settings.odometry_rad);
+  pose_ = Pose2();
+  is_full_ = false;
   rounds_left_ = solution_ = resumes_at_ = doubtful_ = 0;
   resumes_ = false;
-  has_odometry_ = false;
   scatter_ = 1.0;
-}
-
-Prior Slam::prior_of(const Pose2& from, const Pose2& step, double sigma_m, double sigma_rad) const {
-  Prior out{compose(from, step), Eigen::Matrix3d::Zero()};
-  const double length_m = std::sqrt(step.x_m * step.x_m + step.y_m * step.y_m);
-  sigma_m += settings_.odometry_m * length_m;
-  sigma_rad += settings_.odometry_rad * std::abs(step.yaw_rad);
-  const double place = 1.0 / (sigma_m * sigma_m);
-  out.information.diagonal() << place, place, 1.0 / (sigma_rad * sigma_rad);
-  return out;
-}
-
-// Where the machine may be now. Odometry may stall and then make up for it in one step: so also its way since it last
-// agreed with the scans, and the last step once more.
-std::uint32_t Slam::predict(const Pose2* odometry, Prediction* predictions) const {
-  constexpr double kStep_m = 0.01, kStep_rad = 0.01, kInertia_m = 0.1, kInertia_rad = 0.1;
-  // Halves of squared distances: how unlikely it is that each of them is the one to follow.
-  constexpr double kStalled = 3.0, kWrong = 6.0;
-  std::uint32_t count = 0;
-  if (odometry != nullptr && has_odometry_) {
-    predictions[count++] = {prior_of(pose_, between(odometry_, *odometry), kStep_m, kStep_rad), 0.0};
-    if (is_astray_) {
-      predictions[count++] = {
-          prior_of(compose(pose_, inverse(since_agreed_)), between(agreed_odometry_, *odometry), kStep_m, kStep_rad),
-          kStalled};
-    }
-  }
-  predictions[count] = {prior_of(pose_, last_step_, kInertia_m, kInertia_rad), count > 0 ? kWrong : 0.0};
-  return count + 1;
 }
 
 // Range noise and what the surfaces scatter beyond it: a scan of a cloud cuts rough walls at many heights.
@@ -79,63 +50,6 @@ void Slam::learn_scatter(const Refined& placed) {
   constexpr double kExplained = 0.92, kGain = 0.2, kMost = 3.0;
   if (placed.is_valid)
     scatter_ = std::min(kMost, std::max(1.0, scatter_ * (1.0 + kGain * (kExplained - placed.explained))));
-}
-
-// The match that scan and predictions together like best. Where the scan is not explained even then, the best place
-// that the machine can have reached joins in.
-Refined Slam::place(Span<const ScanPoint> points, const BeamScan& scan, const Prediction* predictions,
-                    std::uint32_t count) const {
-  constexpr double kGood = 0.9;
-  constexpr double kFar_m = 0.6, kFar_rad = 0.6, kAnywhere = 12.0;
-  constexpr std::uint32_t kNodes = 128;
-  const auto cost_of = [&](const Refined& match) {
-    double unlikely = kAnywhere;
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const Prior& prior = predictions[k].prior;
-      const Eigen::Vector3d off(match.pose.x_m - prior.pose.x_m, match.pose.y_m - prior.pose.y_m,
-                                wrapped(match.pose.yaw_rad - prior.pose.yaw_rad));
-      unlikely = std::min(unlikely, predictions[k].unlikely + 0.5 * off.dot(prior.information * off));
-    }
-    return 0.5 * match.misfit / kAlike + unlikely;
-  };
-  Refined best;
-  double least = 0.0;
-  const auto offer = [&](const Pose2& start, const Prior& prior) {
-    const Refined match = matcher_.refine(points, near_, start, prior, noise_m(scan));
-    const double cost = cost_of(match);
-    if (!match.is_valid || (best.is_valid && cost >= least)) return;
-    best = match;
-    least = cost;
-  };
-  for (std::uint32_t k = 0; k < count; ++k) {
-    offer(predictions[k].prior.pose, predictions[k].prior);
-    if (best.is_valid && best.explained > kGood) return best;
-  }
-  const Prior around = best.is_valid ? Prior{best.pose, Eigen::Matrix3d::Zero()} : predictions[0].prior;
-  const Found found = matcher_.search(points, near_, {around.pose, kFar_m, kFar_rad, kNodes});
-  Prior loose{around.pose, Eigen::Matrix3d::Zero()};
-  loose.information.diagonal() << 1.0 / (kFar_m * kFar_m), 1.0 / (kFar_m * kFar_m), 1.0 / (kFar_rad * kFar_rad);
-  offer(found.pose, loose);
-  if (!best.is_valid) best.pose = predictions[0].prior.pose;
-  return best;
-}
-
-void Slam::follow(const Pose2& pose, const Pose2* odometry, const Prediction& first) {
-  const Eigen::Vector3d off(pose.x_m - first.prior.pose.x_m, pose.y_m - first.prior.pose.y_m,
-                            wrapped(pose.yaw_rad - first.prior.pose.yaw_rad));
-  constexpr double kAgrees = 11.3;  // 99 % of a chi-square of three
-  const bool agrees = off.dot(first.prior.information * off) < kAgrees;
-  const bool stood_still =
-      odometry != nullptr && has_odometry_ &&
-      between(odometry_, *odometry).place().squaredNorm() + std::abs(wrapped(odometry->yaw_rad - odometry_.yaw_rad)) ==
-          0.0;
-  last_step_ = between(pose_, pose);
-  since_agreed_ = compose(since_agreed_, last_step_);
-  pose_ = pose;
-  is_astray_ = odometry == nullptr || (is_astray_ ? !agrees || stood_still : !agrees);
-  if (is_astray_ || odometry == nullptr) return;
-  since_agreed_ = Pose2();
-  agreed_odometry_ = *odometry;
 }
 
 // A scan that fits badly may stand wrong, and would spoil the map: the next may fit better.
@@ -155,17 +69,15 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
   Prior prior;
   Refined placed;
   if (trail_.size() > 0) {
-    Prediction predictions[kPredictionsMost];
-    const std::uint32_t count = predict(odometry, predictions);
-    placed = place(points, scan, predictions, count);
-    follow(placed.pose, odometry, predictions[0]);
+    const ScanFollower::Followed followed = follower_.follow(pose_, points, near_, noise_m(scan), odometry, matcher_);
+    placed = followed.match;
+    prior = followed.prior;
+    pose_ = placed.pose;
     if (!placed.is_valid || placed.explained < kTrusted) ++doubtful_;
     learn_scatter(placed);
-    prior = predictions[0].prior;
+  } else {
+    follower_.see_first(odometry);
   }
-  if (odometry != nullptr) odometry_ = *odometry;
-  if (trail_.size() == 0 && odometry != nullptr) agreed_odometry_ = *odometry;
-  has_odometry_ = odometry != nullptr;
   step.is_valid = placed.is_valid;
   step.explained = placed.explained;
   step.rms_m = placed.rms_m;
@@ -222,8 +134,8 @@ void Slam::tie_to_saved(const Eigen::Matrix3d& information) {
 void Slam::resume(const Pose2& base) {
   loops_.adopt(trail_);
   pose_ = base;
-  last_step_ = since_agreed_ = Pose2();
-  has_odometry_ = is_astray_ = is_full_ = false;
+  follower_.begin();
+  is_full_ = false;
   rounds_left_ = 0;
   ++solution_;
   resumes_ = trail_.size() > 0;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "planar/match/scan_follower.hpp"
 #include "planar/slam/loops.hpp"
 
 namespace pose_wall::planar {
@@ -46,17 +47,6 @@ class Slam {
   const Loops& loops() const { return loops_; }
 
  private:
-  static constexpr std::uint32_t kPredictionsMost = 3;
-  struct Prediction {
-    Prior prior;
-    double unlikely = 0.0;
-  };
-
-  Prior prior_of(const Pose2& from, const Pose2& step, double sigma_m, double sigma_rad) const;
-  std::uint32_t predict(const Pose2* odometry, Prediction* predictions) const;
-  Refined place(Span<const ScanPoint> points, const BeamScan& scan, const Prediction* predictions,
-                std::uint32_t count) const;
-  void follow(const Pose2& pose, const Pose2* odometry, const Prediction& first);
   double noise_m(const BeamScan& scan) const;
   void learn_scatter(const Refined& placed);
   bool is_due(const Refined& placed) const;
@@ -76,15 +66,14 @@ class Slam {
   SurfaceMap near_;
   Span<Beam> beams_;
   Span<ScanPoint> scan_points_;
-  Pose2 pose_, odometry_, last_step_;
-  Pose2 since_agreed_;          // how the machine moved since odometry last agreed with a scan
-  Pose2 agreed_odometry_;       // what it said then
+  ScanFollower follower_;
+  Pose2 pose_;
   double scatter_ = 1.0;        // of points about surfaces, in range noises
   std::uint32_t doubtful_ = 0;  // scans since the last keyframe that fitted badly
   std::uint32_t rounds_left_ = 0, solution_ = 0;
   std::uint32_t resumes_at_ = 0;  // the keyframe that the machine stands near after that
   bool resumes_ = false;
-  bool has_odometry_ = false, is_astray_ = false, is_full_ = false;
+  bool is_full_ = false;
 };
 
 }  // namespace pose_wall::planar
