@@ -61,6 +61,67 @@ TEST(LocaliseRestart, BeingCarriedAwayIsNoticed) {
   EXPECT_TRUE(carried.found);
 }
 
+TEST(LocaliseRestart, OdometryThatStallsAndLeapsDoesNotDragAPlaceAlongRock) {
+  int scans = 0, unique = 0;
+  std::uint32_t lost = 0;
+  for (const int kind : {0, 1}) {
+    const World world(kind, 720 + static_cast<std::uint64_t>(kind));
+    for (std::uint64_t k = 0; k < 12; ++k) {
+      const Restart restart = world.draw_restart(k);
+      if (!restart.is_mapped) continue;
+      const World::FaultyDrive drive = world.drive_with_faulty_odometry(restart, 0.25);
+      EXPECT_EQ(drive.wrong, 0);
+      scans += drive.scans;
+      unique += drive.unique;
+      lost += drive.lost;
+    }
+  }
+  EXPECT_GE(scans, 100);
+  EXPECT_GE(unique, scans * 95 / 100);
+  EXPECT_EQ(lost, 0U);
+}
+
+// Found by pose_wall_planar_localise_trial --faulty-odometry: by odometry alone these went 0.8 and 1.3 m astray.
+TEST(LocaliseRestart, OdometryThatStallsAndLeapsIsDoubtedBetweenSmoothWalls) {
+  constexpr std::uint64_t kSeed = 500008;
+  const World world(2, kSeed, World::lengths(kSeed), 768, false, false);
+  const World::FaultyDrive slow = world.drive_with_faulty_odometry(world.draw_restart(7), 0.1);
+  const World::FaultyDrive fast = world.drive_with_faulty_odometry(world.draw_restart(20), 0.25);
+  EXPECT_EQ(slow.wrong + fast.wrong, 0);
+  EXPECT_GE(slow.unique + fast.unique, (slow.scans + fast.scans) * 7 / 10);
+}
+
+// A search takes metres of driving. Its candidates stand where the machine is when it ends, and move on with it, also
+// while the next search is under way.
+TEST(LocaliseRestart, CandidatesMoveOnWithTheMachine) {
+  const World world(5, 700);  // twin roads: several places fit
+  Localiser& own = world.localiser();
+  std::vector<float> ranges;
+  int compared = 0;
+  for (std::uint64_t k = 0; k < 12; ++k) {
+    const Restart restart = world.draw_restart(k);
+    if (!restart.is_mapped) continue;
+    own.forget();
+    own.set_work(20000);
+    for (int scan_number = 0; scan_number < 40; ++scan_number) {
+      const sim::PlanePose at = world.pose_at(restart, 0.12 * scan_number);
+      const pose_wall_planar_scan scan =
+          world.scan_at(at, restart.things, 64 * k + static_cast<std::uint64_t>(scan_number), &ranges);
+      own.process(read_beams(scan, own.beams()), nullptr);
+      if (own.is_tracking() || own.searches() == 0 || own.verdict().finding != Finding::ambiguous) continue;
+      double nearest_m = 1e9;
+      for (std::uint32_t c = 0; c < own.verdict().count; ++c) {
+        const Pose2 candidate = own.now(own.verdict().candidates[c].pose);
+        nearest_m = std::min(nearest_m, between(world.in_map({at.x_m, at.y_m, at.yaw_rad}), candidate).place().norm());
+      }
+      EXPECT_LT(nearest_m, 0.3) << "restart " << k << ", scan " << scan_number;
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 40);
+  own.set_work(1U << 30);
+}
+
 // One corridor with plain walls and no ends in sight: every place of it, both ways.
 TEST(LocaliseRestart, APlainCorridorStaysAmbiguous) {
   LocaliseSettings settings;

@@ -309,6 +309,73 @@ class World {
     return out;
   }
 
+  // Odometry as slipping tracks and late counters make it: it stalls for some scans, and then makes up for them at
+  // once, or never; or it leaps.
+  class FaultyOdometry {
+   public:
+    explicit FaultyOdometry(std::uint64_t seed) : random_(seed, 11) {}
+
+    const Pose2& after(const Pose2& step) {
+      constexpr double kStalls = 0.08, kMakesUp = 0.5, kLeaps = 0.02;
+      constexpr int kScansMost = 8;
+      owed_ = compose(owed_, step);
+      if (stalled_ == 0 && random_.chance(kStalls)) stalled_ = 1 + static_cast<int>(random_.uniform() * kScansMost);
+      if (stalled_ > 0) {
+        if (--stalled_ == 0 && !random_.chance(kMakesUp)) owed_ = Pose2();
+        return pose_;
+      }
+      if (random_.chance(kLeaps)) owed_ = compose(owed_, {random_.uniform(-1.0, 1.0), 0.0, random_.uniform(-0.3, 0.3)});
+      pose_ = compose(pose_, owed_);
+      owed_ = Pose2();
+      return pose_;
+    }
+
+   private:
+    sim::Random random_;
+    Pose2 pose_, owed_;
+    int stalled_ = 0;
+  };
+
+  struct FaultyDrive {
+    int scans = 0, unique = 0, wrong = 0;
+    long tracked = 0, beyond = 0;  // scans with a pose, and with an error beyond three of its standard deviations
+    double worst_m = 0.0;          // of unique scans
+    std::uint32_t lost = 0;
+  };
+  // Drives 5 m from a place that is known, by steps of `step_m`.
+  FaultyDrive drive_with_faulty_odometry(const Restart& restart, double step_m) const {
+    Localiser& own = *localiser_;
+    FaultyDrive out;
+    FaultyOdometry faulty(restart.seed);
+    std::vector<float> ranges;
+    sim::PlanePose last = pose_at(restart, 0.0);
+    own.place(in_map({last.x_m, last.y_m, last.yaw_rad}), 0.2, 0.1);
+    const std::uint32_t lost = own.lost();
+    for (double driven_m = 0.0; driven_m < 5.0; driven_m += step_m, ++out.scans) {
+      const sim::PlanePose at = pose_at(restart, driven_m);
+      const Pose2& odometry = faulty.after(between({last.x_m, last.y_m, last.yaw_rad}, {at.x_m, at.y_m, at.yaw_rad}));
+      last = at;
+      const pose_wall_planar_scan scan =
+          scan_at(at, restart.things, restart.seed * 64 + static_cast<std::uint64_t>(out.scans), &ranges);
+      const Where where = own.process(read_beams(scan, own.beams()), &odometry);
+      if (!own.is_tracking()) continue;
+      const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
+      const double variance = own.tracker().covariance()(0, 0) + own.tracker().covariance()(1, 1);
+      ++out.tracked;
+      if (off.place().squaredNorm() > 9.0 * variance) ++out.beyond;
+      if (std::getenv("WHY") != nullptr)
+        std::printf("  %.2f m state %u off %.2f m %.3f rad sigma %.2f slide %.1f fits %.2f\n", driven_m,
+                    static_cast<unsigned>(where), off.place().norm(), off.yaw_rad, std::sqrt(variance),
+                    own.tracker().slide_m(), own.tracker().verdict().fits);
+      if (where != Where::unique) continue;
+      ++out.unique;
+      out.worst_m = std::max(out.worst_m, off.place().norm());
+      if (!(off.place().norm() < 0.5 && std::abs(off.yaw_rad) < 0.1)) ++out.wrong;
+    }
+    out.lost = own.lost() - lost;
+    return out;
+  }
+
   struct Kidnapping {
     bool was_tracked = false, noticed = false, found = false, wrong = false;
     int scans = 0;  // until it was noticed
@@ -358,6 +425,17 @@ class World {
         all.size() > 0 ? all[0].verdict.cost / std::max(1U, all[0].verdict.judged) : 0.0, best.fits, best.seen,
         best.patches, best.explained, best.rms_m, best.through, best.slide_m, best.rival, best.relief, nearest_m,
         nearest_cost, nearest_fits, own.search().is_whole());
+  }
+
+  // Where the map has a true pose: by the nearest keyframe that looked from there.
+  Pose2 in_map(const Pose2& truth) const {
+    if (in_map_.empty()) return truth;
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < in_map_.size(); ++k) {
+      const auto apart = [&](std::size_t i) { return (in_map_[i].first.place() - truth.place()).squaredNorm(); };
+      if (apart(k) < apart(nearest)) nearest = k;
+    }
+    return compose(in_map_[nearest].second, between(in_map_[nearest].first, truth));
   }
 
  private:
@@ -437,17 +515,6 @@ class World {
       in_map_.push_back({truths[k], slam.trail().pose(k)});
     }
     localiser_->map().finish();
-  }
-
-  // Where the map has a true pose: by the nearest keyframe that looked from there.
-  Pose2 in_map(const Pose2& truth) const {
-    if (in_map_.empty()) return truth;
-    std::size_t nearest = 0;
-    for (std::size_t k = 1; k < in_map_.size(); ++k) {
-      const auto apart = [&](std::size_t i) { return (in_map_[i].first.place() - truth.place()).squaredNorm(); };
-      if (apart(k) < apart(nearest)) nearest = k;
-    }
-    return compose(in_map_[nearest].second, between(in_map_[nearest].first, truth));
   }
 
   std::uint64_t random_seed_;

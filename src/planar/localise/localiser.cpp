@@ -33,9 +33,9 @@ void Localiser::lay_out(Arena& arena, const LocaliseSettings& settings) {
 void Localiser::open(const LocaliseSettings& settings) {
   settings_ = settings;
   map_.open();
-  recent_.open();
+  recent_.open(settings.odometry_m, settings.odometry_rad);
   search_.open();
-  tracker_.open({settings.odometry_m, settings.odometry_rad});
+  tracker_.open(settings.odometry_m, settings.odometry_rad);
   searches_ = lost_ = 0;
   forget();
 }
@@ -44,7 +44,7 @@ void Localiser::forget() {
   recent_.clear();
   search_.open();
   verdict_ = Verdict();
-  looked_from_ = Pose2();
+  looked_from_ = judged_from_ = Pose2();
   looked_at_m_ = looked_at_rad_ = 0.0;
   is_tracking_ = has_looked_ = false;
   scans_since_look_ = 0;
@@ -94,6 +94,7 @@ Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, cons
   }
   if (!search_.is_under_way() || !search_.go_on(map_, look_, settings_.work)) return where_;
   ++searches_;
+  judged_from_ = looked_from_;
   judge(map_, look_, search_, settings_.map_is_whole, walls_, &verdict_);
   if (verdict_.finding == Finding::unknown) return Where::unknown;
   if (verdict_.finding == Finding::ambiguous) return Where::ambiguous;

@@ -46,8 +46,8 @@ class Localiser {
   bool is_tracking() const { return is_tracking_; }
   const Verdict& verdict() const { return verdict_; }
   const PlaceSearch& search() const { return search_; }
-  // Where a candidate's place has moved to since the look was taken.
-  Pose2 now(const Pose2& at_look) const { return compose(at_look, between(looked_from_, recent_.pose())); }
+  // Where a candidate of the verdict stands now; the next search may be under way.
+  Pose2 now(const Pose2& at_look) const { return compose(at_look, between(judged_from_, recent_.pose())); }
   std::uint32_t searches() const { return searches_; }
   std::uint32_t lost() const { return lost_; }
 
@@ -69,7 +69,7 @@ class Localiser {
   Span<ScanPoint> scan_points_;
   Span<PatchCosts> room_;
   Span<PatchWall> walls_;
-  Pose2 looked_from_;
+  Pose2 looked_from_, judged_from_;  // of the search under way, and of the verdict
   double looked_at_m_ = 0.0, looked_at_rad_ = 0.0;
   Where where_ = Where::searching;
   Why tracking_ = Why::none;  // of the tracked place

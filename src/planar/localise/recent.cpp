@@ -28,16 +28,17 @@ void Recent::lay_out(Arena& arena) {
   points_ = arena.take<ScanPoint>(kKeyframesMost * kMatchPointsMost);
 }
 
-void Recent::open() {
+void Recent::open(double odometry_m, double odometry_rad) {
   near_.open();
+  follower_.open(odometry_m, odometry_rad);
   clear();
 }
 
 void Recent::clear() {
   first_ = count_ = 0;
-  pose_ = last_step_ = odometry_ = Pose2();
+  follower_.begin();
+  pose_ = Pose2();
   travel_m_ = turned_rad_ = 0.0;
-  has_odometry_ = false;
 }
 
 Span<const ScanPoint> Recent::points_of(std::uint32_t k) const {
@@ -49,43 +50,22 @@ double Recent::look_back_m() const {
   return count_ > 0 ? std::min(kLookBack_m, travel_m_ - kept(0).travel_m) : 0.0;
 }
 
-Refined Recent::match(Span<const ScanPoint> points, const BeamScan& scan, const Prior& prior,
-                      const Matcher& matcher) const {
-  constexpr double kGood = 0.85, kFar_m = 0.6, kFar_rad = 0.6;
-  constexpr std::uint32_t kNodes = 128;
-  Refined near = matcher.refine(points, near_, prior.pose, prior, scan.sigma_m);
-  if (near.is_valid && near.explained > kGood) return near;
-  const Found found = matcher.search(points, near_, {prior.pose, kFar_m, kFar_rad, kNodes});
-  const Refined far =
-      matcher.refine(points, near_, found.pose, Prior{found.pose, Eigen::Matrix3d::Zero()}, scan.sigma_m);
-  return far.is_valid && (!near.is_valid || far.misfit < near.misfit) ? far : near;
-}
-
 bool Recent::follow(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry, const Matcher& matcher) {
   constexpr double kContinues = 0.5;
-  constexpr double kStep_m = 0.02, kStep_rad = 0.02, kShare_m = 0.1, kShare_rad = 0.3, kInertia_m = 0.15,
-                   kInertia_rad = 0.1;
   bool continues = true;
   if (count_ > 0) {
-    const bool knows = odometry != nullptr && has_odometry_;
-    const Pose2 step = knows ? between(odometry_, *odometry) : last_step_;
-    Prior prior{compose(pose_, step), Eigen::Matrix3d::Zero()};
-    const double sigma_m = knows ? kStep_m + kShare_m * length_of(step) : kInertia_m;
-    const double sigma_rad = knows ? kStep_rad + kShare_rad * std::abs(step.yaw_rad) : kInertia_rad;
-    prior.information.diagonal() << 1.0 / (sigma_m * sigma_m), 1.0 / (sigma_m * sigma_m), 1.0 / (sigma_rad * sigma_rad);
-    const Refined placed = match(points, scan, prior, matcher);
+    const Refined placed = follower_.follow(pose_, points, near_, scan.sigma_m, odometry, matcher).match;
     continues = placed.is_valid && placed.explained >= kContinues;
     if (continues) {
-      last_step_ = between(pose_, placed.pose);
+      const Pose2 step = between(pose_, placed.pose);
       pose_ = placed.pose;
-      travel_m_ += length_of(last_step_);
-      turned_rad_ += std::abs(last_step_.yaw_rad);
+      travel_m_ += length_of(step);
+      turned_rad_ += std::abs(step.yaw_rad);
     } else {
       clear();
     }
   }
-  has_odometry_ = odometry != nullptr;
-  if (odometry != nullptr) odometry_ = *odometry;
+  if (count_ == 0) follower_.see_first(odometry);
   keep(points);
   return continues;
 }

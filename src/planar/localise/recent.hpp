@@ -9,14 +9,15 @@
 #include <cstdint>
 
 #include "planar/localise/place_fit.hpp"
-#include "planar/match/matcher.hpp"
+#include "planar/match/scan_follower.hpp"
 
 namespace pose_wall::planar {
 
 class Recent {
  public:
   void lay_out(Arena& arena);
-  void open();
+  // Standard deviation of a step of odometry by its length and turn.
+  void open(double odometry_m, double odometry_rad);
   void clear();
   // False: the scan does not continue what was seen before. The frame then begins anew with it.
   bool follow(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry, const Matcher& matcher);
@@ -35,7 +36,6 @@ class Recent {
     std::uint32_t count;
   };
 
-  Refined match(Span<const ScanPoint> points, const BeamScan& scan, const Prior& prior, const Matcher& matcher) const;
   void keep(Span<const ScanPoint> points);
   void draw();
   const Kept& kept(std::uint32_t k) const { return kept_[(first_ + k) % kKeyframesMost]; }
@@ -44,10 +44,10 @@ class Recent {
   SurfaceMap near_;
   Span<Kept> kept_;
   Span<ScanPoint> points_;
-  Pose2 pose_, odometry_, last_step_;
+  ScanFollower follower_;
+  Pose2 pose_;
   std::uint32_t first_ = 0, count_ = 0;
   double travel_m_ = 0.0, turned_rad_ = 0.0;
-  bool has_odometry_ = false;
 };
 
 }  // namespace pose_wall::planar

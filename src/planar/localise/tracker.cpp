@@ -19,95 +19,125 @@ constexpr double kSlid_m = 0.4;
 
 }  // namespace
 
-void Tracker::open(const TrackRule& rule) {
-  rule_ = rule;
+Eigen::Vector3d Tracker::Belief::off(const Pose2& to) const {
+  return {to.x_m - pose.x_m, to.y_m - pose.y_m, wrapped(to.yaw_rad - pose.yaw_rad)};
+}
+
+double Tracker::Belief::squared_distance(const Pose2& to) const {
+  return off(to).dot(information * off(to));
+}
+
+void Tracker::open(double odometry_m, double odometry_rad) {
+  predictor_.open(odometry_m, odometry_rad);
   begin(Pose2(), 1.0, 1.0);
 }
 
 void Tracker::begin(const Pose2& pose, double sigma_m, double sigma_rad) {
+  predictor_.begin();
   pose_ = pose;
-  last_step_ = odometry_ = Pose2();
   covariance_.setZero();
   covariance_.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad;
   fit_ = Fit();
   verdict_ = PatchVerdict();
   slide_m_ = doubtful_m_ = 0.0;
   contradicted_ = 0;
-  has_odometry_ = has_step_ = false;
 }
 
-// Where base stands by odometry, or by its last step once more; the covariance grows.
-Pose2 Tracker::predict(const Pose2* odometry) {
-  constexpr double kStep_m = 0.01, kStep_rad = 0.01, kInertia_m = 0.3, kInertia_rad = 0.15;
-  const bool knows = odometry != nullptr && has_odometry_;
-  const Pose2 step = knows ? between(odometry_, *odometry) : last_step_;
-  const double sigma_m = knows ? kStep_m + rule_.odometry_m * step.place().norm() : kInertia_m;
-  const double sigma_rad = knows ? kStep_rad + rule_.odometry_rad * std::abs(step.yaw_rad) : kInertia_rad;
-  const Pose2 predicted = compose(pose_, step);
-  const Eigen::Vector2d moved = predicted.place() - pose_.place();
-  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
-  J(0, 2) = -moved.y();
-  J(1, 2) = moved.x();
-  covariance_ = (J * covariance_ * J.transpose()).eval();
-  covariance_.diagonal() += Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
-  has_step_ = knows;
-  has_odometry_ = odometry != nullptr;
-  if (odometry != nullptr) odometry_ = *odometry;
-  return predicted;
+// Where base may stand, each with the covariance that has grown by the step.
+Tracker::Beliefs Tracker::predict(const Pose2* odometry) const {
+  StepPredictor::Prediction predictions[StepPredictor::kMost];
+  Beliefs beliefs;
+  beliefs.count = predictor_.predict(pose_, odometry, predictions);
+  for (std::uint32_t k = 0; k < beliefs.count; ++k) {
+    const StepPredictor::Prediction& step = predictions[k];
+    const double step_m2 = step.sigma_m * step.sigma_m, step_rad2 = step.sigma_rad * step.sigma_rad;
+    Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+    J(0, 2) = pose_.y_m - step.pose.y_m;
+    J(1, 2) = step.pose.x_m - pose_.x_m;
+    Belief& belief = beliefs.all[k];
+    belief.pose = step.pose;
+    belief.covariance = J * covariance_ * J.transpose();
+    belief.covariance.diagonal() += Eigen::Vector3d(step_m2, step_m2, step_rad2);
+    belief.information = belief.covariance.inverse();
+    belief.unlikely = 2.0 * step.unlikely;
+    belief.is_odometry = step.is_odometry;
+  }
+  return beliefs;
 }
 
-// The fit that scan and prediction together like best. Where the scan is not explained, wider residuals find what is
-// near. Where the place is uncertain along the road, other starts along it join in.
-void Tracker::place(const PlaceMap& map, const Look& look, const Pose2& predicted, PatchCosts* room) {
-  const Eigen::Matrix3d weight = covariance_.inverse();
-  double least = 0.0;
-  const auto offer = [&](const Pose2& start, bool is_first) {
-    FitRule rule{look.sigma_m, kReach_m, 1, 8, predicted};
-    rule.weight = weight;
-    const Fit fit = fit_pose(map, look, start, rule);
-    const PatchVerdict verdict = judge_patches(map, look, fit.pose, &room[0]);
-    const Eigen::Vector3d off(fit.pose.x_m - predicted.x_m, fit.pose.y_m - predicted.y_m,
-                              wrapped(fit.pose.yaw_rad - predicted.yaw_rad));
-    const double cost = verdict.cost + off.dot(weight * off);
-    if (!is_first && !(cost < least)) return;
-    fit_ = fit;
-    verdict_ = verdict;
-    least = cost;
+const Tracker::Belief& Tracker::Beliefs::likeliest(const Pose2& at, double* unlikely) const {
+  const Belief* best = nullptr;
+  for (const Belief& one : *this) {
+    const double here = one.unlikely + one.squared_distance(at);
+    if (best != nullptr && !(here < *unlikely)) continue;
+    best = &one;
+    *unlikely = here;
+  }
+  return *best;
+}
+
+Tracker::Placed Tracker::fit_from(const PlaceMap& map, const Look& look, const Pose2& start, const Belief& belief,
+                                  const Beliefs& beliefs, PatchCosts* room) {
+  FitRule rule{look.sigma_m, kReach_m, 1, 8, belief.pose};
+  rule.weight = belief.information;
+  Placed out;
+  out.fit = fit_pose(map, look, start, rule);
+  out.verdict = judge_patches(map, look, out.fit.pose, &room[0]);
+  double unlikely = 0.0;
+  out.belief = &beliefs.likeliest(out.fit.pose, &unlikely);
+  out.cost = out.verdict.cost + unlikely;
+  return out;
+}
+
+// The fit that the scan and one of the beliefs together like best. Beliefs that the first one's fit contradicts are
+// tried, too. Where the place is uncertain along the road, other starts along it join in, and where the scan is not
+// explained, wider residuals, which find what is near.
+Tracker::Placed Tracker::place(const PlaceMap& map, const Look& look, const Beliefs& beliefs, PatchCosts* room) const {
+  Placed best = fit_from(map, look, beliefs.first().pose, beliefs.first(), beliefs, room);
+  const auto offer = [&](const Pose2& start, const Belief& belief) {
+    const Placed one = fit_from(map, look, start, belief, beliefs, room);
+    if (one.cost < best.cost) best = one;
   };
-  offer(predicted, true);
-  const Along along = uncertain_along();
+  const Along along = uncertain_along(beliefs.first().covariance);
   constexpr double kCertain_m = 0.12, kStep_m = 0.25;
   constexpr int kStepsMost = 6;
   for (int k = 1; k <= kStepsMost && along.sigma_m > kCertain_m && (k - 1) * kStep_m < 2.0 * along.sigma_m; ++k) {
     for (const double sign : {1.0, -1.0}) {
-      Pose2 start = predicted;
+      Pose2 start = beliefs.first().pose;
       start.x_m += sign * k * kStep_m * along.direction.x();
       start.y_m += sign * k * kStep_m * along.direction.y();
-      offer(start, false);
+      offer(start, beliefs.first());
     }
   }
-  if (verdict_.fits >= kFits) return;
+  for (const Belief& one : beliefs) {
+    if (&one != &beliefs.first() && !one.agrees(best.fit.pose)) offer(one.pose, one);
+  }
+  if (best.verdict.fits >= kFits) return best;
   constexpr double kWide_m = 0.2;
   for (const double turn_rad : {0.0, 0.1, -0.1}) {
-    Pose2 start = predicted;
+    Pose2 start = beliefs.first().pose;
     start.yaw_rad = wrapped(start.yaw_rad + turn_rad);
-    FitRule rule{kWide_m, PlaceMap::kReach_m, 4, 6, predicted};
-    rule.weight = weight;
-    offer(fit_pose(map, look, start, rule).pose, false);
+    FitRule rule{kWide_m, PlaceMap::kReach_m, 4, 6, beliefs.first().pose};
+    rule.weight = beliefs.first().information;
+    offer(fit_pose(map, look, start, rule).pose, beliefs.first());
   }
+  return best;
 }
 
 // The place's direction of most variance.
-Tracker::Along Tracker::uncertain_along() const {
-  const double xx = covariance_(0, 0), yy = covariance_(1, 1), xy = covariance_(0, 1);
+Tracker::Along Tracker::uncertain_along(const Eigen::Matrix3d& covariance) {
+  const double xx = covariance(0, 0), yy = covariance(1, 1), xy = covariance(0, 1);
   const double half = 0.5 * (xx - yy), root = std::sqrt(half * half + xy * xy);
   const double angle_rad = root > 0.0 ? 0.5 * arc_tangent2(xy, half) : 0.0;
   return {{cosine(angle_rad), sine(angle_rad)}, std::sqrt(0.5 * (xx + yy) + root)};
 }
 
 // What the fit tells joins what was known. Along a road that holds little, odometry is better than the fit; without it
-// the fit's place stays, as uncertain as it may slide: scans of the same walls err alike, and do not add up.
-void Tracker::update(const PlaceMap& map, const Look& look, const Pose2& predicted, PatchCosts* room) {
+// the fit's place stays, as uncertain as it may slide: scans of the same walls err alike, and do not add up. Where the
+// likeliest belief did not expect the place, or another one that the look does not exclude, the place may be wrong by
+// all of the way between, until a later scan has looked along it.
+void Tracker::update(const PlaceMap& map, const Look& look, const Beliefs& beliefs, const Belief& likeliest,
+                     PatchCosts* room) {
   constexpr double kExcluded = 2.5;  // standard errors: less than after a restart, for the place is known about
   const Slid slid = slide_of(map, look, fit_, kExcluded, room);
   slide_m_ = slid.reach_m;
@@ -119,8 +149,8 @@ void Tracker::update(const PlaceMap& map, const Look& look, const Pose2& predict
     const Eigen::Vector3d held = told * d;
     const double along = d.dot(held);
     if (along > 0.0) told -= held * held.transpose() / along;
-    if (known_m2 < slid.reach_m * slid.reach_m && has_step_) {
-      const double off_m = slid.direction.dot(fit_.pose.place() - predicted.place());
+    if (known_m2 < slid.reach_m * slid.reach_m && likeliest.is_odometry) {
+      const double off_m = slid.direction.dot(fit_.pose.place() - likeliest.pose.place());
       fit_.pose.x_m -= off_m * slid.direction.x();
       fit_.pose.y_m -= off_m * slid.direction.y();
     }
@@ -135,6 +165,16 @@ void Tracker::update(const PlaceMap& map, const Look& look, const Pose2& predict
   // The map itself is no better than this.
   constexpr double kMap_m = 0.01, kMap_rad = 0.001;
   covariance_.diagonal() += Eigen::Vector3d(kMap_m * kMap_m, kMap_m * kMap_m, kMap_rad * kMap_rad);
+  for (const Belief& one : beliefs) {
+    if (one.agrees(fit_.pose)) continue;
+    const Eigen::Vector3d off = one.off(fit_.pose);
+    const double along_m = d.dot(off);
+    if (&one == &likeliest) {
+      covariance_ += off * off.transpose();
+    } else if (slides && std::abs(along_m) <= slid.reach_m) {
+      covariance_ += along_m * along_m * d * d.transpose();
+    }
+  }
 }
 
 Track Tracker::judge(double step_m) {
@@ -158,28 +198,34 @@ Track Tracker::judge(double step_m) {
 }
 
 Track Tracker::confirm(const PlaceMap& map, const Look& look, const Pose2* odometry, PatchCosts* room) {
-  has_odometry_ = odometry != nullptr;
-  if (odometry != nullptr) odometry_ = *odometry;
-  return follow_to(map, look, pose_, room);
+  Beliefs here;
+  here.all[here.count++] = {pose_, covariance_, covariance_.inverse()};
+  return follow_to(map, look, odometry, here, room);
 }
 
 Track Tracker::follow(const PlaceMap& map, const Look& look, const Pose2* odometry, PatchCosts* room) {
-  return follow_to(map, look, predict(odometry), room);
+  return follow_to(map, look, odometry, predict(odometry), room);
 }
 
-Track Tracker::follow_to(const PlaceMap& map, const Look& look, const Pose2& predicted, PatchCosts* room) {
+Track Tracker::follow_to(const PlaceMap& map, const Look& look, const Pose2* odometry, const Beliefs& beliefs,
+                         PatchCosts* room) {
   const Pose2 before = pose_;
-  place(map, look, predicted, room);
-  const Track track = judge(between(before, predicted).place().norm());
+  const Placed placed = place(map, look, beliefs, room);
+  const Belief& likeliest = *placed.belief;
+  fit_ = placed.fit;
+  verdict_ = placed.verdict;
+  const bool agrees = beliefs.first().agrees(fit_.pose);
+  covariance_ = likeliest.covariance;
+  const Track track = judge(between(before, likeliest.pose).place().norm());
   if (track == Track::tracked || track == Track::doubtful) {
-    update(map, look, predicted, room);
+    update(map, look, beliefs, likeliest, room);
     pose_ = fit_.pose;
   } else {
-    pose_ = predicted;
+    pose_ = likeliest.pose;
   }
-  last_step_ = between(before, pose_);
+  predictor_.follow(before, pose_, odometry, agrees);
   constexpr double kPlaced_m = 0.2;  // a place that is less certain is not one place
-  return track == Track::tracked && !(uncertain_along().sigma_m < kPlaced_m) ? Track::loose : track;
+  return track == Track::tracked && !(uncertain_along(covariance_).sigma_m < kPlaced_m) ? Track::loose : track;
 }
 
 }  // namespace pose_wall::planar

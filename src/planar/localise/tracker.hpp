@@ -8,19 +8,17 @@
 #include <cstdint>
 
 #include "planar/localise/place_fit.hpp"
+#include "planar/step_predictor.hpp"
 
 namespace pose_wall::planar {
 
 // loose: the scan fits, but the place is not certain along the road.
 enum class Track : std::uint32_t { tracked, loose, doubtful, blind, contradicted, lost };
 
-struct TrackRule {
-  double odometry_m = 0.1, odometry_rad = 0.3;  // standard deviation of a step by its length and turn
-};
-
 class Tracker {
  public:
-  void open(const TrackRule& rule);
+  // Standard deviation of a step of odometry by its length and turn.
+  void open(double odometry_m, double odometry_rad);
   // Base stands here; standard deviations of what is known.
   void begin(const Pose2& pose, double sigma_m, double sigma_rad);
   // One scan, in `look` from where base stands. odometry may be nullptr. `room` for two.
@@ -41,21 +39,52 @@ class Tracker {
     double sigma_m;
   };
 
-  Track follow_to(const PlaceMap& map, const Look& look, const Pose2& predicted, PatchCosts* room);
-  Along uncertain_along() const;
-  Pose2 predict(const Pose2* odometry);
-  void place(const PlaceMap& map, const Look& look, const Pose2& predicted, PatchCosts* room);
-  void update(const PlaceMap& map, const Look& look, const Pose2& predicted, PatchCosts* room);
+  // What is known before the scan, if the machine moved as this prediction says.
+  struct Belief {
+    Pose2 pose;
+    Eigen::Matrix3d covariance, information;
+    double unlikely = 0.0;  // a squared distance
+    bool is_odometry = false;
+
+    Eigen::Vector3d off(const Pose2& to) const;
+    double squared_distance(const Pose2& to) const;
+    bool agrees(const Pose2& to) const { return squared_distance(to) < StepPredictor::kAgrees; }
+  };
+
+  struct Beliefs {
+    Belief all[StepPredictor::kMost];  // the likeliest before the scan first
+    std::uint32_t count = 0;
+
+    const Belief* begin() const { return all; }
+    const Belief* end() const { return all + count; }
+    const Belief& first() const { return all[0]; }
+    // Of a place, and how unlikely it makes it.
+    const Belief& likeliest(const Pose2& at, double* unlikely) const;
+  };
+  struct Placed {
+    Fit fit;
+    PatchVerdict verdict;
+    const Belief* belief = nullptr;  // the likeliest one
+    double cost = 0.0;               // of patches and belief
+  };
+
+  static Along uncertain_along(const Eigen::Matrix3d& covariance);
+  Beliefs predict(const Pose2* odometry) const;
+  Track follow_to(const PlaceMap& map, const Look& look, const Pose2* odometry, const Beliefs& beliefs,
+                  PatchCosts* room);
+  static Placed fit_from(const PlaceMap& map, const Look& look, const Pose2& start, const Belief& belief,
+                         const Beliefs& beliefs, PatchCosts* room);
+  Placed place(const PlaceMap& map, const Look& look, const Beliefs& beliefs, PatchCosts* room) const;
+  void update(const PlaceMap& map, const Look& look, const Beliefs& beliefs, const Belief& likeliest, PatchCosts* room);
   Track judge(double step_m);
 
-  TrackRule rule_;
-  Pose2 pose_, last_step_, odometry_;
+  StepPredictor predictor_;
+  Pose2 pose_;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Identity();
   Fit fit_;
   PatchVerdict verdict_;
   double slide_m_ = 0.0, doubtful_m_ = 0.0;
   std::uint32_t contradicted_ = 0;
-  bool has_odometry_ = false, has_step_ = false;
 };
 
 }  // namespace pose_wall::planar

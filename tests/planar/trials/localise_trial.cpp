@@ -3,6 +3,7 @@
 //
 // Restarts in simulated networks of roads: how often is the place unique, ambiguous or unknown, and is unique right?
 // usage: pose_wall_planar_localise_trial [--places N] [--seed S] [--kind K] [--per-network N] [--verbose]
+//        [--kidnap | --faulty-odometry | --cost]
 
 #include <algorithm>
 #include <chrono>
@@ -23,7 +24,7 @@ using namespace pose_wall::planar::test;
 struct Options {
   int places = 200, per_network = 25, kind = -1, network = -1, restart = -1;
   std::uint64_t seed = 1;
-  bool verbose = false, kidnap = false, cost = false, slam = false, whole = false;
+  bool verbose = false, kidnap = false, faulty = false, cost = false, slam = false, whole = false;
 };
 
 Options options_of(int argc, char** argv) {
@@ -41,6 +42,7 @@ Options options_of(int argc, char** argv) {
     if (name == "--whole") out.whole = true;
     if (name == "--slam") out.slam = true;
     if (name == "--kidnap") out.kidnap = true;
+    if (name == "--faulty-odometry") out.faulty = true;
     if (name == "--verbose") out.verbose = true;
   }
   return out;
@@ -123,6 +125,44 @@ void kidnap(const Options& options) {
   }
 }
 
+// Drives from known places while odometry stalls and leaps: is a unique place right?
+void faulty(const Options& options) {
+  World::FaultyDrive of_kind[kKinds];
+  int drives[kKinds] = {}, done = 0;
+  for (std::uint64_t network = 0; done < options.places; ++network) {
+    const int kind = options.kind >= 0 ? options.kind : static_cast<int>(network % kKinds);
+    const std::uint64_t seed = options.seed * 100000 + network;
+    const World world(kind, seed, World::lengths(seed), 768, options.slam, options.whole);
+    for (int k = 0; k < options.per_network && done < options.places; ++k, ++done) {
+      const Restart restart = world.draw_restart(static_cast<std::uint64_t>(k));
+      if (!restart.is_mapped) continue;
+      constexpr double kSteps_m[] = {0.05, 0.1, 0.25};
+      const World::FaultyDrive one = world.drive_with_faulty_odometry(restart, kSteps_m[k % 3]);
+      if (one.wrong > 0)
+        std::printf("WRONG kind %s network %llu restart %d: %d of %d scans, %.2f m at worst\n", kind_name(kind),
+                    static_cast<unsigned long long>(seed), k, one.wrong, one.scans, one.worst_m);
+      World::FaultyDrive& sum = of_kind[kind];
+      ++drives[kind];
+      sum.scans += one.scans;
+      sum.unique += one.unique;
+      sum.wrong += one.wrong;
+      sum.tracked += one.tracked;
+      sum.beyond += one.beyond;
+      sum.lost += one.lost;
+      sum.worst_m = std::max(sum.worst_m, one.worst_m);
+    }
+  }
+  for (int kind = 0; kind < kKinds; ++kind) {
+    const World::FaultyDrive& sum = of_kind[kind];
+    if (drives[kind] == 0) continue;
+    std::printf(
+        "%-14s %5d drives, %6d scans; unique %5.1f %%, of these wrong %d, worst %.2f m; beyond 3 sigma %ld of "
+        "%ld; lost %u\n",
+        kind_name(kind), drives[kind], sum.scans, 100.0 * sum.unique / sum.scans, sum.wrong, sum.worst_m, sum.beyond,
+        sum.tracked, sum.lost);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -133,6 +173,10 @@ int main(int argc, char** argv) {
   }
   if (options.kidnap) {
     kidnap(options);
+    return 0;
+  }
+  if (options.faulty) {
+    faulty(options);
     return 0;
   }
   std::vector<Counts> inside(kKinds), outside(kKinds);
