@@ -97,6 +97,8 @@ TEST(LocaliseVerb, WhatIsNotUniqueHasAReasonAndCandidates) {
   const Ran ran = command({"localise", room.map, room.log, "-o", room.folder.file("found"), "-s", "work=1000000000"});
   EXPECT_EQ(ran.exit_status, 3) << ran.printed;
   EXPECT_TRUE(contains(ran.printed, "candidates of the last answer")) << ran.printed;
+  EXPECT_TRUE(contains(ran.printed, "last place")) << ran.printed;
+  EXPECT_TRUE(contains(ran.errors, "one candidate is left")) << ran.errors;
   std::set<std::uint32_t> reasons;
   for (const LocalisedRow& row : room.rows("found")) {
     EXPECT_FALSE(row.is_unique()) << "smooth walls prove nothing where the map may lack a chamber like this one";
@@ -113,6 +115,7 @@ TEST(LocaliseVerb, AGivenStartIsTrackedAtOnce) {
   const MappedChamber room;
   const Ran ran = command({"localise", room.map, room.log, "--start", "0.1,0.1,3", "-o", room.folder.file("found")});
   ASSERT_EQ(ran.exit_status, 0) << ran.errors << ran.printed;
+  EXPECT_TRUE(contains(ran.printed, "°, by ± 0.0")) << ran.printed;
   const std::vector<LocalisedRow> rows = room.rows("found");
   EXPECT_FALSE(rows.front().is_restart);
   for (const LocalisedRow& row : rows) EXPECT_TRUE(row.has_pose()) << row.scan;
@@ -214,6 +217,7 @@ TEST(LocaliseVerb, FaultsOfUsage) {
       {{"localise", room.map, room.log, "-s", "map_is_hole=1"}, "did you mean 'map_is_whole'"},
       {{"localise", room.map, room.log, "-s", "map_is_whole=2"}, "map_is_whole must be 0 or 1"},
       {{"localise", room.map, room.log, "--start", "1,2"}, "x,y,yaw"},
+      {{"localise", room.map, room.log, "--start", "1200,3,90"}, "x 1200.00 m, y 3.00 m lies outside the map"},
       {{"localise", room.map, room.log, "--restart", "0"}, "0.5 to 1e+06"},
       {{"localise", room.map, room.log, "--truth", "none"}, "there is no file"},
       {{"localise", room.map, room.log, "--poses", room.log}, "this is an input"},

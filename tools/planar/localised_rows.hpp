@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "csv/csv_table.hpp"
+#include "planar/plane_pose.hpp"
 #include "planar/relations.hpp"
 #include "pose_wall_planar_localise.h"
 
@@ -36,6 +37,8 @@ struct LocalisedRow {
 
   bool is_unique() const { return state == POSE_WALL_PLANAR_LOCALISE_UNIQUE; }
   bool has_pose() const { return state >= POSE_WALL_PLANAR_LOCALISE_UNIQUE; }
+  // The larger standard deviation of the position; infinity without a pose.
+  double position_sigma_m() const { return larger_sigma_m(covariance[0], covariance[1], covariance[3]); }
   // As the library's own campaign counts it.
   bool is_wrong() const { return has_pose() && (error_m >= 0.5 || error_rad >= 0.1); }
 };

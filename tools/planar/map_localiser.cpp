@@ -75,9 +75,7 @@ pose_wall_planar_localise_settings take_localise_settings(std::vector<std::strin
 }
 
 double position_sigma_m(const pose_wall_planar_localise_result& where) {
-  const double xx = where.covariance[0], xy = where.covariance[1], yy = where.covariance[4];
-  const double variance = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
-  return variance >= 0.0 ? std::sqrt(variance) : std::numeric_limits<double>::infinity();
+  return larger_sigma_m(where.covariance[0], where.covariance[1], where.covariance[4]);
 }
 
 MapLocaliser::MapLocaliser(const KnownMap& map, const pose_wall_planar_localise_settings& settings) : block_(0) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,12 @@ inline double distance_m(const pose_wall_planar_pose& first, const pose_wall_pla
 inline std::string tum_line(std::string_view time, const pose_wall_planar_pose& pose) {
   return fmt::format("{} {:.6f} {:.6f} 0 0 0 {:.9f} {:.9f}\n", time, pose.x_m, pose.y_m, std::sin(0.5 * pose.yaw_rad),
                      std::cos(0.5 * pose.yaw_rad));
+}
+
+// Of a position with this covariance in its worst direction; infinity where that is not known.
+inline double larger_sigma_m(double xx_m2, double xy_m2, double yy_m2) {
+  const double variance_m2 = 0.5 * (xx_m2 + yy_m2) + std::hypot(0.5 * (xx_m2 - yy_m2), xy_m2);
+  return variance_m2 >= 0.0 ? std::sqrt(variance_m2) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace pose_wall::tools

@@ -61,20 +61,25 @@ struct LocaliseWork {
   bool used_odometry = false;
 };
 
-// Metres of the input, by its odometry; where it has none, by the poses that are found.
+// Metres of the input: by its odometry, and where two scans in a row have none, by the poses that are found.
 class InputTravel {
  public:
   void add(const std::optional<pose_wall_planar_pose>& odometry, const LocalisedRow& row) {
-    const std::optional<pose_wall_planar_pose> now = odometry         ? odometry
-                                                     : row.has_pose() ? std::optional<pose_wall_planar_pose>(row.base)
-                                                                      : std::nullopt;
-    if (now && last_) travelled_m_ += distance_m(*last_, *now);
+    const Places now{odometry, row.has_pose() ? std::optional<pose_wall_planar_pose>(row.base) : std::nullopt};
+    if (now.odometry && last_.odometry) {
+      travelled_m_ += distance_m(*last_.odometry, *now.odometry);
+    } else if (now.found && last_.found) {
+      travelled_m_ += distance_m(*last_.found, *now.found);
+    }
     last_ = now;
   }
   double m() const { return travelled_m_; }
 
  private:
-  std::optional<pose_wall_planar_pose> last_;
+  struct Places {
+    std::optional<pose_wall_planar_pose> odometry, found;  // in frames of their own
+  };
+  Places last_;
   double travelled_m_ = 0.0;
 };
 
@@ -170,12 +175,19 @@ std::string candidate_table(const std::vector<pose_wall_planar_candidate>& candi
   return table.text();
 }
 
+std::string last_place_text(const LocalisedRow& row) {
+  if (!row.has_pose()) return fmt::format("{}: {}", state_words(row.state), reason_words(row.reason));
+  return say("x {:.2f} m, y {:.2f} m, {:.1f}°, by ± {:.2f} m: {}", row.base.x_m, row.base.y_m,
+             row.base.yaw_rad * kDegPerRad, row.position_sigma_m(), state_words(row.state));
+}
+
 std::string summary_text(const KnownMap& map, const MapLocaliser& localiser, const LocaliseWork& work,
                          const LocaliseFigures& figures) {
   std::vector<NamedFigure> rows = named_figures(figures);
   rows.insert(rows.begin(), {tr("map"), map.trail ? say("{} keyframes, {:.1f} m of travel", map.trail->keyframes(),
                                                         map.trail->travel_m())
                                                   : tr("cells alone")});
+  rows.emplace_back(tr("last place"), last_place_text(work.way.rows.back()));
   rows.emplace_back(tr("odometry"), work.used_odometry ? tr("used") : tr("none"));
   rows.emplace_back(tr("processor time a scan, mean"), fmt::format("{:.2f} ms", localiser.mean_ms()));
   rows.emplace_back(tr("processor time a scan, worst"), fmt::format("{:.2f} ms", localiser.worst_ms()));
@@ -186,9 +198,16 @@ std::string summary_text(const KnownMap& map, const MapLocaliser& localiser, con
   return text;
 }
 
-std::vector<std::string> hints_of(const LocaliseFigures& figures, const KnownMap& map,
+std::vector<std::string> hints_of(const LocaliseFigures& figures, const KnownMap& map, const LocaliseWork& work,
                                   const pose_wall_planar_localise_settings& settings) {
   std::vector<std::string> hints;
+  if (work.way.candidates.size() == 1) {
+    const pose_wall_planar_pose& place = work.way.candidates.front().pose;
+    hints.push_back(
+        say("one candidate is left, and nothing proves it: {}. If you know that the machine stands there, "
+            "go on from it with --start={:.2f},{:.2f},{:.0f}",
+            reason_words(work.way.rows.back().reason), place.x_m, place.y_m, place.yaw_rad * kDegPerRad));
+  }
   if (figures.of_state[POSE_WALL_PLANAR_LOCALISE_AMBIGUOUS] > 0 && settings.map_is_whole == 0 &&
       figures.mostly[POSE_WALL_PLANAR_LOCALISE_AMBIGUOUS] == POSE_WALL_PLANAR_LOCALISE_SMOOTH) {
     hints.push_back(
@@ -199,6 +218,20 @@ std::vector<std::string> hints_of(const LocaliseFigures& figures, const KnownMap
     hints.push_back(tr("cells hold less of the rock's relief than the trail.pwt of pose_wall map -o"));
   }
   return hints;
+}
+
+// Somebody may mean another map, or millimetres.
+void require_inside(const KnownMap& map, const pose_wall_planar_pose& start) {
+  const pose_wall_planar_grid grid = map.cells.grid();
+  const double end_x_m = grid.origin_x_m + grid.width * grid.resolution_m;
+  const double end_y_m = grid.origin_y_m + grid.height * grid.resolution_m;
+  if (start.x_m >= grid.origin_x_m && start.x_m <= end_x_m && start.y_m >= grid.origin_y_m && start.y_m <= end_y_m) {
+    return;
+  }
+  throw std::invalid_argument(
+      say("--start: x {:.2f} m, y {:.2f} m lies outside the map, which reaches from x {:.1f} to "
+          "{:.1f} m and from y {:.1f} to {:.1f} m",
+          start.x_m, start.y_m, grid.origin_x_m, end_x_m, grid.origin_y_m, end_y_m));
 }
 
 void write_folder(const LocaliseOptions& options, const KnownMap& map, const LocaliseWork& work) {
@@ -216,7 +249,7 @@ void print_end(const LocaliseOptions& options, const KnownMap& map, const MapLoc
   const std::string between = options.frames.quiet ? "" : "\n";
   if (!options.frames.quiet) {
     fmt::print("{}", summary_text(map, localiser, work, figures));
-    for (const std::string& hint : hints_of(figures, map, settings)) {
+    for (const std::string& hint : hints_of(figures, map, work, settings)) {
       fmt::print(stderr, "pose_wall localise: {}\n", hint);
     }
   }
@@ -261,6 +294,7 @@ int localise_scans(LocaliseOptions options) {
   if (!options.start.empty()) start = pose_of_word(options.start, "--start");
   const std::unique_ptr<ScanSource> source = open_scans(options.frames, localise_setting_names());
   const KnownMap map = read_known_map(options.map);
+  if (start) require_inside(map, *start);
   std::vector<Relation> relations;
   if (!options.relations.empty()) relations = read_relations(options.relations);
   std::optional<TruePlaces> truth;
@@ -320,7 +354,7 @@ void add_localise(CLI::App& app, int& exit_code) {
   verb->footer(tr(
       "Examples:\n"
       "  pose_wall map -o aces --poses aces.tum aces.clf\n"
-      "  pose_wall localise aces aces.clf --restart 20 --truth aces.tum -o found -s map_is_whole=1\n"
+      "  pose_wall localise aces aces.clf --restart 60 --truth aces.tum -o found -s map_is_whole=1\n"
       "  pose_wall localise map -c road/pose_wall.yaml --start 12,3,90 road/frames\n"
       "INPUT is as for `map`.\n"
       "The answer to a scan is a state, a reason, and a pose only where there is one.\n"
