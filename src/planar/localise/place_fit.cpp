@@ -10,10 +10,6 @@
 namespace pose_wall::planar {
 namespace {
 
-Eigen::Vector2d as_double(const ScanPoint& point) {
-  return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
-}
-
 // Sums of one round: of H the upper half.
 struct Normal {
   double xx = 0.0, xy = 0.0, xt = 0.0, yy = 0.0, yt = 0.0, tt = 0.0;

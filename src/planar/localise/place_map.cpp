@@ -15,10 +15,6 @@ double middle_of(std::int32_t cell) {
   return (cell - PlaceMap::kAcross * PlaceMap::kTileCells / 2 + 0.5) * PlaceMap::kCell_m;
 }
 
-Eigen::Vector2d as_double(const ScanPoint& point) {
-  return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
-}
-
 }  // namespace
 
 void PlaceMap::lay_out(Arena& arena, std::uint32_t tiles_most) {

@@ -16,10 +16,6 @@ constexpr double kLeast = 0.62;       // of the most likely, that a seed needs: 
 constexpr double kSteps = 2500.0;     // of work that a seed takes at most
 constexpr double kPeakApart_rad = 0.15;
 
-Eigen::Vector2d as_double(const ScanPoint& point) {
-  return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
-}
-
 }  // namespace
 
 void PlaceSearch::lay_out(Arena& arena) {

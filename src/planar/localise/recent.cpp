@@ -12,10 +12,6 @@ namespace {
 constexpr double kKeyframe_m = 0.3, kKeyframe_rad = 0.25;
 constexpr double kLookBack_m = 8.0;
 
-Eigen::Vector2d as_double(const ScanPoint& point) {
-  return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
-}
-
 double length_of(const Pose2& step) {
   return step.place().norm();
 }

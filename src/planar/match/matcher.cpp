@@ -50,7 +50,7 @@ void Matcher::rotate(const Grid& grid, std::int32_t yaw) const {
   const Turn2 turn(grid.yaw_of(yaw));
   for (std::uint32_t k = 0; k < grid.points.size(); ++k) {
     const ScanPoint& point = grid.points[k];
-    const Eigen::Vector2d p = turn * Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m));
+    const Eigen::Vector2d p = turn * as_double(point);
     constexpr double kFar = 1e6;  // cells; far outside every window
     const auto cell = [](double place_m) {
       const double cells = std::floor(place_m / SurfaceMap::kCell_m);
@@ -268,8 +268,7 @@ Refined Matcher::refine(Span<const ScanPoint> points, const SurfaceMap& map, con
     const Turn2 turn(out.pose.yaw_rad);
     const Eigen::Vector2d place = out.pose.place() - map.middle_m();
     for (const ScanPoint& point : points) {
-      add_point(turn * Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)), place, map,
-                sigma_m * sigma_m, &normal);
+      add_point(turn * as_double(point), place, map, sigma_m * sigma_m, &normal);
     }
     const Eigen::Vector3d off(out.pose.x_m - prior.pose.x_m, out.pose.y_m - prior.pose.y_m,
                               wrapped(out.pose.yaw_rad - prior.pose.yaw_rad));
@@ -284,8 +283,7 @@ Refined Matcher::refine(Span<const ScanPoint> points, const SurfaceMap& map, con
   const Turn2 turn(out.pose.yaw_rad);
   const Eigen::Vector2d place = out.pose.place() - map.middle_m();
   for (const ScanPoint& point : points) {
-    out.misfit += misfit(turn * Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) + place,
-                         map, sigma_m * sigma_m);
+    out.misfit += misfit(turn * as_double(point) + place, map, sigma_m * sigma_m);
   }
   out.points = normal.inside;
   out.explained = normal.inside > 0 ? static_cast<double>(normal.explained) / normal.inside : 0.0;

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 
 #include "base/containers/span.hpp"
@@ -18,6 +19,10 @@ constexpr double kMatchSpacing_m = 0.05;  // along a surface: half a cell of sur
 struct ScanPoint {
   float x_m, y_m;  // in base
 };
+
+inline Eigen::Vector2d as_double(const ScanPoint& point) {
+  return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
+}
 
 // At most kMatchPointsMost points that are about spacing_m apart. Where more are needed, the spacing grows.
 Span<const ScanPoint> even_points(const BeamScan& scan, double spacing_m, Span<ScanPoint> room);

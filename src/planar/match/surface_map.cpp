@@ -90,8 +90,7 @@ void SurfaceMap::add(Span<const ScanPoint> points, const Pose2& pose, bool with_
   const Turn2 turn(pose.yaw_rad);
   const Eigen::Vector2d place = pose.place() - middle_m_;
   for (const ScanPoint& point : points) {
-    const Eigen::Vector2d p =
-        turn * Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) + place;
+    const Eigen::Vector2d p = turn * as_double(point) + place;
     constexpr double kHalf_m = kCell_m * (kSide / 2);
     if (!(p.x() > -kHalf_m && p.x() < kHalf_m && p.y() > -kHalf_m && p.y() < kHalf_m)) continue;
     const std::int32_t column = cell_of(p.x()), row = cell_of(p.y());

@@ -102,8 +102,7 @@ Span<const ScanPoint> Loops::group(const Trail& trail, std::uint32_t now, Trail:
     const Turn2 turn(in_now.yaw_rad);
     for (const ScanPoint& point : trail.points(k)) {
       if (seen++ % stride != 0 || count == group_.size()) continue;
-      const Eigen::Vector2d p =
-          turn * Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) + in_now.place();
+      const Eigen::Vector2d p = turn * as_double(point) + in_now.place();
       group_[count++] = {static_cast<float>(p.x()), static_cast<float>(p.y())};
     }
   }
@@ -127,8 +126,7 @@ double Loops::seen_through(const Trail& trail, std::uint32_t old, std::uint32_t 
     }
     const Turn2 turn(seen_in_viewer.yaw_rad);
     for (const ScanPoint& point : trail.points(seen)) {
-      const Eigen::Vector2d p = turn * Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) +
-                                seen_in_viewer.place();
+      const Eigen::Vector2d p = turn * as_double(point) + seen_in_viewer.place();
       const double range_m = p.norm();
       const auto sight_m = static_cast<double>(profile_[bearing_of(p.x(), p.y())]);
       constexpr double kTolerance_m = 0.3, kTolerance = 0.05;  // of the range: a wall met at a low angle
