@@ -44,7 +44,7 @@ class Mapping final : public PlaceFinder {
     file_.clear();
   }
 
-  void place(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry, RoadwayNews* news) override {
+  void find(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry, RoadwayNews* news) override {
     require_ok(pose_wall_planar_slam_process(slam_, &scan, odometry, &last_), translatable("the scan"));
     map_.add(scan, last_, slam_);
     news->state = pose_wall_planar_slam_state_name(last_.state);
