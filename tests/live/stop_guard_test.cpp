@@ -260,6 +260,16 @@ TEST_F(MeasuredStopTest, AMachineThatMayStandSetsOffAheadAndOneThatReversesDoesN
   EXPECT_LT(guard_->stop_now().result.nearest_m[0], 0.0) << "for what is behind";
 }
 
+TEST_F(MeasuredStopTest, MotionThatErrsTooMuchIsNoneAndTheHealthTellsByHowMuch) {
+  guard_->start();
+  drives_after(0.0, {}, 0.2, 0.09);
+  EXPECT_EQ(guard_->stop_now().result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING, 0U);
+  EXPECT_EQ(fact(guard_->health(), "speed errs by m/s"), "0.09");
+  drives_after(0.0, {}, 0.2, 0.22);
+  EXPECT_NE(guard_->stop_now().result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING, 0U);
+  EXPECT_EQ(fact(guard_->health(), "speed errs by m/s"), "0.22");
+}
+
 // Rays that end on the floor beyond the machine's edge: what lies between them and the machine is not seen.
 TEST_F(MeasuredStopTest, ALookCountsWhileFramesComeAndNotBefore) {
   Hall hall;

@@ -99,10 +99,11 @@ void StopGuard::confirm() {
 void StopGuard::note_motion(const LiveResult& result) {
   const pose_wall_motion_result& moved = result.publication.motion;
   std::optional<Measured> measured;
+  double speed_level_m_s = NAN;
   if (result.publication.has_motion != 0 && moved.along_state == POSE_WALL_ALONG_MEASURED && moved.step_s > 0.0) {
     const double speed_m_s = along_forward(result.config, moved.step_m) / moved.step_s;
     const double turn_rad_s = moved.step_rad[2] / moved.step_s;
-    const double speed_level_m_s = moved.step_protection_level[POSE_WALL_MOTION_ALONG] / moved.step_s;
+    speed_level_m_s = moved.step_protection_level[POSE_WALL_MOTION_ALONG] / moved.step_s;
     const double turn_level_rad_s = moved.step_protection_level[POSE_WALL_MOTION_YAW] / moved.step_s;
     // What errs by more than the stop reckons with is no measurement to it.
     const bool is_good = std::isfinite(speed_m_s) && std::isfinite(turn_rad_s) &&
@@ -112,6 +113,7 @@ void StopGuard::note_motion(const LiveResult& result) {
   }
   const std::lock_guard<std::mutex> locked(lock_);
   measured_ = measured;
+  speed_level_m_s_ = speed_level_m_s;
 }
 
 pose_wall_planar_stop_motion StopGuard::motion_now() const {
@@ -267,6 +269,8 @@ PartHealth StopGuard::health() const {
                    : is_stale           ? "stops the machine: frames come late, by their stamps"
                    : is_slow_           ? "stops the machine: frames come slower than planar_period"
                                         : "stops the machine";
+  // What is above the settings' error counts as none.
+  if (takes_motion_) health.add("speed errs by m/s", fmt::format("{:.2f}", speed_level_m_s_));
   health.add("frames answered", answered_);
   health.add("frames lost to slowness", lost_);
   health.add("frames refused", refused_);

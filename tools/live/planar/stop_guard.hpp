@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -94,6 +95,7 @@ class StopGuard final : public StopBoard {
   std::condition_variable changed_;
   std::optional<Job> waiting_;
   std::optional<Measured> measured_;
+  double speed_level_m_s_ = NAN;  // of the newest measured motion; NaN: there is none
   bool ending_ = false, confirmed_ = false;
   StopNews newest_;
   bool is_slow_ = false;          // the sensor
