@@ -136,7 +136,7 @@ class Words(Folder):
         self.refused(["--set", "planar=localise"], 2, "planar: localise needs planar_map")
         port = f"udp_port={live_peer.free_port(socket.SOCK_DGRAM)}"
         self.refused(["--set", port, "--set", "planar=localise", "--set", "planar_map=/nowhere/trail.pwt"], 1,
-                     "planar_map: /nowhere/trail.pwt cannot be read")
+                     "planar_map: /nowhere/trail.pwt: cannot be read: No such file or directory")
         blocked = self.folder / "file"
         blocked.write_text("")
         self.refused(["--set", f"recording={blocked}/x"], 1, f"{blocked}/x: ")

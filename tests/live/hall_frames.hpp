@@ -25,7 +25,8 @@ struct Post {
 struct Hall {
   std::vector<Post> posts;
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
-  double wall_m = 20.0;  // of the hall's middle, to all four sides
+  double wall_m = 20.0;       // of the hall's middle, to all four sides
+  double lowest_deg = -80.0;  // ray of the sensor
 
   // Along a level direction from base to the first thing.
   double range_m(double azimuth_rad) const {
@@ -55,7 +56,7 @@ inline std::shared_ptr<tools::live::LiveFrame> hall_frame(std::int64_t stamp_ns,
   for (int column = 0; column < kColumns; ++column) {
     const double azimuth = 2.0 * M_PI * column / kColumns, level_m = hall.range_m(azimuth);
     for (int ring = 0; ring < rings; ++ring) {
-      const double elevation = (-80.0 + 95.0 * ring / (rings - 1)) * M_PI / 180.0;
+      const double elevation = (hall.lowest_deg + (15.0 - hall.lowest_deg) * ring / (rings - 1)) * M_PI / 180.0;
       const double flat = std::cos(elevation), z = std::sin(elevation);
       double range = std::min(level_m / flat, z < 0.0 ? kHeight_m / -z : kRoof_m / std::max(z, 1e-9));
       range += 0.001 * (number % 7) / 7.0;

@@ -153,6 +153,20 @@ TEST_P(PlanarMessagesOf, PoseHasItsCovarianceInTheirPlaces) {
   EXPECT_THROW(cursor.number<std::uint8_t>("end"), FrameError);
 }
 
+// Zeros would make it exact to who fuses it.
+TEST_P(PlanarMessagesOf, APoseWhoseCovarianceIsNotKnownHasNoWeight) {
+  std::fill(std::begin(news_.covariance), std::end(news_.covariance), 0.0);
+  const std::string message = messages().pose(news_);
+  MessageCursor cursor = opened(message, "map");
+  for (int k = 0; k < 7; ++k) cursor.number<double>("pose");
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) {
+      const bool is_variance = row == column && (row < 2 || row == 5);
+      EXPECT_EQ(cursor.number<double>("covariance"), is_variance ? 1e6 : 0.0) << row << column;
+    }
+  }
+}
+
 TEST_P(PlanarMessagesOf, TransformsLeadFromTheMapToTheBase) {
   const std::vector<Link> off = links_of(messages().transforms(news_));
   ASSERT_EQ(off.size(), 1U);

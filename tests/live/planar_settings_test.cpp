@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: the keys of the planar part are refused with key, value and range. Every value in their ranges is one that
-// the library takes, and what has no key keeps the library's default. Rules over several keys name them.
+// the library takes, and what has no key keeps the library's default. The stop's times follow from the machine's
+// latency and the sensor's period. Rules over several keys name them.
 
 #include "config_file/planar_settings.hpp"
 
@@ -49,6 +50,26 @@ TEST(PlanarSettings, RulesOverSeveralKeysNameThem) {
   EXPECT_EQ(planar_fault_of({"planar=map", "planar_map=trail.pwt"}), "");
 }
 
+// What pose_wall_planar_stop.h asks of delay_s and slack_s, for slow brakes and for a sensor of five frames a second.
+TEST(PlanarSettings, TheStopsTimesFollowFromLatencyAndPeriod) {
+  const auto stop_of = [](const std::vector<std::string>& settings) {
+    return stop_settings_of(load_config("", settings).planar);
+  };
+  EXPECT_NEAR(stop_of({"planar_latency=0.6"}).slack_s, 0.75, 1e-12);
+  const std::vector<std::string> slow = {"planar_period=0.2", "planar_stale=0.35", "planar_scan_time=0.2"};
+  EXPECT_NEAR(stop_of(slow).slack_s, 0.45, 1e-12);
+  EXPECT_NEAR(stop_of(slow).delay_s, 0.6, 1e-12);
+  EXPECT_EQ(planar_fault_of({"planar_latency=1.5"}),
+            "--set: planar_latency: '1.5' is refused; allowed: a number from 0 to 1.4 s");
+  EXPECT_EQ(
+      planar_fault_of({"planar_period=0.25"}),
+      "planar_stale: 0.25 s is too short for planar_period 0.25 s: each frame would be stale before the next one; "
+      "allowed: from 0.3 s");
+  EXPECT_EQ(planar_fault_of({"planar_stale=0.15"}), "") << "the least";
+  EXPECT_EQ(planar_fault_of({"planar_scan_time=0.2"}),
+            "planar_scan_time: 0.2 s is longer than planar_period, 0.1 s: a frame lasts no longer than its period");
+}
+
 TEST(PlanarSettings, EveryValueInRangeIsOneThatTheLibraryTakes) {
   for (const OutsideKey& key : planar_keys()) {
     if (key.type != OutsideKey::Type::kNumber) continue;
@@ -58,7 +79,12 @@ TEST(PlanarSettings, EveryValueInRangeIsOneThatTheLibraryTakes) {
       PlanarSettings settings;
       ASSERT_TRUE(set_planar_value(&settings, key, std::to_string(value))) << key.name;
       if (is_corner && std::abs(value) > 4.9) continue;  // with the other side it is further than 5 m
-      EXPECT_EQ(broken_planar_rule(settings), "") << key.name << " " << value;
+      const std::string rule = broken_planar_rule(settings);
+      EXPECT_TRUE(rule.empty() || rule.rfind("planar_stale: ", 0) == 0 || rule.rfind("planar_scan_time: ", 0) == 0)
+          << key.name << " " << value << ": " << rule;
+      const pose_wall_planar_stop_settings stop = stop_settings_of(settings);
+      pose_wall_planar_fault fault{};
+      EXPECT_EQ(pose_wall_planar_stop_settings_check(&stop, &fault), POSE_WALL_OK) << key.name << ": " << fault.rule;
     }
   }
 }
@@ -74,12 +100,12 @@ TEST(PlanarSettings, DefaultsReadBackAndAreTheLibrarysWhereTheyHaveNoKey) {
   pose_wall_planar_stop_settings library{};
   ASSERT_EQ(pose_wall_planar_stop_settings_init(&library), POSE_WALL_OK);
   const pose_wall_planar_stop_settings ours = stop_settings_of(defaults);
-  for (const auto member :
-       {&pose_wall_planar_stop_settings::tall_m, &pose_wall_planar_stop_settings::stale_s,
-        &pose_wall_planar_stop_settings::delay_s, &pose_wall_planar_stop_settings::restart_s,
-        &pose_wall_planar_stop_settings::approach_m_s, &pose_wall_planar_stop_settings::deceleration_m_s2,
-        &pose_wall_planar_stop_settings::top_m, &pose_wall_planar_stop_settings::scan_s}) {
-    EXPECT_EQ(ours.*member, library.*member);
+  for (const auto member : {&pose_wall_planar_stop_settings::tall_m, &pose_wall_planar_stop_settings::stale_s,
+                            &pose_wall_planar_stop_settings::delay_s, &pose_wall_planar_stop_settings::restart_s,
+                            &pose_wall_planar_stop_settings::approach_m_s,
+                            &pose_wall_planar_stop_settings::deceleration_m_s2, &pose_wall_planar_stop_settings::top_m,
+                            &pose_wall_planar_stop_settings::scan_s, &pose_wall_planar_stop_settings::slack_s}) {
+    EXPECT_NEAR(ours.*member, library.*member, 1e-12);
   }
   EXPECT_NEAR(ours.turn_max_rad_s, library.turn_max_rad_s, 0.002);
   for (std::uint32_t k = 0; k < 4; ++k) EXPECT_EQ(ours.corner_m[k][0], library.corner_m[k][0]);

@@ -2,13 +2,15 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: clouds of a drive become scans, places and a map in which things are where they stand. A machine that is set
-// down in the saved map is found in it, by its cells and by its trail. Without a floor, in silence and with odometry of
-// another run nothing is made up. Maps that cannot be read are named. A map whose earlier poses moved is built anew.
+// down in the saved map is found in it, by its folder, cells and trail. Saved maps survive power cuts. Without a floor,
+// in silence and with odometry of another run nothing is made up. Maps that cannot be read are named. A map whose
+// earlier poses moved is built anew.
 
 #include "live/planar/roadway_sink.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -16,9 +18,11 @@
 #include <iterator>
 #include <thread>
 
+#include "frames/whole_file.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/hall_frames.hpp"
 #include "live/planar/live_map.hpp"
+#include "live/synced_files.hpp"
 #include "planar/plane_pose.hpp"
 #include "tools/test_files.hpp"
 
@@ -29,6 +33,8 @@ using pose_wall::test::fact;
 using pose_wall::test::Hall;
 using pose_wall::test::hall_frame;
 using pose_wall::test::hall_settings;
+using pose_wall::test::synced_files;
+using pose_wall::test::watch_syncs;
 
 constexpr std::int64_t kFrame_ns = 100'000'000;
 
@@ -147,11 +153,17 @@ TEST_F(RoadwaySinkTest, ASavedMapIsWhereAMachineIsFoundAgain) {
   drive(39, &hall);
   std::this_thread::sleep_for(std::chrono::milliseconds(1010));  // planar_map_every_s
   const std::uint32_t width = drive(1, &hall).map->width;
+  watch_syncs(trail);
   sink_->stop();
+  std::vector<std::string> synced;
+  for (const auto& one : synced_files()) synced.push_back(one.path.filename().string());
+  for (const std::string part : {part_of("trail.pwt"), part_of("map.pgm"), part_of("map.yaml")}) {
+    EXPECT_EQ(std::count(synced.begin(), synced.end(), part), 1) << part << " survives no power cut";
+  }
 
   Hall set_down = furnished_hall();
   set_down.x_m = 1.5, set_down.y_m = 0.6, set_down.yaw_rad = 0.7;
-  for (const char* file : {"trail.pwt", "map.yaml"}) {
+  for (const char* file : {"", "trail.pwt", "map.yaml"}) {  // the folder first
     open("localise", {"planar_map=" + folder.path() + "/" + file, "planar_map_whole=yes"});
     Hall at = set_down;
     const RoadwayNews* news = nullptr;
@@ -169,6 +181,11 @@ TEST_F(RoadwaySinkTest, ASavedMapIsWhereAMachineIsFoundAgain) {
     ASSERT_TRUE(news->map) << file;
     EXPECT_EQ(news->map->width, width);
   }
+  std::filesystem::remove(folder.path() + "/map.yaml");
+  open("localise", {"planar_map=" + trail});
+  const RoadwayNews& alone = drive(1, &set_down);
+  ASSERT_TRUE(alone.map) << "a trail alone is shown by its surfaces";
+  EXPECT_NE(std::count(alone.map->cells.begin(), alone.map->cells.end(), 100), 0);
 }
 
 TEST_F(RoadwaySinkTest, AMapThatIsThereAlreadyIsKeptAndAFolderThatIsMissingHurtsNobody) {
@@ -194,7 +211,7 @@ TEST_F(RoadwaySinkTest, MapsThatCannotBeReadAreNamed) {
       open("localise", {"planar_map=" + folder.path() + "/" + file, "planar_map_whole=yes"});
       FAIL() << file;
     } catch (const std::runtime_error& fault) {
-      EXPECT_NE(std::string(fault.what()).find(file), std::string::npos) << fault.what();
+      EXPECT_EQ(std::string(fault.what()).rfind("planar_map: " + folder.path() + "/" + file, 0), 0U) << fault.what();
     }
   }
 }

@@ -2,15 +2,19 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: the stop answers each frame and goes on answering without one. Silence stops the machine as soon as the
-// newest frame is older than planar_stale. So do refused frames, stamps that go back, a thing, and a guard whose thread
-// is gone: the heartbeat stands then. Nothing is permitted before the first frame. The sensor's stamps are placed on
-// the daemon's clock: late frames count as old.
+// newest frame is older than planar_stale. So do refused frames, stamps that go back, frames that come slower than
+// planar_period, a thing, an end in order, and a guard whose thread is gone: the heartbeat stands then. Nothing is
+// permitted before the first frame. The heartbeat goes on often enough for a controller, and not so often that it seems
+// to fall. A look counts while frames come. Measured motion of a machine that may stand is straight ahead. The
+// sensor's stamps are placed on the daemon's clock: late frames count as old, also after a long silence.
 
 #include "live/planar/stop_guard.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "live/clocks.hpp"
 #include "live/frame_catcher.hpp"
@@ -28,6 +32,19 @@ using pose_wall::test::hall_settings;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr auto kStop = static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP);
 
+// A step of 0.1 s along the road, as the motion library measured it.
+LiveResult measured_motion(const LoadedConfig& loaded, double speed_m_s, double level_m_s) {
+  LiveResult result;
+  result.config = *loaded.config.get();
+  result.publication.has_motion = 1;
+  pose_wall_motion_result& moved = result.publication.motion;
+  moved.along_state = POSE_WALL_ALONG_MEASURED;
+  moved.step_s = 0.1;
+  moved.step_m[0] = speed_m_s * moved.step_s;
+  moved.step_protection_level[POSE_WALL_MOTION_ALONG] = level_m_s * moved.step_s;
+  return result;
+}
+
 class StopGuardTest : public ::testing::Test {
  protected:
   explicit StopGuardTest(std::vector<std::string> more = {}) {
@@ -41,8 +58,8 @@ class StopGuardTest : public ::testing::Test {
   }
   void TearDown() override { guard_->stop(); }
 
-  void show(const Hall& hall = {}) {
-    stamp_ns_ += kSecond_ns / 10;  // faster than the clock here: none of the frames is late
+  void show(const Hall& hall = {}, std::int64_t period_ns = kSecond_ns / 10) {
+    stamp_ns_ += period_ns;  // faster than the clock here: none of the frames is late
     guard_->take(hall_frame(stamp_ns_, ++number_, hall), *loaded_.config.get());
   }
   bool drives() const { return guard_->stop_now().result.state != kStop; }
@@ -141,6 +158,140 @@ TEST_F(StopGuardTest, AThreadThatIsGonePermitsNothingAndItsHeartbeatStands) {
   EXPECT_EQ(guard_->stop_now().allowed_mm_s(), 0);
 }
 
+TEST_F(StopGuardTest, AnEndInOrderSaysStopAsItsLastWord) {
+  ASSERT_TRUE(is_brought_to_drive());
+  guard_->stop();
+  EXPECT_FALSE(drives()) << "at once, not as a thread that hangs";
+  EXPECT_EQ(guard_->stop_now().allowed_mm_s(), 0);
+  ASSERT_FALSE(told().empty());
+  EXPECT_EQ(told().back()->result.state, kStop);
+  EXPECT_NE(told().back()->result.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
+}
+
+// FB_PoseWallStop (tools/plc) takes 200 ms of the same heartbeat for silence, and 85 beats more between two reads for a
+// fall. Its longest time between reads is 0.8 s.
+TEST_F(StopGuardTest, TheHeartbeatGoesOnWithinAControllersWatchdogAndDoesNotSeemToFall) {
+  ASSERT_TRUE(is_brought_to_drive());
+  const auto beats_of_a_second = [this](int frames) {
+    const std::uint64_t before = guard_->stop_now().rounds;
+    const std::int64_t began_ns = monotonic_ns();
+    for (int k = 0; k < 10; ++k) {
+      if (k < frames) show();
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    const std::uint64_t beats = guard_->stop_now().rounds - before;
+    EXPECT_LE(beats, static_cast<std::uint64_t>((monotonic_ns() - began_ns) / StopGuard::kTick_ns + frames + 1));
+    return beats;
+  };
+  EXPECT_GE(beats_of_a_second(10), 15U) << "50 and more on a machine that is idle; the watchdog needs 5";
+  EXPECT_GE(beats_of_a_second(0), 10U) << "the frames have stopped, and the heartbeat tells that the guard has not";
+  EXPECT_FALSE(drives()) << "it is the state that stops the machine then";
+  // Up to one frame in half a tick: then there are only frames, and below that at most as many ticks as frames.
+  constexpr std::int64_t kSeldom_ns = 800'000'000;  // between two reads
+  EXPECT_LT(2 * kSeldom_ns / StopGuard::kTick_ns, 256 / 3);
+}
+
+TEST_F(StopGuardTest, FramesThatComeSlowerThanThePeriodStopAndTheHealthNamesTheKey) {
+  ASSERT_TRUE(is_brought_to_drive());
+  ASSERT_TRUE(becomes_true([&] {
+    show({}, kSecond_ns / 5);
+    return guard_->health().summary.find("planar_period") != std::string::npos;
+  }));
+  EXPECT_FALSE(drives());
+  EXPECT_NE(guard_->stop_now().result.reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);
+  EXPECT_TRUE(is_brought_to_drive()) << "at the right rate it goes on: " << guard_->health().summary;
+  show({}, kSecond_ns / 5);
+  EXPECT_TRUE(becomes_true([&] { return guard_->stop_now().header_stamp_ns == stamp_ns_ + 7; }));
+  EXPECT_TRUE(drives()) << "a single frame was lost";
+}
+
+TEST_F(StopGuardTest, FramesThatComeLateAreToldFromSilence) {
+  ASSERT_TRUE(is_brought_to_drive());
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  EXPECT_EQ(guard_->health().summary, "stops the machine: no frame comes");
+  EXPECT_TRUE(becomes_true([&] {
+    show({}, kSecond_ns / 1000);  // by its stamp it waited since before the silence
+    return guard_->health().summary == "stops the machine: frames come late, by their stamps";
+  })) << guard_->health().summary;
+  EXPECT_FALSE(drives());
+}
+
+class SlowSensorTest : public StopGuardTest {
+ protected:
+  SlowSensorTest() : StopGuardTest({"planar_period=0.2", "planar_stale=0.5"}) {}
+};
+
+TEST_F(SlowSensorTest, DrivesWithTheSensorsPeriod) {
+  guard_->start();
+  EXPECT_TRUE(becomes_true([&] {
+    show({}, kSecond_ns / 5);
+    return drives();
+  })) << guard_->health().summary;
+}
+
+class MeasuredStopTest : public StopGuardTest {
+ protected:
+  MeasuredStopTest() : StopGuardTest({"planar_motion=measured"}) {}
+
+  // Whether it permits driving at the end of so many seconds of frames. A stop ends after a second (restart_s).
+  bool drives_after(double seconds, const Hall& hall, double speed_m_s, double level_m_s) {
+    const std::int64_t until_ns = monotonic_ns() + static_cast<std::int64_t>(seconds * 1e9);
+    do {
+      guard_->note_motion(measured_motion(loaded_, speed_m_s, level_m_s));
+      show(hall);
+      EXPECT_TRUE(becomes_true([&] { return guard_->stop_now().header_stamp_ns == stamp_ns_ + 7; }));
+    } while (monotonic_ns() < until_ns);
+    return drives();
+  }
+};
+
+// With its back to a wall: noise backwards is no drive backwards.
+TEST_F(MeasuredStopTest, AMachineThatMayStandSetsOffAheadAndOneThatReversesDoesNot) {
+  Hall hall;
+  hall.wall_m = 7.0;
+  hall.x_m = -5.9;  // 0.5 m behind the machine
+  guard_->start();
+  // The wall is believed to stand after settle_s.
+  EXPECT_TRUE(becomes_true([&] { return drives_after(0.0, hall, -0.02, 0.03); }))
+      << stop_reasons_text(guard_->stop_now().result.reasons);
+  EXPECT_DOUBLE_EQ(guard_->stop_now().result.allowed_speed_m_s, loaded_.planar.speed_max_m_s);
+  drives_after(0.1, hall, -0.02, 0.01);
+  EXPECT_EQ(guard_->stop_now().allowed_mm_s(), 0) << "it reverses for sure";
+  EXPECT_LT(guard_->stop_now().result.nearest_m[0], 0.0) << "for what is behind";
+}
+
+TEST_F(MeasuredStopTest, MotionThatErrsTooMuchIsNoneAndTheHealthTellsByHowMuch) {
+  guard_->start();
+  drives_after(0.0, {}, 0.2, 0.09);
+  EXPECT_EQ(guard_->stop_now().result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING, 0U);
+  EXPECT_EQ(fact(guard_->health(), "speed errs by m/s"), "0.09");
+  drives_after(0.0, {}, 0.2, 0.22);
+  EXPECT_NE(guard_->stop_now().result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING, 0U);
+  EXPECT_EQ(fact(guard_->health(), "speed errs by m/s"), "0.22");
+}
+
+// Rays that end on the floor beyond the machine's edge: what lies between them and the machine is not seen.
+TEST_F(MeasuredStopTest, ALookCountsWhileFramesComeAndNotBefore) {
+  Hall hall;
+  hall.lowest_deg = -65.0;
+  guard_->start();
+  const auto looks_after_rounds = [this] {
+    const std::uint64_t rounds = guard_->stop_now().rounds;
+    guard_->confirm();
+    EXPECT_TRUE(becomes_true([&] { return guard_->stop_now().rounds > rounds + 2; }));
+    return fact(guard_->health(), "looks heeded");
+  };
+  EXPECT_EQ(looks_after_rounds(), "0") << "before the first frame";
+  EXPECT_FALSE(drives_after(1.5, hall, 0.0, 0.01));
+  EXPECT_NE(guard_->stop_now().result.reasons & POSE_WALL_PLANAR_STOP_R_BLIND, 0U);
+  ASSERT_TRUE(becomes_true([&] { return (guard_->stop_now().result.reasons & POSE_WALL_PLANAR_STOP_R_STALE) != 0; }));
+  EXPECT_EQ(looks_after_rounds(), "0") << "in silence";
+  EXPECT_FALSE(drives_after(1.5, hall, 0.0, 0.01));
+  guard_->confirm();
+  EXPECT_TRUE(drives_after(1.5, hall, 0.0, 0.01)) << stop_reasons_text(guard_->stop_now().result.reasons);
+  EXPECT_EQ(fact(guard_->health(), "looks heeded"), "1");
+}
+
 TEST_F(StopGuardTest, AnotherExtrinsicBeginsAnew) {
   ASSERT_TRUE(is_brought_to_drive());
   api::Config other = loaded_.config;
@@ -167,14 +318,8 @@ TEST(StopGuardOf, MeasuredMotionIsUsedOnlyWhereAskedForAndFresh) {
     settings.push_back("planar_motion=" + mode);
     const LoadedConfig loaded = load_config("", settings);
     StopGuard guard(loaded, nullptr);
-    LiveResult result;
-    result.config = *loaded.config.get();
-    result.publication.has_motion = 1;
-    result.publication.motion.along_state = POSE_WALL_ALONG_MEASURED;
-    result.publication.motion.step_s = 0.1;
-    result.publication.motion.step_m[0] = 0.02;
     const auto frame = hall_frame(kSecond_ns, 1);
-    guard.note_motion(result);
+    guard.note_motion(measured_motion(loaded, 0.2, 0.0));
     guard.start();
     guard.take(frame, *loaded.config.get());
     ASSERT_TRUE(becomes_true([&] { return fact(guard.health(), "frames answered") == "1"; }));
@@ -198,6 +343,17 @@ TEST(StampClock, LateFramesAreOldAndDriftIsForgiven) {
   // A sensor whose clock is slow by 100 ppm, for an hour.
   for (int k = 0; k < 36'000; ++k) now_ns += 100'010'000, stamp_ns += 100'000'000, static_cast<void>(frame(5'000'000));
   EXPECT_NEAR(static_cast<double>(frame(5'000'000)), -5e6, 1e6);
+}
+
+TEST(StampClock, ALongSilenceForgivesNoMoreThanAShortOne) {
+  for (const std::int64_t silence_s : {10, 60, 86'400}) {
+    StampClock clock;
+    std::int64_t now_ns = 50 * kSecond_ns, stamp_ns = 1'700'000'000 * kSecond_ns;
+    EXPECT_EQ(clock.place(stamp_ns, now_ns).ns, now_ns);
+    now_ns += silence_s * kSecond_ns, stamp_ns += silence_s * kSecond_ns;
+    const std::int64_t placed_ns = clock.place(stamp_ns, now_ns + kSecond_ns).ns;  // it waited for a second
+    EXPECT_NEAR(static_cast<double>(placed_ns - now_ns), 0.0, 2.1e6) << silence_s;
+  }
 }
 
 TEST(StampClock, StampsThatStandStillOrGoBackAreTold) {

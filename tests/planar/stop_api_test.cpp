@@ -30,18 +30,20 @@ constexpr std::int64_t kFrame_ns = 100000000;
 // A machine that stands in a road, with a stop that is asked for straight ahead.
 class Standing {
  public:
-  explicit Standing(World world, double confirm_m = 2.5) : world_(std::move(world)), draw_(3) {
+  explicit Standing(World world, double confirm_m = 2.5, double memory_s = 60.0) : world_(std::move(world)), draw_(3) {
     sensor_ = Sensor(Pattern::os1_64, 2.0, 1.5, 0.0, 0.28, 1.0, 1024);
     pose_wall_planar_stop_settings settings = encounter_settings();
     settings.confirm_m = confirm_m;
+    settings.memory_s = memory_s;
     stop_.open(sensor_, settings);
-    EXPECT_EQ(pose_wall_planar_stop_confirm(stop_.get()), POSE_WALL_OK);
+    confirm();
     motion_.struct_size = sizeof(motion_);
     motion_.given = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
     motion_.command_speed_m_s = 0.05;
   }
 
-  void take() { scan_.take(sensor_, world_, 0.0, 0.0, 0.0, 0.0, 0.0, &draw_); }
+  void confirm() { EXPECT_EQ(pose_wall_planar_stop_confirm(stop_.get()), POSE_WALL_OK); }
+  void take() { scan_.take(sensor_, world_, x_m_, 0.0, 0.0, 0.0, 0.0, &draw_); }
   pose_wall_planar_stop_result frame() {
     take();
     return again();
@@ -58,6 +60,17 @@ class Standing {
     for (int k = 0; k < count; ++k) frame();
     return stop_.result();
   }
+  // Straight ahead, or back where metres are negative; then it stands again.
+  void drive(double metres) {
+    constexpr int kFrames = 30;
+    constexpr double kFrame_s = 1e-9 * kFrame_ns;
+    for (int k = 0; k <= kFrames; ++k) {
+      const double before_m_s = motion_.speed_m_s;
+      motion_.speed_m_s = k < kFrames ? metres / (kFrames * kFrame_s) : 0.0;
+      x_m_ += 0.5 * (before_m_s + motion_.speed_m_s) * kFrame_s;
+      frame();
+    }
+  }
   pose_wall_planar_stop_result tick_after(std::int64_t after_ns) {
     EXPECT_EQ(pose_wall_planar_stop_tick(stop_.get(), stamp_ns_ + after_ns, &stop_.result()), POSE_WALL_OK);
     return stop_.result();
@@ -72,6 +85,7 @@ class Standing {
 
  private:
   World world_;
+  double x_m_ = 0.0;
   Draw draw_;
   Sensor sensor_;
   Scan scan_;
@@ -116,6 +130,36 @@ TEST(StopApi, TheSmallestThingStopsAndIsCalledLow) {
   EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_THING, 0U);
   EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_LOW, 0U);
   EXPECT_EQ(result.nearest_height, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_LOW));
+}
+
+// A low thing that the machine has come near to is below its rays. After its memory has ended nobody confirms it away,
+// until it is seen gone. Without it the same drive ends with go.
+TEST(StopApi, ALowThingBelowTheRaysOutlastsItsMemoryAndALook) {
+  constexpr double kMemory_s = 4.0, kConfirm_m = 2.5, kThing_m = 2.25 + 1.8, kDrive_m = 1.4;
+  constexpr int kForgotten = 45, kSettled = 30;  // frames that take longer than the memory, and for walls to settle
+  for (const bool is_there : {false, true}) {
+    Standing standing(road(), kConfirm_m, kMemory_s);
+    if (is_there) standing.world().things.push_back(round_thing(kThing_m, 0.3, 0.15, -0.1, 0.27));
+    const auto far = standing.frames(kSettled);
+    EXPECT_EQ((far.reasons & POSE_WALL_PLANAR_STOP_R_LOW) != 0, is_there);
+    standing.drive(kDrive_m);
+    const auto forgotten = standing.frames(kForgotten);
+    EXPECT_EQ(forgotten.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
+    EXPECT_EQ(forgotten.reasons & POSE_WALL_PLANAR_STOP_R_LOW, 0U);
+    standing.confirm();
+    const auto looked = standing.frames(15);
+    EXPECT_EQ(looked.state != static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP), !is_there);
+    EXPECT_EQ((looked.reasons & POSE_WALL_PLANAR_STOP_R_BLIND) != 0, is_there);
+    if (!is_there) continue;
+    EXPECT_NEAR(looked.nearest_m[0], kThing_m - kDrive_m, 0.3);
+    standing.world().things.clear();
+    standing.drive(-kDrive_m);
+    standing.frames(5);
+    standing.drive(kDrive_m);
+    standing.confirm();
+    EXPECT_NE(standing.frames(kSettled).state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP))
+        << "it was seen gone";
+  }
 }
 
 // Who has stood for long may walk off at any moment, even with the back to a wall. A wall does not.

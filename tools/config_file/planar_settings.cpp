@@ -22,10 +22,18 @@ struct PlanarKeyRow {
   PlanarMember member;
 };
 
+// From a frame's stamp to its answer. src/planar/stop/README.md has 0.04 s for a sensor at a busy machine.
+constexpr double kFrameDelay_s = 0.05;
+// By pose_wall_planar_stop.h dust is told from things in three frames at least.
+constexpr double kFramesOfDust = 3.0;
+// Sums of keys as a person adds them up.
+constexpr double kRounding_s = 1e-9;
+
 constexpr const char* kRoadwayGroup = translatable("Live: map of the roadway");
 constexpr const char* kStopGroup = translatable("Live: obstacle stop, and the machine that it stops");
 
-// The ranges lie within those of pose_wall_planar_stop.h, _scan.h and _map.h.
+// The ranges lie within those of pose_wall_planar_stop.h, _scan.h and _map.h, also of what follows from the keys
+// (stop_settings_of): delay_s from 0.1 to 2, slack_s up to 2.
 const std::vector<PlanarKeyRow>& planar_key_rows() {
   static const std::vector<PlanarKeyRow> table = {
       {{"planar", kRoadwayGroup, OutsideKey::Type::kChoice, "", 0, 0, "off, map, localise",
@@ -34,8 +42,9 @@ const std::vector<PlanarKeyRow>& planar_key_rows() {
        &PlanarSettings::mode},
       {{"planar_map", kRoadwayGroup, OutsideKey::Type::kText, "", 0, 0, "",
         translatable(
-            "localise: the map that is read, trail.pwt of `pose_wall map -o FOLDER` or of planar: map, or map.yaml as "
-            "Nav2 has it. map: where the map is saved, a name in .pwt; a file that is there already is kept")},
+            "localise: the map that is read: the folder of `pose_wall map -o` or of planar: map, its trail.pwt, or "
+            "map.yaml as Nav2 has it. map: where the map is saved, a name in .pwt; a file that is there "
+            "already is kept")},
        &PlanarSettings::map},
       {{"planar_map_whole", kRoadwayGroup, OutsideKey::Type::kChoice, "", 0, 0, "no, yes",
         translatable(
@@ -92,15 +101,18 @@ const std::vector<PlanarKeyRow>& planar_key_rows() {
       {{"planar_creep", kStopGroup, OutsideKey::Type::kNumber, "m/s", 0, 0.3, "",
         translatable("speed at which the machine may pass a thing that stands still, however near; 0: not at all")},
        &PlanarSettings::creep_m_s},
-      {{"planar_latency", kStopGroup, OutsideKey::Type::kNumber, "s", 0, 2, "",
+      {{"planar_latency", kStopGroup, OutsideKey::Type::kNumber, "s", 0, 1.4, "",
         translatable("from the stop's answer to the first effect of the brakes, the controller's cycle included")},
        &PlanarSettings::latency_s},
+      {{"planar_period", kStopGroup, OutsideKey::Type::kNumber, "s", 0.04, 0.5, "",
+        translatable("longest time between two frames of the sensor. Much slower ones stop the machine")},
+       &PlanarSettings::period_s},
       {{"planar_stale", kStopGroup, OutsideKey::Type::kNumber, "s", 0.02, 1, "",
-        translatable(
-            "age of the newest frame at which the machine is stopped. At least a frame's period and its delay")},
+        translatable("age of the newest frame at which the machine is stopped. At least planar_period and 0.05 s, its "
+                     "own delay")},
        &PlanarSettings::stale_s},
       {{"planar_scan_time", kStopGroup, OutsideKey::Type::kNumber, "s", 0, 0.5, "",
-        translatable("so long before its stamp a frame began; 0: all points at the stamp")},
+        translatable("so long before its stamp a frame began, at most planar_period; 0: all points at the stamp")},
        &PlanarSettings::scan_time_s},
   };
   return table;
@@ -117,6 +129,22 @@ bool is_planar_choice(const OutsideKey& key, const std::string& value) {
   if (key.type != OutsideKey::Type::kChoice) return true;
   const std::vector<std::string> choices = choices_of(key);
   return std::find(choices.begin(), choices.end(), value) != choices.end();
+}
+
+// What the stop's times ask of the keys from which they follow.
+std::string broken_time_rule(const PlanarSettings& settings) {
+  const double stale_least_s = settings.period_s + kFrameDelay_s;
+  if (settings.stale_s < stale_least_s - kRounding_s) {
+    return say(
+        "planar_stale: {:g} s is too short for planar_period {:g} s: each frame would be stale before the next one; "
+        "allowed: from {:g} s",
+        settings.stale_s, settings.period_s, stale_least_s);
+  }
+  if (settings.scan_time_s > settings.period_s + kRounding_s) {
+    return say("planar_scan_time: {:g} s is longer than planar_period, {:g} s: a frame lasts no longer than its period",
+               settings.scan_time_s, settings.period_s);
+  }
+  return "";
 }
 
 }  // namespace
@@ -167,6 +195,8 @@ pose_wall_planar_stop_settings stop_settings_of(const PlanarSettings& settings) 
   stop.latency_s = settings.latency_s;
   stop.stale_s = settings.stale_s;
   stop.scan_s = settings.scan_time_s;
+  stop.delay_s = kFramesOfDust * settings.period_s;
+  stop.slack_s = settings.period_s + kFrameDelay_s + settings.latency_s;
   return stop;
 }
 
@@ -191,6 +221,7 @@ std::string broken_planar_rule(const PlanarSettings& settings) {
   if (settings.tf != "off" && (settings.map_frame.empty() || settings.odom_frame.empty())) {
     return say("planar_tf: {} needs names in planar_map_frame and planar_odom_frame", settings.tf);
   }
+  if (std::string rule = broken_time_rule(settings); !rule.empty()) return rule;
   const pose_wall_planar_stop_settings stop = stop_settings_of(settings);
   if (pose_wall_planar_stop_settings_check(&stop, nullptr) != POSE_WALL_OK) {
     return say(

@@ -26,7 +26,7 @@ struct PlanarSettings {
   double x_min_m = -2.25, x_max_m = 2.25, y_min_m = -0.6, y_max_m = 0.6;
   double floor_z_m = 0.0, height_m = 1.8, clearance_m = 0.25;
   double speed_max_m_s = 1.0, turn_max_deg_s = 23.0, deceleration_m_s2 = 1.0, creep_m_s = 0.1;
-  double latency_s = 0.2, stale_s = 0.25, scan_time_s = 0.1;
+  double latency_s = 0.2, period_s = 0.1, stale_s = 0.25, scan_time_s = 0.1;
 
   bool is_on() const { return mode != "off"; }
   bool maps() const { return mode == "map"; }
@@ -42,7 +42,7 @@ std::string planar_value_text(const PlanarSettings& settings, const OutsideKey& 
 // False where the value is not allowed; the settings are then as before.
 bool set_planar_value(PlanarSettings* settings, const OutsideKey& key, const std::string& value);
 
-// For the parts of the library; what has no key keeps the library's default.
+// For the parts of the library; what neither has a key nor follows from one keeps the library's default.
 pose_wall_planar_stop_settings stop_settings_of(const PlanarSettings& settings);
 pose_wall_planar_scanner_settings scanner_settings_of(const PlanarSettings& settings);
 

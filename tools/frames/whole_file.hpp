@@ -17,6 +17,9 @@ std::filesystem::path part_of(const std::filesystem::path& file);
 // Writes its part, which then takes the file's place. Throws std::runtime_error that names the file.
 void write_whole_file(const std::filesystem::path& file, std::string_view bytes);
 
+// The same, and on the disk when it returns: a power cut leaves the file of before or this one. It waits for the disk.
+void write_lasting_file(const std::filesystem::path& file, std::string_view bytes);
+
 // Throws std::runtime_error that names the file.
 std::string read_whole_file(const std::filesystem::path& file);
 

@@ -197,11 +197,11 @@ void write_map_files(const std::filesystem::path& yaml, const pose_wall_planar_g
   }
   std::filesystem::path picture = yaml;
   picture.replace_extension(".pgm");
-  write_whole_file(picture, pgm_bytes(image, fmt::format("pose_wall {:.3f} m/pix", grid.resolution_m)));
-  write_whole_file(yaml, fmt::format("image: {}\nmode: trinary\nresolution: {}\norigin: [{}, {}, 0]\nnegate: 0\n"
-                                     "occupied_thresh: {}\nfree_thresh: {}\n",
-                                     quoted(picture.filename().string()), grid.resolution_m, grid.origin_x_m,
-                                     grid.origin_y_m, kOccupiedThreshold, kFreeThreshold));
+  write_lasting_file(picture, pgm_bytes(image, fmt::format("pose_wall {:.3f} m/pix", grid.resolution_m)));
+  write_lasting_file(yaml, fmt::format("image: {}\nmode: trinary\nresolution: {}\norigin: [{}, {}, 0]\nnegate: 0\n"
+                                       "occupied_thresh: {}\nfree_thresh: {}\n",
+                                       quoted(picture.filename().string()), grid.resolution_m, grid.origin_x_m,
+                                       grid.origin_y_m, kOccupiedThreshold, kFreeThreshold));
 }
 
 std::size_t free_specks(MapFile* map) {

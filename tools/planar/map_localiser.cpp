@@ -67,9 +67,14 @@ std::vector<std::string> localise_setting_names() {
   return names_of(kLocaliseWords);
 }
 
-pose_wall_planar_localise_settings take_localise_settings(std::vector<std::string>* words) {
+pose_wall_planar_localise_settings default_localise_settings() {
   pose_wall_planar_localise_settings settings{};
   require_ok(pose_wall_planar_localise_settings_init(&settings), translatable("the settings of localisation"));
+  return settings;
+}
+
+pose_wall_planar_localise_settings take_localise_settings(std::vector<std::string>* words) {
+  pose_wall_planar_localise_settings settings = default_localise_settings();
   take_settings(kLocaliseWords, pose_wall_planar_localise_settings_check, words, &settings);
   return settings;
 }

@@ -19,6 +19,9 @@ namespace pose_wall::tools {
 // Without tiles_most, which follows from the map.
 std::vector<std::string> localise_setting_names();
 
+// The library's; map_is_whole 0.
+pose_wall_planar_localise_settings default_localise_settings();
+
 // The defaults, with the settings that `words` holds; these are taken out of it. Throws std::invalid_argument.
 pose_wall_planar_localise_settings take_localise_settings(std::vector<std::string>* words);
 

@@ -44,7 +44,7 @@ class Mapping final : public PlaceFinder {
     file_.clear();
   }
 
-  void place(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry, RoadwayNews* news) override {
+  void find(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry, RoadwayNews* news) override {
     require_ok(pose_wall_planar_slam_process(slam_, &scan, odometry, &last_), translatable("the scan"));
     map_.add(scan, last_, slam_);
     news->state = pose_wall_planar_slam_state_name(last_.state);
@@ -74,7 +74,7 @@ class Mapping final : public PlaceFinder {
     require_ok(pose_wall_planar_slam_save_bytes(slam_, &bytes), translatable("the trail"));
     std::string saved(static_cast<std::size_t>(bytes), '\0');
     require_ok(pose_wall_planar_slam_save(slam_, saved.data(), saved.size(), &bytes), translatable("the trail"));
-    write_whole_file(file_, saved);
+    write_lasting_file(file_, saved);
     if (map != nullptr) write_map_files(file_.parent_path() / "map.yaml", map->grid());
     log_line(Grade::kGood, "planar", fmt::format("saved {} keyframes in {}", last_.keyframes, file_.string()));
   }

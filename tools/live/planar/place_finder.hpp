@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// From planar scans to places: by a SLAM that makes its map on the way, or in a saved map.
+// Finds the place of each planar scan: by a SLAM that makes its map on the way (mapping.cpp), or in a saved map
+// (localisation.cpp).
 
 #pragma once
 
@@ -24,8 +25,9 @@ class PlaceFinder {
   PlaceFinder& operator=(const PlaceFinder&) = delete;
   virtual ~PlaceFinder() = default;
 
-  // Fills in state, pose, covariance and candidates. odometry may be nullptr. Throws PlanarError.
-  virtual void place(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry, RoadwayNews* news) = 0;
+  // Where base was at this scan: fills in state, pose, covariance and candidates. odometry may be nullptr. Throws
+  // PlanarError.
+  virtual void find(const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry, RoadwayNews* news) = 0;
   // The map where it has changed since the last call, else nothing.
   virtual std::shared_ptr<const RoadwayMap> changed_map(std::int64_t header_stamp_ns) = 0;
   // The way so far, of kTrackMost places at most.
@@ -39,8 +41,9 @@ class PlaceFinder {
   static constexpr std::size_t kTrackMost = 500;
 };
 
-// Throw PlanarError; the second one also std::runtime_error with the file's name for a map that cannot be read.
+// For planar: map. Throws PlanarError.
 std::unique_ptr<PlaceFinder> make_mapping(const PlanarSettings& settings);
+// For planar: localise. Throws std::runtime_error that names the key, the file and what is wrong with it.
 std::unique_ptr<PlaceFinder> make_localisation(const PlanarSettings& settings);
 
 }  // namespace pose_wall::tools::live

@@ -115,7 +115,7 @@ class RoadwaySink final : public Sink {
     const bool goes_on = news->odometry && run_ == result.publication.motion.run;
     run_ = news->odometry ? result.publication.motion.run : 0;
     // Poses of another run do not compare: the first one of a run tells no way.
-    finder_->place(scan, goes_on ? &*news->odometry : nullptr, news);
+    finder_->find(scan, goes_on ? &*news->odometry : nullptr, news);
     renew_map(result.header_stamp_ns);
     news->map = map_;
     news->track = track_;

@@ -10,7 +10,10 @@
 
 namespace pose_wall::tools::live {
 
-// The fastest frame so far came without a delay. Two crystals of 100 ppm may run apart by kDrift_ppm.
+// The fastest frame so far came without a delay. Two crystals of 100 ppm may run apart by kDrift_ppm, and so much later
+// may every frame be. Of a silence that forgives kSilence_ns at most, 2 ms: a sensor that restarts or a cable that is
+// put back takes seconds, and after a day a frame could be 17 s late unnoticed. Where the drift was more than that,
+// frames seem late until the clock is begun anew: it cannot be told from frames that waited in a queue.
 class StampClock {
  public:
   struct Placed {
@@ -24,14 +27,15 @@ class StampClock {
     if (!has_last_ || stamp_ns <= last_stamp_ns_) return begin(stamp_ns, received_ns, !has_last_);
     // Stamps and receptions are of any size: differences in unsigned numbers wrap and do not overflow.
     const std::int64_t offset_ns = difference(received_ns, stamp_ns);
-    const std::int64_t drift_ns = std::max<std::int64_t>(received_ns - last_received_ns_, 0) / 1'000'000 * kDrift_ppm;
+    const std::int64_t since_ns = std::clamp<std::int64_t>(received_ns - last_received_ns_, 0, kSilence_ns);
+    const std::int64_t drift_ns = since_ns / 1'000'000 * kDrift_ppm;
     offset_ns_ = std::min(offset_ns, offset_ns_ + drift_ns);
     last_stamp_ns_ = stamp_ns;
     last_received_ns_ = received_ns;
     return {std::min(difference(stamp_ns, -offset_ns_), received_ns), true};
   }
 
-  static constexpr std::int64_t kDrift_ppm = 200;
+  static constexpr std::int64_t kDrift_ppm = 200, kSilence_ns = 10'000'000'000;
 
  private:
   static std::int64_t difference(std::int64_t a, std::int64_t b) {

@@ -24,6 +24,8 @@ constexpr double kNsPerS = 1e9;
 constexpr double kSetsOff_m_s = 0.01;  // a direction only: the allowed speed does not depend on it
 // Errors of measured motion that the stop reckons with: five standard deviations of a step of 0.1 s by scans.
 constexpr double kSpeedError_m_s = 0.1, kTurnError_rad_s = 0.03;
+// A frame or two may be lost; what is slow for longer is the sensor, or this machine.
+constexpr int kSlowFrames = 5;
 
 // Along forward_axis, of a step in base.
 double along_forward(const pose_wall_config& config, const double* step_m) {
@@ -58,6 +60,7 @@ void StopGuard::open(const pose_wall_config& config) {
   config_ = config;
   stop_ = nullptr;
   stamps_ = StampClock();
+  slow_frames_ = 0;
   const std::int32_t status = pose_wall_planar_stop_open(&config_, &settings_, block_.data(), block_.bytes(), &stop_);
   if (status != POSE_WALL_OK) stop_ = nullptr;
 }
@@ -96,10 +99,11 @@ void StopGuard::confirm() {
 void StopGuard::note_motion(const LiveResult& result) {
   const pose_wall_motion_result& moved = result.publication.motion;
   std::optional<Measured> measured;
+  double speed_level_m_s = NAN;
   if (result.publication.has_motion != 0 && moved.along_state == POSE_WALL_ALONG_MEASURED && moved.step_s > 0.0) {
     const double speed_m_s = along_forward(result.config, moved.step_m) / moved.step_s;
     const double turn_rad_s = moved.step_rad[2] / moved.step_s;
-    const double speed_level_m_s = moved.step_protection_level[POSE_WALL_MOTION_ALONG] / moved.step_s;
+    speed_level_m_s = moved.step_protection_level[POSE_WALL_MOTION_ALONG] / moved.step_s;
     const double turn_level_rad_s = moved.step_protection_level[POSE_WALL_MOTION_YAW] / moved.step_s;
     // What errs by more than the stop reckons with is no measurement to it.
     const bool is_good = std::isfinite(speed_m_s) && std::isfinite(turn_rad_s) &&
@@ -109,6 +113,7 @@ void StopGuard::note_motion(const LiveResult& result) {
   }
   const std::lock_guard<std::mutex> locked(lock_);
   measured_ = measured;
+  speed_level_m_s_ = speed_level_m_s;
 }
 
 pose_wall_planar_stop_motion StopGuard::motion_now() const {
@@ -129,6 +134,15 @@ pose_wall_planar_stop_motion StopGuard::motion_now() const {
   return motion;
 }
 
+// Of three frames in which dust is told from things the last must come within delay_s.
+bool StopGuard::comes_too_slowly(std::int64_t stamp_ns) {
+  const bool is_apart =
+      2.0 * (static_cast<double>(stamp_ns) - static_cast<double>(stamp_ns_)) > settings_.delay_s * kNsPerS;
+  stamp_ns_ = stamp_ns;
+  slow_frames_ = is_apart ? slow_frames_ + 1 : 0;
+  return slow_frames_ >= kSlowFrames;
+}
+
 void StopGuard::refuse(StopNews* news, std::uint32_t reason) const {
   news->result.state = POSE_WALL_PLANAR_STOP_STOP;
   news->result.reasons |= reason;
@@ -140,6 +154,7 @@ void StopGuard::answer_frame(const Job& job, StopNews* news) {
   header_stamp_ns_ = job.frame->stamp_ns;
   pose_wall_cloud cloud = job.frame->frame.cloud;
   const StampClock::Placed placed = stamps_.place(cloud.stamp_ns, job.received_ns);
+  const bool is_slow = comes_too_slowly(cloud.stamp_ns != 0 ? cloud.stamp_ns : job.received_ns);
   // A clock that went back: nothing that was seen before is as old as it seems.
   if (!placed.is_later && stop_ != nullptr) static_cast<void>(pose_wall_planar_stop_reset(stop_));
   cloud.stamp_ns = placed.ns;
@@ -147,7 +162,7 @@ void StopGuard::answer_frame(const Job& job, StopNews* news) {
   const std::int32_t status =
       stop_ == nullptr ? POSE_WALL_E_ENGINE
                        : pose_wall_planar_stop_process(stop_, &cloud, &motion, monotonic_ns(), &news->result);
-  frame_refused_ = status != POSE_WALL_OK;
+  frame_refused_ = status != POSE_WALL_OK || is_slow;
   if (!frame_refused_ && placed.is_later) return;
   refuse(news, POSE_WALL_PLANAR_STOP_R_INVALID);
   const std::lock_guard<std::mutex> locked(lock_);
@@ -210,6 +225,8 @@ void StopGuard::put(const StopNews& news, const Job* job) {
     if (is_change && news.result.state == POSE_WALL_PLANAR_STOP_STOP) ++stops_;
     if (job != nullptr) {
       ++answered_;
+      received_ns_ = job->received_ns;
+      is_slow_ = slow_frames_ >= kSlowFrames;
       latency_worst_ns_ = std::max(latency_worst_ns_, news.answered_ns - job->received_ns);
     }
     newest_ = news;
@@ -241,12 +258,19 @@ PartHealth StopGuard::health() const {
   const bool is_stop = news.result.state == POSE_WALL_PLANAR_STOP_STOP;
   const bool is_stale = (news.result.reasons & POSE_WALL_PLANAR_STOP_R_STALE) != 0;
   health.grade = !is_stop ? Grade::kGood : is_stale ? Grade::kBad : Grade::kWarning;
-  health.summary = !is_stop ? "permits driving" : is_stale ? "stops the machine: no frame comes" : "stops the machine";
   health.add("state", pose_wall_planar_stop_state_name(news.result.state));
   health.add("reasons", stop_reasons_text(news.result.reasons));
   health.add("allowed mm/s", fmt::format("{}", news.allowed_mm_s()));
   health.add("heartbeat", news.rounds);
   const std::lock_guard<std::mutex> locked(lock_);
+  const bool comes = static_cast<double>(monotonic_ns() - received_ns_) <= settings_.stale_s * kNsPerS;
+  health.summary = !is_stop             ? "permits driving"
+                   : is_stale && !comes ? "stops the machine: no frame comes"
+                   : is_stale           ? "stops the machine: frames come late, by their stamps"
+                   : is_slow_           ? "stops the machine: frames come slower than planar_period"
+                                        : "stops the machine";
+  // What is above the settings' error counts as none.
+  if (takes_motion_) health.add("speed errs by m/s", fmt::format("{:.2f}", speed_level_m_s_));
   health.add("frames answered", answered_);
   health.add("frames lost to slowness", lost_);
   health.add("frames refused", refused_);

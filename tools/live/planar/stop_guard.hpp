@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -51,7 +52,8 @@ class StopGuard final : public StopBoard {
   bool is_alive() const;
   PartHealth health() const;
 
-  // An answer comes every kTick_ns at least. If none came for kHangs_ns, the thread hangs, and the state is stop.
+  // An answer comes every kTick_ns at least, and each is a beat of the heartbeat. If none came for kHangs_ns, the
+  // thread hangs, and the state is stop.
   static constexpr std::int64_t kTick_ns = 20'000'000, kHangs_ns = 200'000'000;
 
  private:
@@ -71,6 +73,7 @@ class StopGuard final : public StopBoard {
   void answer_frame(const Job& job, StopNews* news);
   void answer_silence(StopNews* news);
   void heed_look(const StopNews& news);
+  bool comes_too_slowly(std::int64_t stamp_ns);
   void refuse(StopNews* news, std::uint32_t reason) const;
   void put(const StopNews& news, const Job* job);
   pose_wall_planar_stop_motion motion_now() const;
@@ -84,14 +87,19 @@ class StopGuard final : public StopBoard {
   pose_wall_planar_stop* stop_ = nullptr;
   StampClock stamps_;
   std::int64_t told_ns_ = 0, header_stamp_ns_ = 0;
+  std::int64_t stamp_ns_ = 0;   // of the newest frame, by its sensor
+  int slow_frames_ = 0;         // so many in turn came too long after the one before
   bool frame_refused_ = false;  // the newest one
 
   mutable std::mutex lock_;
   std::condition_variable changed_;
   std::optional<Job> waiting_;
   std::optional<Measured> measured_;
+  double speed_level_m_s_ = NAN;  // of the newest measured motion; NaN: there is none
   bool ending_ = false, confirmed_ = false;
   StopNews newest_;
+  bool is_slow_ = false;          // the sensor
+  std::int64_t received_ns_ = 0;  // when the newest frame came
   std::uint64_t answered_ = 0, lost_ = 0, refused_ = 0, stops_ = 0, looks_ = 0;
   std::int64_t latency_worst_ns_ = 0;
 

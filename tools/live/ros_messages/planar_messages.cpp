@@ -75,10 +75,15 @@ std::string PlanarMessages::pose(const RoadwayNews& news) const {
   // Of x, y, z and the turns about them; ours are x, y and the turn about z.
   constexpr std::size_t kAll = 6;
   constexpr std::array<std::size_t, 3> kOurs = {0, 1, 5};
+  // m2 and rad2, as drivers of ROS give for axes that nobody measures: who fuses it gives it no weight. Zeros would
+  // make it exact to robot_localization and others.
+  constexpr double kUnknown = 1e6;
+  const bool is_known = news.covariance[0] > 0.0;
   std::array<double, kAll * kAll> covariance{};
   for (std::size_t row = 0; row < kOurs.size(); ++row) {
     for (std::size_t column = 0; column < kOurs.size(); ++column) {
-      covariance[kOurs[row] * kAll + kOurs[column]] = news.covariance[row * kOurs.size() + column];
+      const double unknown = row == column ? kUnknown : 0.0;
+      covariance[kOurs[row] * kAll + kOurs[column]] = is_known ? news.covariance[row * kOurs.size() + column] : unknown;
     }
   }
   RosWriter message(encoding_);

@@ -24,7 +24,8 @@ class PlanarMessages {
   std::string scan(const RoadwayNews& news) const;
   // nav_msgs/OccupancyGrid.
   std::string map(const RoadwayMap& map) const;
-  // geometry_msgs/PoseWithCovarianceStamped. There must be a pose. A covariance of zeros is not known.
+  // geometry_msgs/PoseWithCovarianceStamped. There must be a pose. Variances of 1e6 are not known; those of z,
+  // roll and pitch are 0, as AMCL has them.
   std::string pose(const RoadwayNews& news) const;
   // std_msgs/Bool: true is stop.
   std::string stop(const StopNews& news) const;
