@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "planar_logs.hpp"
 #include "ran_command.hpp"
@@ -72,7 +74,7 @@ TEST(MapReport, RefusesWhatItCannotShow) {
   ASSERT_EQ(command({"map", "-q", "-o", map, log}).exit_status, 0);
   const Ran mixed = command({"report", map, log, "-o", folder.file("r.html")});
   EXPECT_EQ(mixed.exit_status, 2);
-  EXPECT_TRUE(contains(mixed.errors, "without other inputs")) << mixed.errors;
+  EXPECT_TRUE(contains(mixed.errors, "this is no result of map, localise or plan")) << mixed.errors;
   const Ran onto = command({"report", map, "-o", map + "/map.svg"});
   EXPECT_EQ(onto.exit_status, 2) << "an input is not overwritten";
   folder.write("map/trail.pwt", "damaged");
@@ -80,6 +82,58 @@ TEST(MapReport, RefusesWhatItCannotShow) {
   EXPECT_EQ(damaged.exit_status, 1);
   EXPECT_TRUE(contains(damaged.errors, "trail.pwt")) << damaged.errors;
   EXPECT_FALSE(std::filesystem::exists(folder.file("r.html")));
+}
+
+TEST(MapReport, NamesWhatIsNotThere) {
+  const TempFolder folder;
+  const std::string map = folder.file("map"), none = folder.file("none.csv");
+  ASSERT_EQ(command({"map", "-q", "-o", map, folder.write("room.clf", DrawnRoom::log(5))}).exit_status, 0);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"report", none},
+        std::vector<std::string>{"report", map, none, "-o", folder.file("r")}}) {
+    const Ran ran = command(words);
+    EXPECT_EQ(ran.exit_status, 1);
+    EXPECT_TRUE(contains(ran.errors, "INPUT " + none + ": there is no such file or folder. Give ")) << ran.errors;
+  }
+}
+
+TEST(PlanarInput, IsNamedToVerbsThatMeasureFrames) {
+  const TempFolder folder;
+  const std::string log = folder.write("room.clf", DrawnRoom::log(30)), map = folder.file("map");
+  ASSERT_EQ(command({"map", "-q", "-o", map, log}).exit_status, 0);
+  ASSERT_NE(command({"localise", "-q", "--start", "0,0,0", "-o", folder.file("found"), map, log}).exit_status, 1);
+  const std::pair<std::string, const char*> inputs[] = {
+      {log, "this is a log of CARMEN: scans of a planar laser scanner. info, scan, map and localise take it"},
+      {map, "this is a map, as `pose_wall map -o` writes it. localise, plan and report take it"},
+      {map + "/map.yaml", "this is the YAML file of a map. plan and localise take it"},
+      {map + "/map.pgm", "this is the image of a map's cells. plan and localise take the YAML file"},
+      {map + "/trail.pwt", "this is the trail of a map. localise takes it"},
+      {folder.file("found"), "this is what `pose_wall localise -o` wrote. report takes it"},
+  };
+  for (const auto& [input, words] : inputs) {
+    for (const char* verb : {"run", "info", "motion", "map"}) {
+      const bool takes_logs = std::string(verb) == "info" || std::string(verb) == "map";
+      if (input == log && takes_logs) continue;
+      const Ran ran = command({verb, input});
+      EXPECT_EQ(ran.exit_status, 1) << verb;
+      EXPECT_TRUE(contains(ran.errors, input + ": " + words)) << verb << ": " << ran.errors;
+      EXPECT_EQ(ran.printed, "") << verb;
+    }
+  }
+  // Texts and archives of other kinds keep their own words.
+  EXPECT_FALSE(contains(command({"run", folder.write("a.xyz", "1 2 3\n")}).errors, "CARMEN"));
+  EXPECT_FALSE(contains(command({"run", folder.write("a.log", "1 2 3\n")}).errors, "CARMEN"));
+  EXPECT_TRUE(contains(command({"run", folder.write("a.tar.gz", "\x1F\x8B\x08 and so on")}).errors, "gunzip"));
+}
+
+TEST(InfoVerb, TheRestartsThatItProposesFitTheLog) {
+  const TempFolder folder;
+  const auto proposed = [&folder](int scans) {
+    return command({"info", folder.write("room.clf", DrawnRoom::long_log(scans))}).printed;
+  };
+  EXPECT_TRUE(contains(proposed(20), "--restart 5 --truth poses.tum -o found\n")) << "2 m";
+  EXPECT_TRUE(contains(proposed(500), "--restart 9 ")) << "50 m, five restarts";
+  EXPECT_TRUE(contains(proposed(3700), "--restart 60 ")) << "370 m";
 }
 
 TEST(InfoVerb, DescribesALogOfCarmen) {

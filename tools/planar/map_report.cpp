@@ -127,7 +127,7 @@ std::vector<NamedFigure> figures_of_map(const KnownMap& map) {
   if (map.trail) {
     out.emplace_back(tr("keyframes"), std::to_string(map.trail->keyframes()));
     out.emplace_back(tr("travel"), fmt::format("{:.1f} m", map.trail->travel_m()));
-    out.emplace_back(tr("closures believed"), std::to_string(map.trail->closures().size()));
+    out.emplace_back(tr("loop closures"), std::to_string(map.trail->closures().size()));
   }
   const MapFile& cells = map.cells;
   const double cell_m2 = cells.resolution_m * cells.resolution_m;
