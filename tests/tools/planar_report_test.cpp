@@ -52,14 +52,16 @@ TEST(MapReport, HoldsPicturesAndFiguresInBothLanguages) {
   const std::string head = "pose,x_m,y_m,yaw_rad,curvature_1_m,along_m,drive,stop,cusp,turn\n";
   const std::string route =
       folder.write("route.csv", head + "0,0,0,0,0,0,1,0,0,\n1,1,0,0,0,1,0,0,1,left\n2,1,0,1,0,2.5,1,1,0,\n");
-  const Ran ran = command({"report", map, folder.file("found"), route, "-o", page});
+  const std::string picture = folder.write("route.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
+  const Ran ran = command({"report", map, folder.file("found"), route, picture, "-o", page});
   ASSERT_EQ(ran.exit_status, 0) << ran.errors;
-  EXPECT_TRUE(contains(ran.errors, "2 pictures")) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "3 pictures")) << ran.errors;
   const nlohmann::json data = data_of(text_of(page));
   EXPECT_EQ(data.at("pictures").at(0).at(0).at("name"), "map.svg");
   EXPECT_EQ(data.at("pictures").at(1).at(0).at("name"), "localise.svg");
   const auto& english = data.at("texts").at("en").at("sections");
-  ASSERT_EQ(english.size(), 3U);
+  EXPECT_EQ(data.at("pictures").at(3).at(0).at("name"), "route.svg");
+  ASSERT_EQ(english.size(), 4U);
   EXPECT_NE(figure(english.at(0), "map", "keyframes"), "none");
   EXPECT_EQ(figure(english.at(1), "localisation", "scans"), "60");
   EXPECT_EQ(figure(english.at(2), "route: route.csv", "length"), "2.50 m");

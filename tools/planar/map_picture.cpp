@@ -29,8 +29,8 @@ constexpr double kMargin = 36.0;  // numbers of the y axis stand in it
 constexpr double kHead = 84.0;
 constexpr double kFoot = 56.0;
 constexpr double kMapWidth = 1300.0, kMapHeight = 900.0;  // at most
-constexpr double kLeastSide = 360.0;
-constexpr int kOccupied = 65, kFree = 35;  // per cent, as the map's file has it
+constexpr double kLeastWidth = 720.0;                     // of heads and legends
+constexpr int kOccupied = 65, kFree = 35;                 // per cent, as the map's file has it
 
 // In the order of the palette.
 enum Shade : std::uint8_t { kUnknownShade, kFreeShade, kThingShade };
@@ -216,9 +216,10 @@ void draw_axes(Svg& svg, const Page& page) {
   svg.text({page.corner.x, page.corner.y - kMark}, "y, m", {picture::kFaintInk, kSize, Anchor::kEnd});
 }
 
+// Right of the legend also below a narrow map.
 void draw_scale(Svg& svg, const Page& page) {
   const double length_m = round_length_m(page);
-  const Pixel end{page.corner.x + page.width, page.corner.y + page.height + 34.0};
+  const Pixel end{page.corner.x + std::max(page.width, kLeastWidth), page.corner.y + page.height + 34.0};
   const Pixel start{end.x - length_m * page.pixels_per_m, end.y};
   svg.line(start, end, {picture::kInk, 2.0});
   for (const Pixel& tip : {start, end}) svg.line({tip.x, tip.y - 4.0}, {tip.x, tip.y + 4.0}, {picture::kInk, 2.0});
@@ -254,7 +255,7 @@ std::string map_picture(const MapScene& scene) {
   page.left_m = grid.origin_x_m + size_m * window.column;
   page.top_m = grid.origin_y_m + size_m * (window.row + step * height);
 
-  Svg svg(std::max(page.width, kLeastSide * 2.0) + 2.0 * kMargin, page.height + kHead + kFoot, picture::kPaper);
+  Svg svg(std::max(page.width, kLeastWidth) + 2.0 * kMargin, page.height + kHead + kFoot, picture::kPaper);
   svg.text({kMargin, 38.0}, scene.title, {picture::kInk, 21.0, Anchor::kStart, true});
   svg.text({kMargin, 62.0}, scene.subtitle, {picture::kFaintInk, 13.5});
   const std::string png = indexed_png(width, height, shades_of(grid, window, step, width, height), kShades);

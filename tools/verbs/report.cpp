@@ -45,7 +45,7 @@ namespace {
 
 constexpr const char* kReportInputHelp = translatable(
     "Frames as for run: files, folders, bags, captures; or a table of motion (CSV); or what map -o, localise -o "
-    "(folders) and plan -o (CSV) wrote");
+    "(folders), plan -o (CSV) and --picture (SVG) wrote");
 
 struct ReportOptions {
   FrameOptions frames;
@@ -258,10 +258,10 @@ void add_report(CLI::App& app, int& exit_code) {
       "  pose_wall sim --scene nominal --frames 100 --output road\n"
       "  pose_wall report -c road/pose_wall.yaml --truth road/truth.csv -o road.html road/frames\n"
       "  pose_wall report --truth road/truth.csv -o way.html motion.csv\n"
-      "  pose_wall report -o map.html map found route.csv\n"
+      "  pose_wall report -o map.html map found route.csv route.svg\n"
       "The third example reads a table of `motion`. Its page shows the path from above, the states\n"
-      "along the road, travel and steps. The last one reads the folders of `map -o` and `localise -o` and a table of\n"
-      "`plan`. Its page shows their pictures (SVG) and figures.\n"
+      "along the road, travel and steps. The last one reads the folders of `map -o` and `localise -o` and table and\n"
+      "picture of `plan`. Its page shows their pictures (SVG) and figures.\n"
       "The page is one file in English and Chinese and needs no network. It shows a verdict, every frame from above\n"
       "and in section, and time series with protection levels and states. Values that are not valid are grey.\n"
       "Of a long recording it keeps the points of some 400 frames, and of frames in which a state changes.\n"
