@@ -86,7 +86,7 @@ TEST(MapVerb, WritesMapPictureAndGraph) {
   const std::string log = folder.write("room.log", DrawnRoom::log(60));
   const Ran ran = command({"map", "-o", folder.file("map"), "--cell", "0.1", log});
   ASSERT_EQ(ran.exit_status, 0) << ran.errors;
-  for (const char* row : {"scans", "keyframes", "closures believed", "processor time a scan, mean", "12."}) {
+  for (const char* row : {"scans", "keyframes", "loop closures", "processor time a scan, mean", "12."}) {
     EXPECT_TRUE(contains(ran.printed, row)) << row << " in " << ran.printed;
   }
   EXPECT_TRUE(contains(ran.errors, "60 scans, 180 beams from -90.0")) << ran.errors;
@@ -118,6 +118,29 @@ TEST(MapVerb, PrintsTheErrorsAgainstRelations) {
   EXPECT_EQ(ran.exit_status, 0) << ran.errors;
   EXPECT_TRUE(contains(ran.printed, "near (< 20 s)") && contains(ran.printed, "all")) << ran.printed;
   EXPECT_TRUE(contains(ran.printed, "1 relations have no pose")) << ran.printed;
+}
+
+TEST(MapVerb, WhatIsNoRelationIsRefused) {
+  const TempFolder folder;
+  const std::string log = folder.write("room.clf", DrawnRoom::log(5));
+  ASSERT_EQ(command({"map", "-q", "--poses", folder.file("poses.tum"), log}).exit_status, 0);
+  const std::pair<std::string, const char*> files[] = {
+      {folder.file("poses.tum"), "these are poses"},
+      {folder.write("none", "# nothing\n"), "no line holds numbers"},
+      {log, "line 2: 'FLASER' is no finite number"},
+  };
+  for (const auto& [file, answer] : files) {
+    const Ran ran = command({"map", "--relations", file, log});
+    EXPECT_EQ(ran.exit_status, 1);
+    EXPECT_EQ(ran.printed, "") << "known before the work";
+    EXPECT_TRUE(contains(ran.errors, file) && contains(ran.errors, answer)) << answer << " in: " << ran.errors;
+    EXPECT_TRUE(contains(ran.errors, "t1 t2 x y z roll pitch yaw")) << ran.errors;
+  }
+  const std::string other = folder.write("other", "5 6 0 0 0 0 0 0\n");
+  const Ran ran = command({"map", "-q", "--relations", other, "-o", folder.file("map"), log});
+  EXPECT_EQ(ran.exit_status, 1) << "they judge nothing";
+  EXPECT_TRUE(contains(ran.errors, "--relations " + other + ": no relation")) << ran.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("map/map.yaml")));
 }
 
 TEST(MapVerb, WorksWithoutOdometry) {
@@ -153,6 +176,9 @@ TEST(MapVerb, FaultsAreNamedBeforeAnyWork) {
       {{"map", "--set", "keyfame_m=1", log}, "did you mean 'keyframe_m'"},
       {{"map", "--set", "keyframe_m=9", log}, "keyframe_m must be from 0.05 to 2"},
       {{"map", "--set", "keyframe_m=x", log}, "'x' is no number"},
+      {{"map", "--set", "keyframe_m=9", "--set", "odometry_m=-1", log}, "odometry_m must be from 0 to 1"},
+      {{"map", "--set", "voxel_leaf=1", "--set", "odd=1", log},
+       "--set odd: no setting for scans of a log; settings: key"},
       {{"map", "--cell", "0.001", log}, "0.02 to 0.5"},
       {{"map", "--poses", log, log}, "this is an input"},
       {{"map", "--relations", folder.file("none"), log}, "there is no file"},
@@ -178,6 +204,7 @@ TEST(MapVerb, BadInputsLeaveNoResult) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("map/map.yaml")));
   const Ran missing = command({"map", "-o", folder.file("map"), folder.file("not_there")});
   EXPECT_EQ(missing.exit_status, 1);
+  EXPECT_TRUE(contains(missing.errors, "not_there: there is no such file or folder. Give frames, a bag"));
   EXPECT_FALSE(std::filesystem::exists(folder.file("map/map.yaml"))) << missing.errors;
 }
 

@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <random>
 #include <string>
 #include <utility>
@@ -104,9 +106,56 @@ TEST(MapPicture, DrawsLinesAndPlacesAndEscapesWords) {
   const std::string svg = map_picture(scene);
   EXPECT_TRUE(contains(svg, "a &lt;b> &amp; c")) << svg.substr(0, 600);
   // The map is 10 x 5 m: from its corner below left to the one above right, 1300 pixels long.
-  EXPECT_TRUE(contains(svg, R"(<polyline points="24.0,734.0 1324.0,84.0 ")")) << svg.substr(svg.find("<polyline"), 80);
+  EXPECT_TRUE(contains(svg, R"(<polyline points="36.0,734.0 1336.0,84.0 ")")) << svg.substr(svg.find("<polyline"), 80);
   EXPECT_TRUE(contains(svg, ">here</text>"));
   EXPECT_EQ(svg, map_picture(scene));
+}
+
+// Where words begin, by their text.
+std::pair<double, double> place_of_words(const std::string& svg, const std::string& words) {
+  const std::size_t end = svg.find(">" + words + "</text>");
+  const std::size_t begin = svg.rfind("<text", end);
+  double x = 0.0, y = 0.0;
+  EXPECT_EQ(std::sscanf(svg.c_str() + begin, "<text x=\"%lf\" y=\"%lf\"", &x, &y), 2) << svg.substr(begin, 60);
+  return {x, y};
+}
+
+TEST(MapPicture, WordsOfNeighboursCoverNeitherEachOtherNorTheEdge) {
+  MapFile map;
+  map.width = 100;
+  map.height = 50;
+  map.resolution_m = 0.1;
+  map.cells.assign(5000, 0);
+  MapScene scene;
+  scene.grid = map.grid();
+  for (const char* words : {"start", "end", "goal", "here"}) {
+    scene.machines.push_back({{9.9, 2.5, 0.0}, {}, kPathColour, words});
+  }
+  const std::string svg = map_picture(scene);
+  std::vector<std::pair<double, double>> places;
+  for (const MapMachine& machine : scene.machines) {
+    const auto [x, y] = place_of_words(svg, machine.words);
+    EXPECT_LT(x + 6.0 * static_cast<double>(machine.words.size()), 1336.0) << machine.words << " is cut off";
+    for (const auto& [other_x, other_y] : places) {
+      EXPECT_TRUE(std::abs(y - other_y) >= 13.0 || std::abs(x - other_x) >= 30.0) << machine.words;
+    }
+    places.emplace_back(x, y);
+  }
+}
+
+TEST(MapPicture, NumbersAtTheEdgesArePlacesOfTheMap) {
+  MapFile map;
+  map.width = 100;
+  map.height = 50;
+  map.resolution_m = 0.1;
+  map.origin_x_m = -4.0;
+  map.origin_y_m = 20.0;
+  map.cells.assign(5000, 0);
+  MapScene scene;
+  scene.grid = map.grid();
+  const std::string svg = map_picture(scene);  // 130 pixels a metre, from 36, 84
+  EXPECT_NEAR(place_of_words(svg, "-3").first, 36.0 + 130.0, 0.1);
+  EXPECT_NEAR(place_of_words(svg, "24").second, 84.0 + 130.0, 5.0);
 }
 
 TEST(MapPicture, AThingOfOneCellIsSeenInALargeMap) {

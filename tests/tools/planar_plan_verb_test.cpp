@@ -76,8 +76,12 @@ TEST(PlanVerb, NamesWhyThereIsNoRoute) {
   const TempFolder folder;
   const std::pair<std::vector<std::string>, const char*> cases[] = {
       {{"--from", "8,5,0", "--to", "32,10,0"}, "too narrow: at x 20"},
-      {{"--from", "8,0.3,0", "--to", "12,10,0"}, "A thing at x "},
-      {{"--from", "8,5,0", "--to", "39.9,10,0"}, "does not fit at the goal"},
+      {{"--from", "8,5,0", "--to", "12,1000,0"},
+       "--to 12,1000,0 lies outside the map. The map reaches from x 0.00 to "
+       "40.00 m and from y 0.00 to 20.00 m."},
+      {{"--start", "8,0.3,0", "--goal", "12,10,0"}, "reaches 2.25 m ahead, 2.25 m back, 0.60 m left and 0.60 m right"},
+      {{"--from", "8,0.3,0", "--to", "12,10,0"}, "does not fit at --from 8,0.3,0: a thing at x "},
+      {{"--from", "8,5,0", "--to", "39.9,10,0"}, "does not fit at --to 39.9,10,0: a thing at x "},
   };
   const std::string map = written(folder, hall(1.0));
   for (const auto& [words, answer] : cases) {
@@ -91,6 +95,55 @@ TEST(PlanVerb, NamesWhyThereIsNoRoute) {
   }
 }
 
+TEST(PlanVerb, TheFolderOfAMapIsAMap) {
+  const TempFolder folder;
+  write_map_files(folder.file("map.yaml"), hall(3.0).grid());
+  const std::string here = std::filesystem::path(folder.file("map.yaml")).parent_path().string();
+  const Ran ran = command({"plan", here, "--from", "8,5,0", "--to", "12,5,0"});
+  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
+  const std::string log = folder.write("room.clf", "FLASER 2 1 1 0 0 0 0 0 0 1 h 1\n");
+  std::filesystem::create_directory(folder.file("empty"));
+  const std::pair<std::string, const char*> others[] = {
+      {folder.file("map.pgm"), "the YAML file that names it"},
+      {log, "this is a log of CARMEN"},
+      {folder.file("empty"), "has no map.yaml. `pose_wall map -o FOLDER INPUT` writes it"},
+  };
+  for (const auto& [map, answer] : others) {
+    const Ran refused = command({"plan", map, "--from", "8,5,0", "--to", "12,5,0"});
+    EXPECT_EQ(refused.exit_status, 1);
+    EXPECT_TRUE(contains(refused.errors, "MAP " + map)) << refused.errors;
+    EXPECT_TRUE(contains(refused.errors, answer)) << answer << " in: " << refused.errors;
+  }
+}
+
+TEST(PlanVerb, AllRefusedSettingsAreNamedAtOnce) {
+  const TempFolder folder;
+  const std::string map = written(folder, hall(3.0));
+  const auto plan = [&map](const std::vector<std::string>& settings) {
+    std::vector<std::string> words = {"plan", map, "--from", "8,5,0", "--to", "12,5,0"};
+    for (const std::string& setting : settings) words.insert(words.end(), {"-s", setting});
+    return command(words);
+  };
+  const Ran unknown = plan({"weigt=2", "fornt_m=1"});
+  EXPECT_EQ(unknown.exit_status, 2);
+  EXPECT_TRUE(contains(unknown.errors, "'weight'") && contains(unknown.errors, "'front_m'")) << unknown.errors;
+  const Ran refused = plan({"front_m=99", "rear_m=x", "left_m", "margin_m=0.2"});
+  EXPECT_EQ(refused.exit_status, 2);
+  for (const char* answer : {"--set front_m=99: front_m must be from 0.1 to 20", "--set rear_m: 'x' is no number",
+                             "--set left_m: KEY=VALUE is expected"}) {
+    EXPECT_TRUE(contains(refused.errors, answer)) << answer << " in: " << refused.errors;
+  }
+  EXPECT_FALSE(contains(refused.errors, "--set margin_m")) << refused.errors;
+  // The limits of one depend on the other; their order does not count.
+  EXPECT_EQ(plan({"radius_min_m=9", "radius_max_m=20"}).exit_status, 0);
+  EXPECT_EQ(plan({"radius_max_m=20", "radius_min_m=9"}).exit_status, 0);
+  const Ran both = plan({"radius_min_m=9", "radius_max_m=8.5"});
+  EXPECT_EQ(both.exit_status, 2);
+  EXPECT_TRUE(contains(both.errors, "--set radius_max_m=8.5: ") && contains(both.errors, "; radius_min_m is 9"))
+      << both.errors;
+  EXPECT_FALSE(contains(both.errors, "--set radius_min_m")) << "one rule, one line: " << both.errors;
+}
+
 TEST(PlanVerb, SpecksCountAsFreeOnlyIfToldSo) {
   const TempFolder folder;
   MapFile map = hall(3.0);
@@ -98,7 +151,7 @@ TEST(PlanVerb, SpecksCountAsFreeOnlyIfToldSo) {
   const std::string file = written(folder, map);
   const Ran strict = command({"plan", file, "--from", "8,5,0", "--to", "14,5,0"});
   EXPECT_EQ(strict.exit_status, 3);
-  EXPECT_TRUE(contains(strict.errors, "An unknown cell at x 8.05 m, y 5.05 m")) << strict.errors;
+  EXPECT_TRUE(contains(strict.errors, "an unknown cell at x 8.05 m, y 5.05 m")) << strict.errors;
   const Ran freed = command({"plan", file, "--from", "8,5,0", "--to", "14,5,0", "--free-specks"});
   EXPECT_EQ(freed.exit_status, 0) << freed.errors;
   EXPECT_TRUE(contains(freed.errors, "1 specks count as free")) << freed.errors;
@@ -112,9 +165,11 @@ TEST(PlanVerb, FaultsOfUsage) {
       {{"plan", map, "--from", "1,1", "--to", "1,1,0"}, "--from: '1,1' is refused; allowed: x,y,yaw"},
       {{"plan", map, "--from", "1,1,nan", "--to", "1,1,0"}, "'1,1,nan' is refused"},
       {{"plan", map, "--from", "1,1,0", "--to", "5,5,0", "-s", "frnt_m=2"}, "did you mean 'front_m'"},
-      {{"plan", map, "--from", "1,1,0", "--to", "5,5,0", "-s", "front_m=99"}, "front_m"},
+      {{"plan", map, "--from", "1,1,0", "--to", "5,5,0", "-s", "front_m=99"}, "front_m must be from 0.1 to 20"},
+      {{"plan", map, "--from", "1,1,0", "--to", "5,5,0", "-s", "radius_min_m=9"}, "radius_max_m is 8"},
       {{"plan", map, "--from", "1,1,0", "--to", "5,5,0", "--picture", "r.png"}, "ending in .svg"},
-      {{"plan", folder.file("none.yaml"), "--from", "1,1,0", "--to", "5,5,0"}, "there is no file"},
+      {{"plan", folder.file("none.yaml"), "--from", "1,1,0", "--to", "5,5,0"},
+       "none.yaml: there is no such file or folder"},
   };
   for (const auto& [words, answer] : usage) {
     const Ran ran = command(words);

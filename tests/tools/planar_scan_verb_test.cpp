@@ -78,6 +78,7 @@ TEST(ScanVerb, FaultsAreNamed) {
       {{"scan", "-s", "machine_heigt_m=2", frame}, "did you mean 'machine_height_m'"},
       {{"scan", "-s", "machine_height_m=99", frame}, "machine_height_m"},
       {{"scan", "-s", "voxel_leef=1", frame}, "did you mean 'voxel_leaf'"},
+      {{"scan", "-s", "ground_clearance_m=0.1", frame}, "--set ground_clearance_m=0.1: floor_tolerance_m must be from"},
       {{"scan", "-s", "voxel_leaf=1", log}, "no setting for scans of a log"},
       {{"scan", "--picture", "x.png", log}, "ending in .svg"},
       {{"scan", "--format", "jsn", log}, "did you mean 'json'"},
@@ -87,6 +88,9 @@ TEST(ScanVerb, FaultsAreNamed) {
     EXPECT_EQ(ran.exit_status, 2) << ran.errors;
     EXPECT_TRUE(contains(ran.errors, answer)) << answer << " in: " << ran.errors;
   }
+  const Ran beyond = command({"scan", "-q", "--picture", folder.file("s.svg"), "--drawn", "9", log});
+  EXPECT_EQ(beyond.exit_status, 1);
+  EXPECT_TRUE(contains(beyond.errors, "--drawn 9: there is no scan from this number on")) << beyond.errors;
   const Ran none = command({"scan", "-q", "-o", folder.file("s.csv"), frame});
   EXPECT_EQ(none.exit_status, 1);
   EXPECT_TRUE(contains(none.errors, "no floor was measured")) << none.errors;

@@ -18,6 +18,7 @@
 #include "language/language.hpp"
 #include "packets/bag_packets.hpp"
 #include "packets/packet_source.hpp"
+#include "planar/planar_input.hpp"
 
 namespace pose_wall::tools {
 
@@ -76,7 +77,9 @@ void FrameSequence::add(const std::string& argument, const InputOptions& options
     errors_.push_back(what.rfind(argument, 0) == 0 ? what : fmt::format("{}: {}", argument, what));
     return;
   }
-  add_files(argument);
+  const std::string of_planar = planar_input_text(argument);
+  if (of_planar.empty()) return add_files(argument);
+  errors_.push_back(fmt::format("{}: {}", argument, of_planar));
 }
 
 // Files that are named one after the other are one recording, as a folder is.

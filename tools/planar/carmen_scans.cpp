@@ -5,24 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <fstream>
-#include <string_view>
-
 #include "angles.hpp"
 #include "language/language.hpp"
-#include "planar/gzip_text.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 // Of the scanners of public logs: their data sheets promise 5 mm (LMS-291) to 30 mm (URG).
 constexpr double kSigma_m = 0.02;
-
-bool ends_with(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 std::string lines_note(const CarmenLog& log) {
   std::string text;
@@ -36,25 +26,6 @@ std::string lines_note(const CarmenLog& log) {
 }
 
 }  // namespace
-
-bool is_carmen_log(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::array<char, 2> packed{};
-  if (!in.read(packed.data(), packed.size())) return false;
-  if (packed[0] == '\x1f' && packed[1] == '\x8b') return true;  // no other input is packed by gzip
-  const std::string name = file.filename().string();
-  if (ends_with(name, ".clf") || ends_with(name, ".log")) return true;
-  in.seekg(0);
-  for (std::string word; in >> word;) {
-    if (word.front() == '#') {
-      std::getline(in, word);
-      continue;
-    }
-    const std::array<const char*, 6> kinds = {"FLASER", "ROBOTLASER1", "PARAM", "ODOM", "SYNC", "RLASER"};
-    return std::find(kinds.begin(), kinds.end(), word) != kinds.end();
-  }
-  return false;
-}
 
 CarmenScans::CarmenScans(const std::string& file)
     : file_(file), log_(read_carmen_log(file)), sensor_(carmen_sensor_pose(log_)) {}

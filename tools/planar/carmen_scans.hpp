@@ -8,12 +8,10 @@
 #include <string>
 
 #include "planar/carmen_log.hpp"
+#include "planar/planar_input.hpp"
 #include "planar/scan_source.hpp"
 
 namespace pose_wall::tools {
-
-// By its first bytes, packed or not; by its name (.clf, .log) where they leave it open. False for what cannot be read.
-bool is_carmen_log(const std::filesystem::path& file);
 
 class CarmenScans : public ScanSource {
  public:

@@ -133,6 +133,7 @@ std::optional<SourcedScan> CloudScans::next() {
 }
 
 std::vector<std::string> CloudScans::notes() const {
+  if (inputs_.frames() == 0) return {};
   return {say(
       "{} frames become scans: things from {:.2f} to {:.2f} m above the floor, steps of {:.2f}°, up to {:.0f} m",
       inputs_.frames(), settings_.ground_clearance_m - settings_.margin_m,

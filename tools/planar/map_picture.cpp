@@ -16,6 +16,7 @@
 #include "picture/viewport.hpp"
 #include "planar/indexed_png.hpp"
 #include "report/columns.hpp"
+#include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -24,12 +25,12 @@ using picture::Anchor;
 using picture::Pixel;
 using picture::Svg;
 
-constexpr double kMargin = 24.0;
+constexpr double kMargin = 36.0;  // numbers of the y axis stand in it
 constexpr double kHead = 84.0;
-constexpr double kFoot = 46.0;
+constexpr double kFoot = 56.0;
 constexpr double kMapWidth = 1300.0, kMapHeight = 900.0;  // at most
-constexpr double kLeastSide = 360.0;
-constexpr int kOccupied = 65, kFree = 35;  // per cent, as the map's file has it
+constexpr double kLeastWidth = 720.0;                     // of heads and legends
+constexpr int kOccupied = 65, kFree = 35;                 // per cent, as the map's file has it
 
 // In the order of the palette.
 enum Shade : std::uint8_t { kUnknownShade, kFreeShade, kThingShade };
@@ -111,7 +112,62 @@ MapPlace placed(const pose_wall_planar_pose& base, const MapPlace& p) {
   return {base.x_m + c * p.x_m - s * p.y_m, base.y_m + s * p.x_m + c * p.y_m};
 }
 
-void draw_machine(Svg& svg, const Page& page, const MapMachine& machine) {
+// On the page.
+struct PixelBox {
+  double left, top, right, bottom;
+
+  bool meets(const PixelBox& other) const {
+    return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+  }
+  bool lies_in(const PixelBox& outer) const {
+    return left >= outer.left && right <= outer.right && top >= outer.top && bottom <= outer.bottom;
+  }
+};
+
+PixelBox box_round(const std::vector<Pixel>& corners) {
+  PixelBox box{corners.front().x, corners.front().y, corners.front().x, corners.front().y};
+  for (const Pixel& p : corners) {
+    box = {std::min(box.left, p.x), std::min(box.top, p.y), std::max(box.right, p.x), std::max(box.bottom, p.y)};
+  }
+  return box;
+}
+
+// Words beside things of the map, drawn where they cover no others and are not cut off.
+class Labels {
+ public:
+  explicit Labels(const Page& page)
+      : frame_{page.corner.x, page.corner.y, page.corner.x + page.width, page.corner.y + page.height} {}
+
+  void draw(Svg& svg, const PixelBox& thing, const std::string& words, std::string_view colour) {
+    if (words.empty()) return;
+    constexpr double kSize = 13.0, kGap = 6.0, kLine = 1.2 * kSize;
+    constexpr double kAscent = 0.8 * kSize, kDescent = 0.25 * kSize, kColumn = 0.65 * kSize;  // of bold letters
+    constexpr int kLines = 4;
+    const double width = kColumn * static_cast<double>(shown_width(words));
+    const double x = std::max(std::min(thing.left, frame_.right - width), frame_.left);
+    const double above = thing.top - kGap, below = thing.bottom + kGap + kAscent;
+    const auto box_at = [&](double y) { return PixelBox{x, y - kAscent, x + width, y + kDescent}; };
+    const auto is_free = [&](double y) {
+      const PixelBox box = box_at(y);
+      return box.lies_in(frame_) &&
+             std::none_of(taken_.begin(), taken_.end(), [&box](const PixelBox& other) { return box.meets(other); });
+    };
+    double y = above;
+    for (int line = 0; line < kLines && !is_free(y); ++line) {
+      y = above - line * kLine;
+      if (!is_free(y)) y = below + line * kLine;
+    }
+    taken_.push_back(box_at(y));
+    svg.text({x, y}, words, {colour, kSize, Anchor::kStart, true, picture::kPanel});
+  }
+
+ private:
+  PixelBox frame_;
+  std::vector<PixelBox> taken_;
+};
+
+// The box of what was drawn.
+PixelBox draw_machine(Svg& svg, const Page& page, const MapMachine& machine) {
   const double arrow_m = 14.0 / page.pixels_per_m;
   std::vector<MapPlace> outline = machine.outline_m;
   if (outline.empty()) outline = {{arrow_m, 0.0}, {-0.6 * arrow_m, 0.5 * arrow_m}, {-0.6 * arrow_m, -0.5 * arrow_m}};
@@ -125,17 +181,45 @@ void draw_machine(Svg& svg, const Page& page, const MapMachine& machine) {
                         0.0};
     svg.line(page(placed(machine.base, {0.0, 0.0})), page(placed(machine.base, nose)), {machine.colour, 2.0});
   }
-  const Pixel at = page({machine.base.x_m, machine.base.y_m});
-  svg.text({at.x + 12.0, at.y - 10.0}, machine.words, {machine.colour, 13.0, Anchor::kStart, true, picture::kPanel});
+  return box_round(corners);
 }
 
-void draw_scale(Svg& svg, const Page& page) {
+// A round length of some 100 pixels.
+double round_length_m(const Page& page) {
   constexpr double kAimed_px = 160.0;
   double length_m = 1.0;
   for (const double candidate_m : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0}) {
     if (candidate_m * page.pixels_per_m <= kAimed_px) length_m = candidate_m;
   }
-  const Pixel end{page.corner.x + page.width, page.corner.y + page.height + 24.0};
+  return length_m;
+}
+
+// Marks on the left and lower edge, by which places can be read off: `plan` takes them.
+void draw_axes(Svg& svg, const Page& page) {
+  constexpr double kMark = 5.0, kSize = 10.0;
+  const double step_m = round_length_m(page);
+  const Pixel end{page.corner.x + page.width, page.corner.y + page.height};
+  const double right_m = page.left_m + page.width / page.pixels_per_m;
+  const double bottom_m = page.top_m - page.height / page.pixels_per_m;
+  const auto number = [](double value_m) { return fmt::format("{:g}", value_m + 0.0); };
+  for (double x_m = step_m * std::ceil(page.left_m / step_m); x_m <= right_m; x_m += step_m) {
+    const double x = page({x_m, 0.0}).x;
+    svg.line({x, end.y}, {x, end.y + kMark}, {picture::kFaintInk, 1.0});
+    svg.text({x, end.y + kMark + kSize}, number(x_m), {picture::kFaintInk, kSize, Anchor::kMiddle});
+  }
+  for (double y_m = step_m * std::ceil(bottom_m / step_m); y_m <= page.top_m; y_m += step_m) {
+    const double y = page({0.0, y_m}).y;
+    svg.line({page.corner.x - kMark, y}, {page.corner.x, y}, {picture::kFaintInk, 1.0});
+    svg.text({page.corner.x - kMark - 2.0, y + 0.35 * kSize}, number(y_m), {picture::kFaintInk, kSize, Anchor::kEnd});
+  }
+  svg.text({end.x + 13.0, end.y + kMark + kSize}, "x, m", {picture::kFaintInk, kSize});
+  svg.text({page.corner.x, page.corner.y - kMark}, "y, m", {picture::kFaintInk, kSize, Anchor::kEnd});
+}
+
+// Right of the legend also below a narrow map.
+void draw_scale(Svg& svg, const Page& page) {
+  const double length_m = round_length_m(page);
+  const Pixel end{page.corner.x + std::max(page.width, kLeastWidth), page.corner.y + page.height + 34.0};
   const Pixel start{end.x - length_m * page.pixels_per_m, end.y};
   svg.line(start, end, {picture::kInk, 2.0});
   for (const Pixel& tip : {start, end}) svg.line({tip.x, tip.y - 4.0}, {tip.x, tip.y + 4.0}, {picture::kInk, 2.0});
@@ -144,7 +228,7 @@ void draw_scale(Svg& svg, const Page& page) {
 
 void draw_legend(Svg& svg, const Page& page, const std::vector<LegendEntry>& legend) {
   double x = page.corner.x + 6.0;
-  const double y = page.corner.y + page.height + 28.0;
+  const double y = page.corner.y + page.height + 38.0;
   for (const LegendEntry& entry : legend) {
     svg.line({x - 6.0, y - 4.0}, {x + 10.0, y - 4.0}, {entry.colour, 3.0});
     svg.text({x + 16.0, y}, entry.words, {picture::kFaintInk, 12.0});
@@ -171,7 +255,7 @@ std::string map_picture(const MapScene& scene) {
   page.left_m = grid.origin_x_m + size_m * window.column;
   page.top_m = grid.origin_y_m + size_m * (window.row + step * height);
 
-  Svg svg(std::max(page.width, kLeastSide * 2.0) + 2.0 * kMargin, page.height + kHead + kFoot, picture::kPaper);
+  Svg svg(std::max(page.width, kLeastWidth) + 2.0 * kMargin, page.height + kHead + kFoot, picture::kPaper);
   svg.text({kMargin, 38.0}, scene.title, {picture::kInk, 21.0, Anchor::kStart, true});
   svg.text({kMargin, 62.0}, scene.subtitle, {picture::kFaintInk, 13.5});
   const std::string png = indexed_png(width, height, shades_of(grid, window, step, width, height), kShades);
@@ -182,13 +266,24 @@ std::string map_picture(const MapScene& scene) {
     for (const MapPlace& place : line.places) points.push_back(page(place));
     svg.polyline(points, {line.colour, line.width_px, line.dashes});
   }
+  struct Labelled {
+    PixelBox thing;
+    const std::string* words;
+    std::string_view colour;
+  };
+  std::vector<Labelled> labelled;
   for (const MapDot& dot : scene.dots) {
     const Pixel at = page(dot.at);
     svg.circle(at, 4.0, dot.colour);
-    svg.text({at.x + 8.0, at.y + 4.0}, dot.words, {dot.colour, 12.0, Anchor::kStart, true, picture::kPanel});
+    labelled.push_back({{at.x - 4.0, at.y - 4.0, at.x + 4.0, at.y + 4.0}, &dot.words, dot.colour});
   }
-  for (const MapMachine& machine : scene.machines) draw_machine(svg, page, machine);
+  for (const MapMachine& machine : scene.machines) {
+    labelled.push_back({draw_machine(svg, page, machine), &machine.words, machine.colour});
+  }
+  Labels labels(page);
+  for (const Labelled& one : labelled) labels.draw(svg, one.thing, *one.words, one.colour);
   svg.end_clip();
+  draw_axes(svg, page);
   draw_scale(svg, page);
   draw_legend(svg, page, scene.legend);
   return svg.document();

@@ -127,7 +127,7 @@ std::vector<NamedFigure> figures_of_map(const KnownMap& map) {
   if (map.trail) {
     out.emplace_back(tr("keyframes"), std::to_string(map.trail->keyframes()));
     out.emplace_back(tr("travel"), fmt::format("{:.1f} m", map.trail->travel_m()));
-    out.emplace_back(tr("closures believed"), std::to_string(map.trail->closures().size()));
+    out.emplace_back(tr("loop closures"), std::to_string(map.trail->closures().size()));
   }
   const MapFile& cells = map.cells;
   const double cell_m2 = cells.resolution_m * cells.resolution_m;
@@ -196,6 +196,9 @@ ReportPart part_of(const std::string& input, std::vector<std::filesystem::path>*
   ReportPart part;
   if (is_folder(input)) {
     part = part_of_folder(input, read);
+  } else if (std::filesystem::path(input).extension() == ".svg") {
+    part.pictures.push_back({std::filesystem::path(input).filename().string(), read_whole_file(input)});
+    read->emplace_back(input);
   } else {
     add_table(input, &part);
     read->emplace_back(input);
@@ -210,9 +213,11 @@ bool is_map_result(const std::string& input) {
   if (is_folder(input)) {
     return has_file(input, "trail.pwt") || has_file(input, "map.yaml") || has_file(input, "localise.csv");
   }
-  if (std::filesystem::path(input).extension() != ".csv") return false;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(input, ignored)) return false;
+  const std::filesystem::path extension = std::filesystem::path(input).extension();
+  if (extension == ".svg") return true;
+  if (extension != ".csv") return false;
   const CsvTable table = read_csv_file(input);
   return is_localised_table(table) || is_route_table(table);
 }

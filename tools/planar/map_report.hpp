@@ -11,7 +11,7 @@
 
 namespace pose_wall::tools {
 
-// A folder that `map` or `localise` wrote, or a table of `localise` or `plan`.
+// A folder that `map` or `localise` wrote, a table of `localise` or `plan`, or a picture (SVG).
 bool is_map_result(const std::string& input);
 
 struct MapReport {

@@ -55,10 +55,14 @@ std::vector<std::string> plan_setting_names() {
 
 void require_plan_settings(const std::vector<std::string>& words) {
   const std::vector<std::string> names = plan_setting_names();
+  std::vector<std::string> faults;
   for (const std::string& word : words) {
     const std::string name = named_value(word).name;
-    if (std::find(names.begin(), names.end(), name) == names.end()) refuse_unknown_setting(name, names);
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      faults.push_back(unknown_setting_text(name, names));
+    }
   }
+  refuse_settings(faults);
 }
 
 pose_wall_planar_plan_settings take_plan_settings(const pose_wall_planar_grid& grid, std::vector<std::string>* words) {
@@ -75,7 +79,6 @@ pose_wall_planar_plan_settings take_plan_settings(const pose_wall_planar_grid& g
   settings.resolution_m = grid.resolution_m;
   settings.lattice_m = std::max(settings.lattice_m, 2.0 * grid.resolution_m);
   take_settings(kPlanWords, pose_wall_planar_plan_settings_check, words, &settings);
-  require_plan_settings(*words);
   pose_wall_planar_fault fault{};
   if (pose_wall_planar_plan_settings_check(&settings, &fault) != POSE_WALL_OK) {
     throw std::invalid_argument(fault.rule != nullptr ? fault.rule : tr("the value is refused"));
@@ -132,11 +135,29 @@ std::optional<BlockingCell> blocking_cell(const pose_wall_planar_grid& grid,
   return found;
 }
 
-std::string blocking_text(const std::optional<BlockingCell>& cell) {
-  if (!cell) return tr("The edge of the map is in its way.");
-  return cell->is_unknown
-             ? say("An unknown cell at x {:.2f} m, y {:.2f} m is in its way.", cell->middle.x_m, cell->middle.y_m)
-             : say("A thing at x {:.2f} m, y {:.2f} m is in its way.", cell->middle.x_m, cell->middle.y_m);
+std::string blocked_place_text(const pose_wall_planar_grid& grid, const pose_wall_planar_plan_settings& settings,
+                               const pose_wall_planar_pose& at, const std::string& word) {
+  const double x_end_m = grid.origin_x_m + grid.width * grid.resolution_m;
+  const double y_end_m = grid.origin_y_m + grid.height * grid.resolution_m;
+  const std::string extent = say("The map reaches from x {:.2f} to {:.2f} m and from y {:.2f} to {:.2f} m.",
+                                 grid.origin_x_m, x_end_m, grid.origin_y_m, y_end_m);
+  const bool is_inside =
+      at.x_m >= grid.origin_x_m && at.x_m <= x_end_m && at.y_m >= grid.origin_y_m && at.y_m <= y_end_m;
+  if (!is_inside) return say("{} lies outside the map. {}", word, extent);
+  const std::optional<BlockingCell> cell = blocking_cell(grid, settings, at);
+  std::string in_its_way;
+  if (!cell) {
+    in_its_way = say("the edge of the map is in its way. {}", extent);
+  } else if (cell->is_unknown) {
+    in_its_way = say("an unknown cell at x {:.2f} m, y {:.2f} m is in its way.", cell->middle.x_m, cell->middle.y_m);
+  } else {
+    in_its_way = say("a thing at x {:.2f} m, y {:.2f} m is in its way.", cell->middle.x_m, cell->middle.y_m);
+  }
+  return say(
+      "The machine does not fit at {}: {} From its turning centre it reaches {:.2f} m ahead, {:.2f} m back, "
+      "{:.2f} m left and {:.2f} m right, and it needs {:.2f} m more all round "
+      "(--set front_m, rear_m, left_m, right_m, margin_m).",
+      word, in_its_way, settings.front_m, settings.rear_m, settings.left_m, settings.right_m, settings.margin_m);
 }
 
 std::string no_route_text(const pose_wall_planar_plan_result& result) {
@@ -144,11 +165,11 @@ std::string no_route_text(const pose_wall_planar_plan_result& result) {
     case POSE_WALL_PLAN_START_BLOCKED:
       return tr(
           "The machine does not fit at the start: with its margin it stands on cells that are occupied or "
-          "unknown. Another --from, or a smaller --set margin_m.");
+          "unknown.");
     case POSE_WALL_PLAN_GOAL_BLOCKED:
       return tr(
           "The machine does not fit at the goal: with its margin it would stand on cells that are occupied or "
-          "unknown. Another --to, or a smaller --set margin_m.");
+          "unknown.");
     case POSE_WALL_PLAN_NOT_CONNECTED:
       return tr("No free cells lead from the start to the goal: a wall or unknown ground lies between them.");
     case POSE_WALL_PLAN_TOO_NARROW:

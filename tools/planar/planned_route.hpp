@@ -17,11 +17,11 @@
 namespace pose_wall::tools {
 
 std::vector<std::string> plan_setting_names();
-// Throws std::invalid_argument for a word whose name is none of them.
+// Throws std::invalid_argument that names every word whose name is none of them.
 void require_plan_settings(const std::vector<std::string>& words);
 
 // The defaults, with sizes and resolution for this grid and the settings that `words` holds; these are taken out of it.
-// Throws std::invalid_argument.
+// Throws std::invalid_argument that names every refused setting.
 pose_wall_planar_plan_settings take_plan_settings(const pose_wall_planar_grid& grid, std::vector<std::string>* words);
 
 struct PlannedRoute {
@@ -63,8 +63,10 @@ std::optional<BlockingCell> blocking_cell(const pose_wall_planar_grid& grid,
 
 // Why there is no route, and what to do, in sentences.
 std::string no_route_text(const pose_wall_planar_plan_result& result);
-// Of a start or goal that is blocked: by what.
-std::string blocking_text(const std::optional<BlockingCell>& cell);
+// That the machine does not fit at the place that `word` gives: what is in its way and how far it reaches, or where the
+// map ends.
+std::string blocked_place_text(const pose_wall_planar_grid& grid, const pose_wall_planar_plan_settings& settings,
+                               const pose_wall_planar_pose& at, const std::string& word);
 
 // pose, x_m, y_m, yaw_rad, curvature_1_m, along_m, drive, stop, cusp, turn: one row a pose.
 std::string route_as_csv(const PlannedRoute& route);

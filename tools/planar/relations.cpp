@@ -100,6 +100,18 @@ RelationErrors errors_of(const Errors& errors) {
           spread_of(errors.rotation_rad, errors.lines)};
 }
 
+// Poses have eight numbers, too, and four of them the length 1. Of relations so few as these a line may look so.
+bool is_trajectory(std::string_view text) {
+  constexpr std::size_t kLeast = 3;
+  std::size_t rows = 0, unit = 0;
+  each_row<8>(text, [&](const std::array<double, 8>& row, std::size_t /*line*/) {
+    ++rows;
+    const double length = std::sqrt(row[4] * row[4] + row[5] * row[5] + row[6] * row[6] + row[7] * row[7]);
+    unit += std::abs(length - 1.0) <= kUnitLength ? 1U : 0U;
+  });
+  return rows >= kLeast && unit == rows;
+}
+
 }  // namespace
 
 std::vector<TimedPose> parse_tum(std::string_view text) {
@@ -128,7 +140,17 @@ std::vector<Relation> parse_relations(std::string_view text) {
 }
 
 std::vector<Relation> read_relations(const std::filesystem::path& file) {
-  return in_file(file, [](const std::string& text) { return parse_relations(text); });
+  try {
+    return in_file(file, [](const std::string& text) {
+      std::vector<Relation> relations = parse_relations(text);
+      if (relations.empty()) throw RelationsError(tr("no line holds numbers"));
+      if (is_trajectory(text)) throw RelationsError(tr("these are poses (`t x y z qx qy qz qw`), no relations"));
+      return relations;
+    });
+  } catch (const RelationsError& error) {
+    throw RelationsError(
+        say("{}. Relations are lines `t1 t2 x y z roll pitch yaw`: s, m, rad", std::string(error.what())));
+  }
 }
 
 RelationReport judge_relations(std::vector<TimedPose> poses, const std::vector<Relation>& relations, double near_s,

@@ -3,6 +3,9 @@
 
 #include "planar/scan_inputs.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <system_error>
@@ -24,11 +27,25 @@ void require_log_alone(const FrameOptions& options, const std::vector<std::strin
   if (!options.config_file.empty()) {
     throw std::invalid_argument(tr("--config is for frames; a log of CARMEN holds scans"));
   }
+  std::vector<std::string> faults;
   for (const std::string& setting : options.settings) {
-    const std::string name = setting.substr(0, setting.find('='));
-    throw std::invalid_argument(
-        say("--set {}: no setting for scans of a log{}", name, did_you_mean(name, verb_settings)));
+    const std::string name = named_value(setting).name;
+    faults.push_back(say("--set {}: no setting for scans of a log{}", name, did_you_mean(name, verb_settings)));
+    if (!verb_settings.empty()) {
+      faults.back() += say("; settings: {}", fmt::format("{}", fmt::join(verb_settings, ", ")));
+    }
   }
+  refuse_settings(faults);
+}
+
+// Of one input the frames' own fault would do; it does not say what else is taken here.
+void require_any_there(const std::vector<std::string>& inputs) {
+  std::error_code ignored;
+  const auto is_there = [&ignored](const std::string& input) { return std::filesystem::exists(input, ignored); };
+  if (std::any_of(inputs.begin(), inputs.end(), is_there)) return;
+  throw std::runtime_error(
+      say("INPUT {}: there is no such file or folder. Give frames, a bag, a capture of packets, or a log of CARMEN",
+          fmt::format("{}", fmt::join(inputs, ", "))));
 }
 
 // A name that no table has may be meant for one of the planar library: the config's own answer knows only its keys.
@@ -49,6 +66,7 @@ void compare_settings(const std::vector<std::string>& words, const std::vector<s
 }  // namespace
 
 std::unique_ptr<ScanSource> open_scans(const FrameOptions& options, const std::vector<std::string>& verb_settings) {
+  require_any_there(options.inputs);
   const auto& inputs = options.inputs;
   const auto log = std::find_if(inputs.begin(), inputs.end(), [](const std::string& input) {
     std::error_code ignored;

@@ -15,7 +15,8 @@
 namespace pose_wall::tools {
 
 // A log of CARMEN, or frames. verb_settings: names that the verb takes from --set itself; a mistyped one is compared
-// with them, too. Throws std::invalid_argument, ConfigError, CarmenError.
+// with them, too. Throws std::invalid_argument, ConfigError, CarmenError, and std::runtime_error where no input is
+// there.
 std::unique_ptr<ScanSource> open_scans(const FrameOptions& options, const std::vector<std::string>& verb_settings);
 
 }  // namespace pose_wall::tools

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <vector>
 
 #include "language/language.hpp"
@@ -72,7 +73,8 @@ std::string scan_picture(const SourcedScan& scan, const pose_wall_planar_scan_vi
   const Viewport page(corner, width, height, {x_m.low - 1.0, x_m.high + 1.0}, {y_m.low - 1.0, y_m.high + 1.0});
 
   Svg svg(kPageWidth, kPageHeight, picture::kPaper);
-  svg.text({kPageMargin, 38.0}, scan.name, {picture::kInk, 21.0, Anchor::kStart, true});
+  svg.text({kPageMargin, 38.0}, std::filesystem::path(scan.name).filename().string(),
+           {picture::kInk, 21.0, Anchor::kStart, true});
   svg.text({kPageMargin, 62.0},
            say("{} beams, {} with a range, at {} s. Grey: unknown. White: seen free", scan.range_m.size(),
                surfaces.size(), scan.time),

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,35 +28,38 @@ struct NamedValue {
 };
 // "NAME=VALUE"; the value is empty where there is no "=".
 NamedValue named_value(const std::string& word);
-// Throw std::invalid_argument.
-double setting_number(const NamedValue& setting);
-std::uint32_t setting_count(const NamedValue& setting);
-[[noreturn]] void refuse_setting(const std::string& word, const pose_wall_planar_fault& fault);
-[[noreturn]] void refuse_unknown_setting(const std::string& name, const std::vector<std::string>& known);
 
-// Sets the members that `words` names and takes these words out. Throws std::invalid_argument that names the setting
-// and its range. check: the part's _settings_check.
+// A member of one settings struct, where it lies.
+struct SettingPlace {
+  const char* name;
+  double* number;
+  std::uint32_t* count;
+};
+// The part's _settings_check of that struct.
+using SettingsCheck = std::function<std::int32_t(pose_wall_planar_fault*)>;
+
+// Sets the members that `words` name and takes these words out. Returns a line for each that is refused, with what is
+// allowed; such a member keeps its default. All words are set before their limits are looked at, for some depend on
+// each other.
+std::vector<std::string> set_places(const std::vector<SettingPlace>& places, const SettingsCheck& check,
+                                    std::vector<std::string>* words);
+// The line for a word that names no setting.
+std::string unknown_setting_text(const std::string& name, const std::vector<std::string>& known);
+// Throws std::invalid_argument of all these lines, if there is any.
+void refuse_settings(const std::vector<std::string>& faults);
+
+// Sets the members that `words` name and takes these words out. Throws std::invalid_argument that names every refused
+// setting and its range.
 template <typename Settings, std::size_t kWords, typename Check>
 void take_settings(const SettingWord<Settings> (&known)[kWords], Check check, std::vector<std::string>* words,
                    Settings* settings) {
-  std::vector<std::string> left;
-  for (const std::string& word : *words) {
-    const NamedValue given = named_value(word);
-    bool is_taken = false;
-    for (const SettingWord<Settings>& setting : known) {
-      if (given.name != setting.name) continue;
-      if (setting.number != nullptr) settings->*setting.number = setting_number(given);
-      if (setting.count != nullptr) settings->*setting.count = setting_count(given);
-      is_taken = true;
-    }
-    if (!is_taken) {
-      left.push_back(word);
-      continue;
-    }
-    pose_wall_planar_fault fault{};
-    if (check(settings, &fault) != POSE_WALL_OK) refuse_setting(word, fault);
+  std::vector<SettingPlace> places;
+  for (const SettingWord<Settings>& setting : known) {
+    places.push_back({setting.name, setting.number != nullptr ? &(settings->*setting.number) : nullptr,
+                      setting.count != nullptr ? &(settings->*setting.count) : nullptr});
   }
-  *words = left;
+  refuse_settings(set_places(
+      places, [&](pose_wall_planar_fault* fault) { return check(settings, fault); }, words));
 }
 
 template <typename Settings, std::size_t kWords>

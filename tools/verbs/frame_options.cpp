@@ -106,8 +106,8 @@ void add_input_options(CLI::App* verb, InputOptions* options) {
       ->check(one_of(length_unit_names()));
 }
 
-void add_frame_options(CLI::App* verb, FrameOptions* options) {
-  verb->add_option("INPUT", options->inputs, tr(kInputHelp))->required();
+void add_frame_options(CLI::App* verb, FrameOptions* options, const char* input_help) {
+  verb->add_option("INPUT", options->inputs, tr(input_help))->required();
   add_input_options(verb, &options->input);
   verb->add_option("-c,--config", options->config_file,
                    tr("Settings: a file, or the name of a config that comes with pose_wall, as vlp16; default: the "

@@ -42,10 +42,17 @@ constexpr const char* kInputHelp = translatable(
     "names, "
     "bags (ROS 1, MCAP, SQLite, folders of rosbag2) or captures of packets (Velodyne, Ouster, Hesai, Livox)");
 
+// Of verbs that take planar scans, too.
+constexpr const char* kScanInputHelp = translatable(
+    "A log of CARMEN (FLASER, ROBOTLASER1; .clf, .log, also packed by gzip); or frames: files (.pcd, .bin, .ply, .xyz, "
+    ".asc, .txt, .csv), folders of them in the order of the numbers in their names, bags (ROS 1, MCAP, SQLite, folders "
+    "of rosbag2) or captures of packets (Velodyne, Ouster, Hesai, Livox)");
+
 // How inputs are to be read.
 void add_input_options(CLI::App* verb, InputOptions* options);
 
-// INPUT, those, --config, --set, --rate and --quiet. The options must live as long as the verb.
-void add_frame_options(CLI::App* verb, FrameOptions* options);
+// INPUT (what it may be: a translatable text), those, --config, --set, --rate and --quiet. The options must live as
+// long as the verb.
+void add_frame_options(CLI::App* verb, FrameOptions* options, const char* input_help = kInputHelp);
 
 }  // namespace pose_wall::tools

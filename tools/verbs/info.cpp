@@ -40,8 +40,8 @@ struct Looked {
   std::string json;  // empty: nothing could be read
   bool complete = false;
   SensorFacts sensor;
-  std::string topic;    // of a bag, the one that was looked at
-  bool is_log = false;  // of CARMEN
+  std::string topic;  // of a bag, the one that was looked at
+  int restart_m = 0;  // of a log of CARMEN: worth trying; 0: it is none
 };
 
 // Each input is looked at by itself; topic, sensor and metadata have to be of one of them, not of each.
@@ -73,7 +73,7 @@ Looked look_at_log(const std::string& input, const InfoOptions& options) {
     if (!options.json) fmt::print("{}\n{}\n", input, carmen_facts_text(log));
     looked.json = carmen_facts_json(input, log);
     looked.complete = log.skip(CarmenSkip::kBadLine).lines + log.skip(CarmenSkip::kNotFinite).lines == 0;
-    looked.is_log = true;
+    looked.restart_m = worthy_restart_m(log);
   } catch (const CarmenError& error) {
     fmt::print(stderr, "pose_wall info: {}\n", error.what());
   }
@@ -100,16 +100,19 @@ Looked look_at(const std::string& input, const InfoOptions& options) {
   return {facts_json(input, about, facts), facts.unreadable() == 0, facts.sensor(), has_choice ? about.topic : ""};
 }
 
-std::string next_text_of_log(const std::string& log) {
+std::string next_text_of_log(const std::string& log, int restart_m) {
   return next_steps_text(
       {{tr("make a map of it, with the pose of every scan"), {"map", "-o", "map", "--poses", "poses.tum", log}},
-       {tr("then try restarts in this map, every 20 m"),
-        {"localise", "map", log, "--restart", "20", "--truth", "poses.tum"}}});
+       {say("then try restarts in this map, every {} m", restart_m),
+        {"localise", "map", log, "--restart", std::to_string(restart_m), "--truth", "poses.tum", "-o", "found"}},
+       {tr("and see both in a browser"), {"report", "-o", "map.html", "map", "found"}}});
 }
 
 // For one input, or for several of the same sensor.
 std::string next_text(const InfoOptions& options, const std::vector<Looked>& looked) {
-  if (looked.size() == 1 && looked.front().is_log) return next_text_of_log(options.inputs.front());
+  if (looked.size() == 1 && looked.front().restart_m > 0) {
+    return next_text_of_log(options.inputs.front(), looked.front().restart_m);
+  }
   const auto is_like_first = [&looked](const Looked& other) {
     return other.complete && other.sensor.returns > 0.0 && other.sensor.config == looked.front().sensor.config &&
            other.topic == looked.front().topic && !is_unit_doubtful(other.sensor.ranges);
@@ -158,7 +161,7 @@ void add_info(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<InfoOptions>();
   options->input.fullest_topic = true;
   CLI::App* verb = app.add_subcommand("info", tr("Show what frame files, bags, captures and logs of CARMEN hold"));
-  verb->add_option("INPUT", options->inputs, tr(kInputHelp))->required();
+  verb->add_option("INPUT", options->inputs, tr(kScanInputHelp))->required();
   add_input_options(verb, &options->input);
   verb->add_flag("--json", options->json, tr("A list with one object per input instead of tables"));
   verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));

@@ -97,17 +97,17 @@ std::string summary_text(const ScanTrail& trail, const BuiltMap& built, bool wit
   table.add_row({tr("odometry"), with_odometry ? tr("used") : tr("none")});
   table.add_row({tr("keyframes"), std::to_string(last.keyframes)});
   table.add_row({tr("travel"), fmt::format("{:.1f} m", trail.travel_m())});
-  table.add_row({tr("closures believed"), std::to_string(last.closures)});
-  table.add_row({tr("closures taken back"), std::to_string(last.taken_back)});
-  table.add_row({tr("doubtful scans"), per_cent(trail.count(POSE_WALL_PLANAR_SLAM_DOUBTFUL), scans)});
-  table.add_row({tr("blind scans"), per_cent(trail.count(POSE_WALL_PLANAR_SLAM_BLIND), scans)});
-  table.add_row({tr("points on known surfaces"), fmt::format("{:.1f} %", 100.0 * trail.explained_mean())});
+  table.add_row({tr("loop closures"), std::to_string(last.closures)});
+  table.add_row({tr("loop closures taken back"), std::to_string(last.taken_back)});
+  table.add_row({tr("scans that fit badly"), per_cent(trail.count(POSE_WALL_PLANAR_SLAM_DOUBTFUL), scans)});
+  table.add_row({tr("scans with too few points"), per_cent(trail.count(POSE_WALL_PLANAR_SLAM_BLIND), scans)});
+  table.add_row({tr("points on surfaces seen before"), fmt::format("{:.1f} %", 100.0 * trail.explained_mean())});
   table.add_row({tr("processor time a scan, mean"), fmt::format("{:.2f} ms", trail.mean_ms())});
   table.add_row({tr("processor time a scan, worst"), fmt::format("{:.2f} ms", trail.worst_ms())});
   table.add_row(
-      {tr("memory of the trail"), fmt::format("{:.1f} MB", kMBPerByte * static_cast<double>(trail.block_bytes()))});
-  table.add_row({tr("map"), fmt::format("{:.1f} x {:.1f} m, {:.2f} m", map.width * map.resolution_m,
-                                        map.height * map.resolution_m, map.resolution_m)});
+      {tr("memory of the SLAM"), fmt::format("{:.1f} MB", kMBPerByte * static_cast<double>(trail.block_bytes()))});
+  table.add_row({tr("size of the map"), say("{:.1f} x {:.1f} m in cells of {:.2f} m", map.width * map.resolution_m,
+                                            map.height * map.resolution_m, map.resolution_m)});
   table.add_row(
       {tr("memory of the map"), fmt::format("{:.1f} MB", kMBPerByte * static_cast<double>(built.block_bytes))});
   return table.text();
@@ -196,14 +196,21 @@ void print_start(const MapOptions& options, const ScanSource& source) {
   for (const std::string& note : source.notes()) fmt::print(stderr, "{}\n", note);
 }
 
-void print_end(const MapOptions& options, const MapWork& work, const BuiltMap& built, const ScanSource& source,
+// False: no relation is of these scans.
+bool print_end(const MapOptions& options, const MapWork& work, const BuiltMap& built, const ScanSource& source,
                const std::vector<Relation>& relations) {
   if (!options.frames.quiet) {
     fmt::print("{}", summary_text(work.trail, built, !options.no_odometry && source.has_odometry()));
     for (const std::string& warning : warnings_of(work, built)) fmt::print(stderr, "pose_wall map: {}\n", warning);
   }
-  if (options.relations.empty()) return;
-  fmt::print("{}{}", options.frames.quiet ? "" : "\n", relation_table(relations_of(work.trail, relations)));
+  if (options.relations.empty()) return true;
+  const RelationReport report = relations_of(work.trail, relations);
+  fmt::print("{}{}", options.frames.quiet ? "" : "\n", relation_table(report));
+  if (report.all.relations > 0) return true;
+  fmt::print(stderr, "{}",
+             say("pose_wall map: --relations {}: no relation has the times of two scans. Are these of another log?\n",
+                 options.relations));
+  return false;
 }
 
 int map_scans(MapOptions options) {
@@ -224,14 +231,14 @@ int map_scans(MapOptions options) {
   const BuiltMap built = build_map(work.trail.kept_scans(), work.trail.kept_poses(), options.cell_m);
   if (poses) poses->write(poses_text(work.trail));
   if (!options.output.empty()) write_folder(options, work.trail, built);
-  print_end(options, work, built, *source, relations);
+  const bool are_judged = print_end(options, work, built, *source, relations);
   if (InterruptWatch::is_interrupted()) {
     fmt::print(stderr, "{}",
                say("interrupted after {} of {} scans; what is written shows these\n", work.trail.scans().size(),
                    source->scans()));
     return kExitInterrupted;
   }
-  return source->errors().empty() && work.unreadable == 0 ? kExitDone : kExitUnreadable;
+  return source->errors().empty() && work.unreadable == 0 && are_judged ? kExitDone : kExitUnreadable;
 }
 
 }  // namespace
@@ -239,7 +246,7 @@ int map_scans(MapOptions options) {
 void add_map(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<MapOptions>();
   CLI::App* verb = app.add_subcommand("map", tr("Make a map of planar scans, with the pose of every scan"));
-  add_frame_options(verb, &options->frames);
+  add_frame_options(verb, &options->frames, kScanInputHelp);
   verb->add_option("-o,--output", options->output,
                    tr("Folder for map.pgm and map.yaml (as Nav2 and map_server read them), map.svg (map, trail, "
                       "closures) and trail.pwt (the graph)"));
@@ -258,15 +265,15 @@ void add_map(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  pose_wall map aces.clf.gz -o aces --poses aces.tum --relations aces.relations\n"
       "  pose_wall map -c road/pose_wall.yaml -o map road/frames\n"
-      "INPUT is frames as for `run`, or one log of CARMEN (FLASER, ROBOTLASER1; .clf, .log, also packed by gzip).\n"
-      "Of frames, each becomes a planar scan about the measured floor.\n"
+      "One log of CARMEN alone, or frames. Of frames, each becomes a planar scan about the measured floor.\n"
       "The pose of a log's scan is that of its scanner, as FLASER has it, else that of base.\n"
       "Every scan is matched with the last metres. Where the machine comes back to a place, the closure is believed\n"
       "after several looks agree, and taken back where later looks contradict it.\n"
       "--set also takes keyframe_m (0.3), keyframe_rad (0.25), and by how much odometry errs: odometry_m (0.1, by\n"
       "the way), odometry_rad (0.3, by the turn).\n"
-      "Exit status: 0 done, 1 an input could not be read (the others are mapped) or a file not written,\n"
-      "2 bad usage or config, 130 interrupted by Ctrl-C: files show the scans so far."));
+      "The folder of -o is the MAP of `localise` and `plan`, and `report` shows it.\n"
+      "Exit status: 0 done, 1 an input could not be read (the others are mapped), a file not written, or no relation\n"
+      "is of these scans, 2 bad usage or config, 130 interrupted by Ctrl-C: files show the scans so far."));
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("map", [&] { return map_scans(*options); }); });
 }
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -19,6 +19,7 @@
 #include "language/language.hpp"
 #include "planar/map_files.hpp"
 #include "planar/map_picture.hpp"
+#include "planar/planar_input.hpp"
 #include "planar/planned_route.hpp"
 #include "results/row_output.hpp"
 #include "terminal/text_table.hpp"
@@ -42,6 +43,13 @@ struct PlanOptions {
   bool free_specks = false;
   bool quiet = false;
 };
+
+// "start blocked".
+std::string outcome_words(std::uint32_t outcome) {
+  std::string words = pose_wall_planar_plan_outcome_name(outcome);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
 
 std::string route_table(const PlannedRoute& route, const RoutePlanner& planner) {
   const pose_wall_planar_plan_result& result = route.result;
@@ -68,8 +76,15 @@ std::optional<BlockingCell> blocking_of(const MapFile& map, const pose_wall_plan
   return std::nullopt;
 }
 
-bool is_blocked(const PlannedRoute& route) {
-  return route.result.outcome == POSE_WALL_PLAN_START_BLOCKED || route.result.outcome == POSE_WALL_PLAN_GOAL_BLOCKED;
+std::string why_none(const PlanOptions& options, const MapFile& map, const pose_wall_planar_plan_settings& settings,
+                     const PlannedRoute& route, const pose_wall_planar_pose& from, const pose_wall_planar_pose& to) {
+  if (route.result.outcome == POSE_WALL_PLAN_START_BLOCKED) {
+    return blocked_place_text(map.grid(), settings, from, "--from " + options.from);
+  }
+  if (route.result.outcome == POSE_WALL_PLAN_GOAL_BLOCKED) {
+    return blocked_place_text(map.grid(), settings, to, "--to " + options.to);
+  }
+  return no_route_text(route.result);
 }
 
 MapScene scene_of(const PlanOptions& options, const MapFile& map, const PlannedRoute& route,
@@ -80,7 +95,7 @@ MapScene scene_of(const PlanOptions& options, const MapFile& map, const PlannedR
   scene.title = std::filesystem::path(options.map).filename().string();
   scene.subtitle = route.is_found() ? say("route of {:.1f} m, {} changes of direction, {} turns on the spot",
                                           route.result.length_m, route.result.cusps, route.result.spot_turns)
-                                    : say("no route: {}", pose_wall_planar_plan_outcome_name(route.result.outcome));
+                                    : say("no route: {}", outcome_words(route.result.outcome));
   scene.margin_m = kShown_m;
   draw_route(route, settings, &scene);
   scene.machines.push_back({from, machine_outline(settings), kTrailColour, tr("start")});
@@ -98,17 +113,18 @@ int plan_route(PlanOptions options) {
   require_plan_settings(options.settings);
   const pose_wall_planar_pose from = pose_of_word(options.from, "--from");
   const pose_wall_planar_pose to = pose_of_word(options.to, "--to");
-  MapFile map = read_map_files(options.map);
+  const std::filesystem::path cells = cells_file_of(options.map);
+  MapFile map = read_map_files(cells);
   const std::size_t specks = options.free_specks ? free_specks(&map) : 0;
   const pose_wall_planar_plan_settings settings = take_plan_settings(map.grid(), &options.settings);
-  std::vector<std::filesystem::path> read = {options.map};
+  std::vector<std::filesystem::path> read = {cells};
   std::optional<OutputFile> output, picture;
   if (!options.output.empty()) {
     output.emplace(options.output, read);
     read.emplace_back(options.output);
   }
   if (!options.picture.empty()) picture.emplace(options.picture, read, "--picture");
-  if (!options.quiet && !map.note.empty()) fmt::print(stderr, "{}: {}\n", options.map, map.note);
+  if (!options.quiet && !map.note.empty()) fmt::print(stderr, "{}: {}\n", cells.string(), map.note);
 
   if (!options.quiet && options.free_specks) fmt::print(stderr, "{}", say("{} specks count as free\n", specks));
 
@@ -116,8 +132,7 @@ int plan_route(PlanOptions options) {
   const PlannedRoute route = planner.plan(map.grid(), from, to);
   if (picture) picture->write(map_picture(scene_of(options, map, route, settings, from, to)));
   if (!route.is_found()) {
-    const std::string by = is_blocked(route) ? " " + blocking_text(blocking_of(map, settings, route, from, to)) : "";
-    fmt::print(stderr, "{}", say("pose_wall plan: no route. {}{}\n", no_route_text(route.result), by));
+    fmt::print(stderr, "{}", say("pose_wall plan: no route. {}\n", why_none(options, map, settings, route, from, to)));
     return kExitNotUsable;
   }
   if (output) output->write(route_as_csv(route));
@@ -130,33 +145,39 @@ int plan_route(PlanOptions options) {
 void add_plan(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<PlanOptions>();
   CLI::App* verb = app.add_subcommand("plan", tr("Plan a route through a map for a machine on tracks"));
-  verb->add_option("MAP", options->map, tr("The map's YAML file, as pose_wall map, Nav2 and map_server write it"))
-      ->required()
-      ->check(existing_file());
-  verb->add_option("--from", options->from, tr("Start: x,y,yaw of the machine's turning centre; m, m, degrees"))
+  verb->add_option("MAP", options->map,
+                   tr("Folder of pose_wall map -o (its map.yaml is read), or a map's YAML file, as Nav2 and map_server "
+                      "write it, too"))
+      ->required();
+  verb->add_option("--from,--start", options->from,
+                   tr("Start: x,y,yaw of the machine's turning centre in the map's frame; m, m, degrees"))
       ->required()
       ->type_name("X,Y,YAW");
-  verb->add_option("--to", options->to, tr("Goal, likewise"))->required()->type_name("X,Y,YAW");
+  verb->add_option("--to,--goal", options->to, tr("Goal, likewise"))->required()->type_name("X,Y,YAW");
   verb->add_option("-o,--output", options->output, tr("File for the route's poses (CSV)"));
   verb->add_option("--picture", options->picture, tr("File for a picture of the map and the route (SVG)"))
       ->check(svg_file());
-  verb->add_option("-s,--set", options->settings, tr("KEY=VALUE of the planner; may be repeated"))
+  verb->add_option("-s,--set", options->settings, tr("KEY=VALUE of machine and planner, below; may be repeated"))
       ->allow_extra_args(false);
   verb->add_flag("--free-specks", options->free_specks,
                  tr("Count unknown cells in the open as free: people that walked by leave such specks"));
   verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
-  verb->footer(
-      tr("Examples:\n"
-         "  pose_wall plan map/map.yaml --from 0,0,0 --to 12.5,-3,180 -o route.csv --picture route.svg\n"
-         "  pose_wall plan map/map.yaml --from 0,0,0 --to 20,0,0 -s front_m=1.8 -s rear_m=2.7 -s margin_m=0.2\n"
-         "Yaw counts from x to y.\n"
-         "The machine is a rectangle: front_m, rear_m (2.25), left_m, right_m (0.6), with margin_m (0.1) round it.\n"
-         "It drives forwards and backwards, in curves, and turns on the spot. Unknown cells are not driven on.\n"
-         "Further settings: lattice_m, turn_cost_m_rad, reverse_cost, cusp_cost_m, weight, radius_min_m,\n"
-         "radius_max_m, pose_step_m, places_max, open_max, expansions_max, hurry_after, occupied_from.\n"
-         "drive of a pose is 1 forwards, -1 backwards, 0 a turn on the spot that leads to it.\n"
-         "Exit status: 0 done, 1 the map could not be read or a file not written, 2 bad usage, 3 there is no route\n"
-         "(stderr has the reason, the picture the place)."));
+  verb->footer(tr(
+      "Examples:\n"
+      "  pose_wall plan map --from 0,0,0 --to 12.5,-3,180 -o route.csv --picture route.svg\n"
+      "  pose_wall plan map/map.yaml --from 0,0,0 --to 20,0,0 -s front_m=1.8 -s rear_m=2.7 -s margin_m=0.2\n"
+      "Places are of the machine's turning centre, midway between its tracks, in the frame of the map. In a map of\n"
+      "`map` 0,0,0 is where base stood at the first scan: x ahead of it, y to its left. Yaw counts from x to y: 90\n"
+      "looks along y. Pictures have x and y at their edges.\n"
+      "The machine is a rectangle from its turning centre to front_m, rear_m (2.25), left_m, right_m (0.6), with\n"
+      "margin_m (0.1) round it.\n"
+      "It drives forwards and backwards, in curves, and turns on the spot. Unknown cells are not driven on.\n"
+      "Further settings: lattice_m (0.25, at most an eighth of the machine's length), turn_cost_m_rad, reverse_cost,\n"
+      "cusp_cost_m, weight, radius_min_m, radius_max_m, pose_step_m, places_max, open_max, expansions_max,\n"
+      "hurry_after, occupied_from.\n"
+      "drive of a pose is 1 forwards, -1 backwards, 0 a turn on the spot that leads to it.\n"
+      "Exit status: 0 done, 1 the map could not be read or a file not written, 2 bad usage, 3 there is no route\n"
+      "(stderr has the reason, the picture the place)."));
   verb->callback(
       [options, &exit_code] { exit_code = done_or_complaint("plan", [&] { return plan_route(*options); }); });
 }

@@ -4,6 +4,7 @@
 // pose_wall report: measures frames and writes a page about them.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +14,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -40,6 +42,10 @@
 
 namespace pose_wall::tools {
 namespace {
+
+constexpr const char* kReportInputHelp = translatable(
+    "Frames as for run: files, folders, bags, captures; or a table of motion (CSV); or what map -o, localise -o "
+    "(folders), plan -o (CSV) and --picture (SVG) wrote");
 
 struct ReportOptions {
   FrameOptions frames;
@@ -191,7 +197,8 @@ int report_maps(const ReportOptions& options) {
   const std::vector<std::string>& inputs = options.frames.inputs;
   for (const std::string& input : inputs) {
     if (!is_map_result(input)) {
-      throw std::invalid_argument(say("{}: give what map, localise or plan wrote alone, without other inputs", input));
+      throw std::invalid_argument(
+          say("{}: this is no result of map, localise or plan; a page shows those without other inputs", input));
     }
   }
   if (!options.truth.empty()) {
@@ -208,8 +215,25 @@ int report_maps(const ReportOptions& options) {
   return kExitDone;
 }
 
+// Of frames the others are still shown. Tables and maps belong together.
+void require_there(const std::vector<std::string>& inputs) {
+  std::error_code ignored;
+  std::vector<std::string> missing;
+  for (const std::string& input : inputs) {
+    if (!std::filesystem::exists(input, ignored)) missing.push_back(input);
+  }
+  const bool are_frames = std::none_of(
+      inputs.begin(), inputs.end(), [](const std::string& input) { return is_map_result(input) || is_table(input); });
+  if (missing.empty() || (are_frames && missing.size() < inputs.size())) return;
+  throw std::runtime_error(
+      say("INPUT {}: there is no such file or folder. Give frames or a bag; or a table of motion; or what `map -o`, "
+          "`localise -o` and `plan -o` wrote",
+          fmt::format("{}", fmt::join(missing, ", "))));
+}
+
 int report_inputs(const ReportOptions& options) {
   const std::vector<std::string>& inputs = options.frames.inputs;
+  require_there(inputs);
   if (std::any_of(inputs.begin(), inputs.end(), is_map_result)) return report_maps(options);
   return std::any_of(inputs.begin(), inputs.end(), is_table) ? report_motion(options) : report_frames(options);
 }
@@ -219,7 +243,7 @@ int report_inputs(const ReportOptions& options) {
 void add_report(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* verb = app.add_subcommand("report", tr("Measure frames and write a page about them, to open in a browser"));
-  add_frame_options(verb, &options->frames);
+  add_frame_options(verb, &options->frames, kReportInputHelp);
   verb->add_option("-o,--output", options->output, tr("The page"))->capture_default_str();
   verb->add_option("--truth", options->truth,
                    tr("truth.csv of pose_wall sim. Each frame gets the row of its stamp. If the stamps do not tell the "
@@ -234,10 +258,10 @@ void add_report(CLI::App& app, int& exit_code) {
       "  pose_wall sim --scene nominal --frames 100 --output road\n"
       "  pose_wall report -c road/pose_wall.yaml --truth road/truth.csv -o road.html road/frames\n"
       "  pose_wall report --truth road/truth.csv -o way.html motion.csv\n"
-      "  pose_wall report -o map.html map found route.csv\n"
+      "  pose_wall report -o map.html map found route.csv route.svg\n"
       "The third example reads a table of `motion`. Its page shows the path from above, the states\n"
-      "along the road, travel and steps. The last one reads the folders of `map -o` and `localise -o` and a table of\n"
-      "`plan`. Its page shows their pictures (SVG) and figures.\n"
+      "along the road, travel and steps. The last one reads the folders of `map -o` and `localise -o` and table and\n"
+      "picture of `plan`. Its page shows their pictures (SVG) and figures.\n"
       "The page is one file in English and Chinese and needs no network. It shows a verdict, every frame from above\n"
       "and in section, and time series with protection levels and states. Values that are not valid are grey.\n"
       "Of a long recording it keeps the points of some 400 frames, and of frames in which a state changes.\n"

@@ -61,6 +61,7 @@ constexpr BeamColumn kBeamColumns[] = {
 
 struct ScanCounts {
   std::size_t scans = 0, unreadable = 0, beams = 0, ranges = 0, held = 0;
+  bool is_drawn = false;
 };
 
 std::string csv_head() {
@@ -172,14 +173,17 @@ std::string write_scans(const ScanOptions& options, ScanSource& source, RowOutpu
     const bool is_written =
         rows->write(options.format == "json" ? json_row(number, *scan, view) : csv_rows(number, *scan, view));
     if (!is_written) return say("{} could not be written to the end", rows->name());
-    if (picture != nullptr && number == options.drawn) picture->write(scan_picture(*scan, view));
+    if (picture != nullptr && number >= options.drawn && !counts->is_drawn) {
+      picture->write(scan_picture(*scan, view));
+      counts->is_drawn = true;
+    }
     bar.advance(std::filesystem::path(scan->name).filename().string());
   }
   return "";
 }
 
 int scan_inputs(const ScanOptions& options) {
-  const std::unique_ptr<ScanSource> source = open_scans(options.frames, scanner_setting_names());
+  const std::unique_ptr<ScanSource> source = open_scans(options.frames, {});
   std::vector<std::filesystem::path> read = source->files();
   RowOutput rows(options.output, read, options.format == "json" ? "" : csv_head());
   if (!options.output.empty()) read.emplace_back(options.output);
@@ -195,11 +199,18 @@ int scan_inputs(const ScanOptions& options) {
   if (!fault.empty()) fmt::print(stderr, "pose_wall scan: {}\n", fault);
   if (!options.frames.quiet && counts.scans > 0) fmt::print(stderr, "\n{}", counts_text(counts));
   if (counts.scans == 0) fmt::print(stderr, "{}", say("pose_wall scan: there is no scan\n"));
+  const bool lacks_picture = picture && !counts.is_drawn;
+  if (lacks_picture && counts.scans > 0 && !InterruptWatch::is_interrupted()) {
+    fmt::print(stderr, "{}",
+               say("pose_wall scan: --drawn {}: there is no scan from this number on, so {} is not written\n",
+                   options.drawn, options.picture));
+  }
   if (InterruptWatch::is_interrupted()) {
     fmt::print(stderr, "{}", say("interrupted after {} scans, each whole\n", counts.scans));
     return kExitInterrupted;
   }
-  const bool is_done = fault.empty() && source->errors().empty() && counts.unreadable == 0 && counts.scans > 0;
+  const bool is_done =
+      fault.empty() && source->errors().empty() && counts.unreadable == 0 && counts.scans > 0 && !lacks_picture;
   return is_done ? kExitDone : kExitUnreadable;
 }
 
@@ -208,7 +219,7 @@ int scan_inputs(const ScanOptions& options) {
 void add_scan(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ScanOptions>();
   CLI::App* verb = app.add_subcommand("scan", tr("Compress frames to planar scans by the machine's height"));
-  add_frame_options(verb, &options->frames);
+  add_frame_options(verb, &options->frames, kScanInputHelp);
   verb->add_option("-o,--output", options->output, tr("File for the scans; default, and -: standard output"));
   verb->add_option("--format", options->format,
                    tr("CSV: a row for each beam; JSON: one object per line and scan, with the beams as arrays"))
@@ -216,14 +227,17 @@ void add_scan(CLI::App& app, int& exit_code) {
       ->check(one_of({"csv", "json"}));
   verb->add_option("--picture", options->picture, tr("File for a picture of one scan from above (SVG)"))
       ->check(svg_file());
-  verb->add_option("--drawn", options->drawn, tr("Number of that scan among the inputs, from 0"))
+  verb->add_option("--drawn", options->drawn,
+                   tr("Number of that scan among the inputs, from 0; where it cannot be read, the next one"))
       ->capture_default_str()
       ->check(whole_number());
   verb->footer(
       tr("Examples:\n"
          "  pose_wall scan -c road/pose_wall.yaml -o scans.csv --picture scan.svg road/frames\n"
          "  pose_wall scan -c vlp16 -s machine_height_m=1.6 --format json -o scans.jsonl road.bag\n"
-         "A beam is the first thing of the machine's height in its direction. Heights count from the measured floor:\n"
+         "  pose_wall scan --format json -o scans.jsonl aces.clf.gz\n"
+         "Scans of a log stay as they are. Of frames, a beam is the first thing of the machine's height in its\n"
+         "direction. Heights count from the measured floor:\n"
          "--set ground_clearance_m (0.25) and machine_height_m (1.8), with margin_m (0.1) at both ends. Further\n"
          "settings: floor_tolerance_m, overhead_m, thing_m, clear_reach_m, angle_min_rad, angle_max_rad,\n"
          "angle_step_rad, range_min_m, range_max_m, fill_rad, hold_max_s, tilt_level_max_rad, bend_rad, alone.\n"
