@@ -68,7 +68,7 @@ constexpr Example kExamples[] = {
     {"pose_wall run -c road/pose_wall.yaml -o out.csv road/frames", translatable("measure a folder of frames")},
     {"pose_wall motion -c road/pose_wall.yaml -o motion.csv road/frames", translatable("travel of the machine")},
     {"pose_wall map -o map --poses poses.tum aces.clf.gz", translatable("a map of planar scans")},
-    {"pose_wall localise map --restart 20 aces.clf.gz", translatable("the place in a map, after restarts")},
+    {"pose_wall localise map --restart 60 aces.clf.gz", translatable("the place in a map, after restarts")},
     {"pose_wall plan map --from 0,0,0 --to 12,3,90", translatable("a route through a map")},
     {"pose_wall drive --seed 2 -o story", translatable("a machine that follows its own map, in the simulator")},
     {"pose_wall report -c road/pose_wall.yaml -o report.html road/frames",

@@ -330,7 +330,7 @@ void add_localise(CLI::App& app, int& exit_code) {
   verb->add_option("MAP", options->map,
                    tr("Folder of pose_wall map -o, its trail.pwt, or a map's YAML file (cells hold less)"))
       ->required();
-  add_frame_options(verb, &options->frames);
+  add_frame_options(verb, &options->frames, kScanInputHelp);
   verb->add_option("--start", options->start,
                    tr("Where base stands at first, to half a metre and 10 degrees: x,y,yaw in m, m, degrees. "
                       "Default: the whole map is searched"))

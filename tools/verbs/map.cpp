@@ -169,7 +169,7 @@ void write_folder(const MapOptions& options, const ScanTrail& trail, const Built
   const std::filesystem::path folder = options.output;
   write_map_files(folder / "map.yaml", built.map.grid());
   write_whole_file(folder / "map.svg", map_picture(scene_of(options, trail, built)));
-  write_whole_file(folder / "trail.pwt", trail.saved());
+  write_lasting_file(folder / "trail.pwt", trail.saved());
 }
 
 RelationReport relations_of(const ScanTrail& trail, const std::vector<Relation>& relations) {
