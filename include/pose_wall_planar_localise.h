@@ -21,9 +21,9 @@
  *           them, which the map lacks. The one candidate then stays AMBIGUOUS. map_is_whole = 1: the map lacks none.
  * LIMITS    a place that is not in the map, but has the same relief to a few centimetres as one that is, is taken for
  *           that one. No scan can tell them apart.
- * ODOMETRY  a pose of base in any frame that may drift, at the scan's time. It may stall, leap and catch up: where walls
- *           have relief, the scans notice it. Without it, scans are matched with each other: from one to the next the
- *           machine then moves less than 0.6 m and 0.6 rad.
+ * ODOMETRY  a pose of base in any frame that may drift, at the scan's time. It may stall, leap and catch up: where
+ *           walls have relief, the scans notice it. Without it, scans are matched with each other: from one to the next
+ *           the machine then moves less than 0.6 m and 0.6 rad.
  * KIDNAPPED three scans in a row that contradict the map at the tracked place, or 8 m of doubt, and it is lost: the
  *           search begins anew. A move along walls that look the same to a scanner is not seen.
  * COST      a call does at most `work` steps of search, some 60 ns each, besides a match. README.md of
