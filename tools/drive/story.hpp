@@ -26,7 +26,7 @@ struct StorySettings {
   int people = 3;
   bool people_stay = false;
   bool loses_walls = true;
-  std::optional<pose_wall_planar_pose> goal;   // in map; none: where the map began
+  std::optional<pose_wall_planar_pose> goal;   // in map; none: where the map began, facing either way
   std::optional<pose_wall_planar_pose> start;  // of base, truly; none: drawn
   double time_most_s = 1800.0;
   double patience_s = 60.0;  // before a stop

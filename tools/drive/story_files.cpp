@@ -11,6 +11,7 @@
 
 #include "csv/csv_table.hpp"
 #include "language/language.hpp"
+#include "planar/stop_reasons.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {
@@ -91,7 +92,7 @@ std::string story_as_csv(const std::vector<StoryFrame>& frames) {
                      pose_wall_planar_localise_state_name(row.place_state),
                      csv_number(row.place_sigma_m),
                      pose_wall_planar_stop_state_name(row.stop_state),
-                     stop_reasons_text(row.stop_reasons),
+                     fmt::format("{}", fmt::join(stop_reason_names(row.stop_reasons), " ")),
                      csv_number(row.allowed_m_s),
                      csv_number(row.limit_x_m),
                      csv_number(row.limit_y_m),

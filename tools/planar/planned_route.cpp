@@ -143,12 +143,11 @@ std::string no_route_text(const pose_wall_planar_plan_result& result) {
   switch (result.outcome) {
     case POSE_WALL_PLAN_START_BLOCKED:
       return tr(
-          "The machine does not fit at the start: with its margin it stands on cells that are occupied or "
-          "unknown. Another --from, or a smaller --set margin_m.");
+          "The machine does not fit at the start: with its margin it stands on cells that are occupied or unknown.");
     case POSE_WALL_PLAN_GOAL_BLOCKED:
       return tr(
           "The machine does not fit at the goal: with its margin it would stand on cells that are occupied or "
-          "unknown. Another --to, or a smaller --set margin_m.");
+          "unknown.");
     case POSE_WALL_PLAN_NOT_CONNECTED:
       return tr("No free cells lead from the start to the goal: a wall or unknown ground lies between them.");
     case POSE_WALL_PLAN_TOO_NARROW:
@@ -160,11 +159,9 @@ std::string no_route_text(const pose_wall_planar_plan_result& result) {
           "tight for its length.",
           result.place.x_m, result.place.y_m);
     case POSE_WALL_PLAN_LIST_FULL:
-      return say("The search ran out of room after {} places. --set places_max and open_max give it more.",
-                 result.places);
+      return say("The search ran out of room after {} places.", result.places);
     case POSE_WALL_PLAN_WORK_LIMIT:
-      return say("The search ended at its limit of {} expansions. --set expansions_max gives it more.",
-                 result.expansions);
+      return say("The search ended at its limit of {} expansions.", result.expansions);
     default:
       return pose_wall_planar_plan_outcome_text(result.outcome);
   }

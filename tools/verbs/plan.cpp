@@ -94,6 +94,22 @@ MapScene scene_of(const PlanOptions& options, const MapFile& map, const PlannedR
   return scene;
 }
 
+// What the user may change, after a blank; empty: nothing.
+std::string advice_text(const pose_wall_planar_plan_result& result) {
+  switch (result.outcome) {
+    case POSE_WALL_PLAN_START_BLOCKED:
+      return std::string(" ") + tr("Another --from, or a smaller --set margin_m.");
+    case POSE_WALL_PLAN_GOAL_BLOCKED:
+      return std::string(" ") + tr("Another --to, or a smaller --set margin_m.");
+    case POSE_WALL_PLAN_LIST_FULL:
+      return std::string(" ") + tr("--set places_max and open_max give it more.");
+    case POSE_WALL_PLAN_WORK_LIMIT:
+      return std::string(" ") + tr("--set expansions_max gives it more.");
+    default:
+      return "";
+  }
+}
+
 int plan_route(PlanOptions options) {
   require_plan_settings(options.settings);
   const pose_wall_planar_pose from = pose_of_word(options.from, "--from");
@@ -116,8 +132,9 @@ int plan_route(PlanOptions options) {
   const PlannedRoute route = planner.plan(map.grid(), from, to);
   if (picture) picture->write(map_picture(scene_of(options, map, route, settings, from, to)));
   if (!route.is_found()) {
-    const std::string by = is_blocked(route) ? " " + blocking_text(blocking_of(map, settings, route, from, to)) : "";
-    fmt::print(stderr, "{}", say("pose_wall plan: no route. {}{}\n", no_route_text(route.result), by));
+    std::string text = no_route_text(route.result) + advice_text(route.result);
+    if (is_blocked(route)) text += " " + blocking_text(blocking_of(map, settings, route, from, to));
+    fmt::print(stderr, "{}", say("pose_wall plan: no route. {}\n", text));
     return kExitNotUsable;
   }
   if (output) output->write(route_as_csv(route));
