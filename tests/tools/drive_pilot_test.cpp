@@ -55,6 +55,7 @@ class HeldDrive {
     where_.covariance[0] = where_.covariance[4] = 1e-4;
   }
 
+  void begin_at(const pose_wall_planar_pose& base) { at_ = base; }
   void run(double most_s) {
     while (time_s_ < most_s && pilot_.phase() != PilotPhase::kArrived && pilot_.phase() != PilotPhase::kGivenUp) step();
   }
@@ -136,6 +137,20 @@ TEST(DrivePilot, WaitsForWhoLeavesAndGoesOn) {
   EXPECT_EQ(drive.pilot().phase(), PilotPhase::kArrived) << drive.pilot().reason();
   EXPECT_EQ(drive.pilot().plans(), 1U);
   EXPECT_GT(drive.time_s(), 60.0);
+}
+
+TEST(DrivePilot, LeavesAPlaceTooNearToRock) {
+  MapFile map = road(9.0);
+  // A ledge beside the machine, up to x = 3 m; it stands 0.2 m from it.
+  for (std::uint32_t row = map.height - 10; row < map.height; ++row) {
+    for (std::uint32_t column = 0; column < 180; ++column) map.cells[std::size_t{row} * map.width + column] = 100;
+  }
+  HeldDrive drive(map, 20.0);
+  drive.thing = {-100.0, 0.0};
+  drive.begin_at({0.0, 3.25, 0.0});
+  drive.run(400.0);
+  EXPECT_EQ(drive.pilot().phase(), PilotPhase::kArrived) << drive.pilot().reason();
+  EXPECT_EQ(drive.pilot().plans(), 2U) << "out, and to the goal";
 }
 
 TEST(WayFinder, TakesTheGoalThatTheMachineCanFace) {

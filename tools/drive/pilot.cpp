@@ -26,7 +26,7 @@ constexpr std::size_t kPlansMost = 20;
 constexpr double kHeld_s = 15.0;
 constexpr double kProgress_m = 0.3;  // of the rim: who moved less did not get on
 constexpr double kTrail_m = 0.5;     // between poses of the way to here; a radian of a turn is so many metres
-constexpr double kTrailMost_m = 20.0;
+constexpr double kLeaveMost_m = 6.0;  // of way so near to rock: more than the machine's length
 constexpr double kBack_m[] = {2.0, 5.0};  // that it may go back, to where it turns off
 
 double seconds_since(std::int64_t then_ns, std::int64_t now_ns) {
@@ -86,13 +86,30 @@ void DrivePilot::take(PlannedRoute route) {
 
 void DrivePilot::plan_from(const pose_wall_planar_pose& base) {
   if (plans_ >= kPlansMost) return give_up(say("after {} routes it is not there", kPlansMost));
-  goes_back_ = false;
+  leads_out_ = false;
   PlannedRoute route = finder_.to_goal(base, goals_);
+  if (route.result.outcome == POSE_WALL_PLAN_START_BLOCKED && leave_from(base)) return;
   if (route.result.outcome == POSE_WALL_PLAN_GOAL_BLOCKED) {
     return give_up(say("there is no route. {} Another --goal may have room.", no_route_text(route.result)));
   }
   if (!route.is_found()) return give_up(say("there is no route. {}", no_route_text(route.result)));
   take(std::move(route));
+}
+
+// From where it stands too near to rock, to the first place on the way to the goal that has room.
+bool DrivePilot::leave_from(const pose_wall_planar_pose& base) {
+  const PlannedRoute near = finder_.out(base, goals_.front());
+  double tried_m = 0.0;
+  for (const pose_wall_planar_path_pose& at : near.poses) {
+    if (at.along_m < tried_m + kTrail_m) continue;
+    tried_m = at.along_m;
+    if (tried_m > kLeaveMost_m) return false;
+    if (!finder_.to_goal(at.pose, goals_).is_found()) continue;
+    leads_out_ = true;
+    take(finder_.out(base, at.pose));
+    return true;
+  }
+  return false;
 }
 
 // Back along the way it came, to the first place from which the goal can be reached round what holds it.
@@ -116,13 +133,13 @@ void DrivePilot::look_for_another_way(const pose_wall_planar_pose& base) {
     PlannedRoute route = finder_.out(base, last);
     if (!route.is_found()) continue;
     trail_.resize(there);
-    goes_back_ = true;
+    leads_out_ = true;
     return take(std::move(route));
   }
 }
 
 void DrivePilot::remember(const pose_wall_planar_pose& base) {
-  if (!goes_back_ && (trail_.empty() || apart_m(trail_.back(), base) > kTrail_m)) trail_.push_back(base);
+  if (!leads_out_ && (trail_.empty() || apart_m(trail_.back(), base) > kTrail_m)) trail_.push_back(base);
 }
 
 Motion DrivePilot::creep(const Look& look) {
@@ -144,8 +161,8 @@ Motion DrivePilot::follow(const Look& look) {
   input.pose_level_m = kLevel * position_sigma_m(*look.where);
   input.speed_m_s = look.measured.speed_m_s;
   require_ok(pose_wall_planar_track_step(tracker_, &input, &command_), translatable("the route"));
-  const bool is_back = command_.state == POSE_WALL_TRACK_DONE && goes_back_;
-  if (command_.state == POSE_WALL_TRACK_DONE && !goes_back_) phase_ = PilotPhase::kArrived;
+  const bool is_back = command_.state == POSE_WALL_TRACK_DONE && leads_out_;
+  if (command_.state == POSE_WALL_TRACK_DONE && !leads_out_) phase_ = PilotPhase::kArrived;
   if (is_back || command_.state == POSE_WALL_TRACK_OFF_PATH) plan_from(look.where->pose);
   if (command_.state != POSE_WALL_TRACK_NO_POSE) {
     sought_ns_ = look.now_ns;

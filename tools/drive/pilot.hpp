@@ -47,6 +47,7 @@ class DrivePilot {
 
  private:
   void plan_from(const pose_wall_planar_pose& base);
+  bool leave_from(const pose_wall_planar_pose& base);
   void take(PlannedRoute route);
   void look_for_another_way(const pose_wall_planar_pose& base);
   void remember(const pose_wall_planar_pose& base);
@@ -66,7 +67,8 @@ class DrivePilot {
   PilotPhase phase_ = PilotPhase::kLocating;
   std::string reason_;
   std::size_t plans_ = 0;
-  bool wants_to_move_ = false, goes_back_ = false;
+  bool wants_to_move_ = false;
+  bool leads_out_ = false;  // the route: another begins at its end
   std::int64_t now_ns_ = 0, moved_ns_ = -1, sought_ns_ = -1, looked_ns_ = -1;
   double crept_m_ = 0.0, moved_m_ = 0.0;
   pose_wall_planar_pose base_{};                // where it last knew to be
