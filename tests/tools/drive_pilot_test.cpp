@@ -153,6 +153,46 @@ TEST(DrivePilot, LeavesAPlaceTooNearToRock) {
   EXPECT_EQ(drive.pilot().plans(), 2U) << "out, and to the goal";
 }
 
+// What a scanner in base sees of a road along x with walls at these places, and of a post ahead.
+class SeenRoad {
+ public:
+  SeenRoad(double left_m, double right_m, double post_m = 100.0) {
+    for (int k = 0; k < kBeams; ++k) {
+      const double s = std::sin(2.0 * M_PI * k / kBeams);
+      ranges_[k] = static_cast<float>(s > 0.0 ? left_m / s : right_m / std::min(s, -1e-9));
+    }
+    for (int k = 0; k < 10; ++k) ranges_[k] = static_cast<float>(post_m);
+    scan_.struct_size = sizeof scan_;
+    scan_.beams = kBeams;
+    scan_.angle_step_rad = 2.0 * M_PI / kBeams;
+    scan_.range_min_m = 0.3;
+    scan_.range_m = ranges_;
+  }
+  const pose_wall_planar_scan& scan() const { return scan_; }
+
+ private:
+  static constexpr int kBeams = 1440;
+  float ranges_[kBeams] = {};
+  pose_wall_planar_scan scan_{};
+};
+
+TEST(RoadFeeler, SwingsNoEndIntoAWallBesideIt) {
+  RoadFeeler feeler;
+  const SeenRoad in_the_middle(5.0, -5.0, 5.0), at_the_left_wall(1.05, -3.75, 5.0);
+  EXPECT_GT(std::abs(feeler.creep(in_the_middle.scan()).turn_rad_s), 0.006) << "past the post";
+  const Motion motion = feeler.creep(at_the_left_wall.scan());
+  EXPECT_GT(motion.speed_m_s, 0.0);
+  EXPECT_NEAR(motion.turn_rad_s, 0.0, 0.006) << "a turn away from the wall swings the tail into it";
+}
+
+TEST(RoadFeeler, TurnsBackWhenTold) {
+  RoadFeeler feeler;
+  const SeenRoad road(2.4, -2.4);
+  EXPECT_GT(feeler.creep(road.scan()).speed_m_s, 0.0);
+  feeler.turn_back();
+  EXPECT_LT(feeler.creep(road.scan()).speed_m_s, 0.0);
+}
+
 TEST(WayFinder, TakesTheGoalThatTheMachineCanFace) {
   const MapFile map = road(4.0);  // too narrow to turn
   WayFinder finder(map);

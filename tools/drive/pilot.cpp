@@ -24,9 +24,9 @@ constexpr double kStill = 1e-3;        // m/s and rad/s
 constexpr std::size_t kPlansMost = 20;
 // Held for so long it looks for another way. A person who pauses before it and walks past it takes 10 s.
 constexpr double kHeld_s = 15.0;
-constexpr double kProgress_m = 0.3;  // of the rim: who moved less did not get on
-constexpr double kTrail_m = 0.5;     // between poses of the way to here; a radian of a turn is so many metres
-constexpr double kLeaveMost_m = 6.0;  // of way so near to rock: more than the machine's length
+constexpr double kProgress_m = 0.3;       // of the rim: who moved less did not get on
+constexpr double kTrail_m = 0.5;          // between poses of the way to here; a radian of a turn is so many metres
+constexpr double kLeaveMost_m = 6.0;      // of way so near to rock: more than the machine's length
 constexpr double kBack_m[] = {2.0, 5.0};  // that it may go back, to where it turns off
 
 double seconds_since(std::int64_t then_ns, std::int64_t now_ns) {
@@ -138,6 +138,10 @@ void DrivePilot::look_for_another_way(const pose_wall_planar_pose& base) {
   }
 }
 
+bool DrivePilot::is_held() const {
+  return seconds_since(std::max(moved_ns_, looked_ns_), now_ns_) > kHeld_s;
+}
+
 void DrivePilot::remember(const pose_wall_planar_pose& base) {
   if (!leads_out_ && (trail_.empty() || apart_m(trail_.back(), base) > kTrail_m)) trail_.push_back(base);
 }
@@ -147,6 +151,10 @@ Motion DrivePilot::creep(const Look& look) {
     give_up(say("after {:.0f} m of creeping its place is still {}", kCreepMost_m,
                 pose_wall_planar_localise_state_name(look.where->state)));
     return {};
+  }
+  if (is_held()) {
+    looked_ns_ = look.now_ns;
+    feeler_.turn_back();
   }
   return feeler_.creep(*look.scan);
 }
@@ -167,8 +175,7 @@ Motion DrivePilot::follow(const Look& look) {
   if (command_.state != POSE_WALL_TRACK_NO_POSE) {
     sought_ns_ = look.now_ns;
     remember(look.where->pose);
-    const bool is_held = seconds_since(std::max(moved_ns_, looked_ns_), look.now_ns) > kHeld_s;
-    if (is_held && phase_ == PilotPhase::kFollowing) look_for_another_way(look.where->pose);
+    if (phase_ == PilotPhase::kFollowing && is_held()) look_for_another_way(look.where->pose);
   } else if (seconds_since(sought_ns_, look.now_ns) > kNoPose_s) {
     phase_ = PilotPhase::kLocating;
   }

@@ -53,6 +53,7 @@ class DrivePilot {
   void remember(const pose_wall_planar_pose& base);
   Motion follow(const Look& look);
   Motion creep(const Look& look);
+  bool is_held() const;  // by the stop, and has not looked for another way lately
   void give_up(std::string reason);
   std::string held_text() const;
 
