@@ -121,6 +121,7 @@ TEST(DriveStory, AGoalInTheRockHasThePlannersReason) {
   EXPECT_TRUE(contains(end.reason, "Another --goal")) << end.reason;
   EXPECT_FALSE(contains(end.reason, "--to") || contains(end.reason, "--set")) << "options of another command";
   EXPECT_LT(end.driven_m, 20.0) << "it drives nowhere without a route";
+  EXPECT_GT(end.unique_after_s, 0.0) << "its place was found";
 }
 
 TEST(DriveStory, TwinRoadsAreNeverTakenForEachOther) {

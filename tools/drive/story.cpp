@@ -232,12 +232,12 @@ void DriveStory::report(StoryFrame* row) {
 }
 
 void DriveStory::judge(const StoryFrame& row, StoryEnd* end) {
-  if (first_route_.poses.empty() && row.phase == PilotPhase::kFollowing) {
-    begin_trouble();
-    end->unique_after_s = row.time_s;
-    end->crept_m = machine_.driven_m();
-  }
+  if (first_route_.poses.empty() && row.phase == PilotPhase::kFollowing) begin_trouble();
   if (row.place_state == POSE_WALL_PLANAR_LOCALISE_UNIQUE) {
+    if (!(end->unique_after_s > 0.0) && row.phase != PilotPhase::kLocating) {
+      end->unique_after_s = row.time_s;
+      end->crept_m = machine_.driven_m();
+    }
     const double error_m = distance_m(row.truth, row.believed);
     const double error_rad = std::abs(std::remainder(row.truth.yaw_rad - row.believed.yaw_rad, 2.0 * M_PI));
     ++unique_frames_;
