@@ -81,6 +81,18 @@ TEST(DriveStory, ReachesItsGoalWithoutAContact) {
   EXPECT_TRUE(contains(story_picture(story, end, road.roads, "t"), "<polyline"));
 }
 
+TEST(DriveStory, ReachesWhereTheMapBeganThoughItCannotTurnRoundThere) {
+  const TaughtRoad& road = corridor();
+  StorySettings settings = road.way(24, 0);
+  settings.start = combined(*settings.start, {0.0, 0.0, M_PI});
+  settings.goal.reset();
+  DriveStory story(road.network, road.model, road.roads, settings);
+  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  EXPECT_TRUE(end.has_arrived) << end.reason;
+  EXPECT_EQ(end.contacts, 0U);
+  EXPECT_LT(distance_m(story.frames().back().truth, story.goal()), 0.3);
+}
+
 TEST(DriveStory, APersonWhoStaysStopsTheMachineAndTheReasonSaysSo) {
   const TaughtRoad& road = corridor();
   StorySettings settings = road.way(20, 64);
@@ -106,7 +118,10 @@ TEST(DriveStory, AGoalInTheRockHasThePlannersReason) {
   const StoryEnd end = story.run([](const StoryFrame&) { return true; });
   EXPECT_FALSE(end.has_arrived);
   EXPECT_TRUE(contains(end.reason, "there is no route. The machine does not fit at the goal")) << end.reason;
+  EXPECT_TRUE(contains(end.reason, "Another --goal")) << end.reason;
+  EXPECT_FALSE(contains(end.reason, "--to") || contains(end.reason, "--set")) << "options of another command";
   EXPECT_LT(end.driven_m, 20.0) << "it drives nowhere without a route";
+  EXPECT_GT(end.unique_after_s, 0.0) << "its place was found";
 }
 
 TEST(DriveStory, TwinRoadsAreNeverTakenForEachOther) {

@@ -50,17 +50,17 @@ std::vector<TumRow> tum_rows(const std::string& file) {
 }
 
 TEST(MapVerb, EveryScanHasItsPoseUnderTheStampOfTheLog) {
-  constexpr int kScans = 60;
+  constexpr int kDrivenScans = 60;
   constexpr double kNear_m = 0.03, kNear_rad = 0.02;
   const TempFolder folder;
-  const std::string log = folder.write("room.clf", DrawnRoom::log(kScans));
+  const std::string log = folder.write("room.clf", DrawnRoom::log(kDrivenScans));
   const Ran ran = command({"map", "-q", "--poses", folder.file("poses.tum"), log});
   ASSERT_EQ(ran.exit_status, 0) << ran.errors;
   EXPECT_EQ(ran.printed, "");
   EXPECT_EQ(ran.errors, "");
   const std::vector<TumRow> rows = tum_rows(folder.file("poses.tum"));
-  ASSERT_EQ(rows.size(), static_cast<std::size_t>(kScans));
-  for (int k = 0; k < kScans; ++k) {
+  ASSERT_EQ(rows.size(), static_cast<std::size_t>(kDrivenScans));
+  for (int k = 0; k < kDrivenScans; ++k) {
     const TumRow& row = rows[static_cast<std::size_t>(k)];
     EXPECT_EQ(row.time, DrawnRoom::stamp(k));
     const pose_wall_planar_pose error = seen_from(DrawnRoom::pose(k), row.pose);

@@ -57,7 +57,7 @@ std::vector<Number> column(const nlohmann::json& data, const char* name) {
   return numbers;
 }
 
-nlohmann::json data_of(const std::string& file) {
+nlohmann::json data_of_report(const std::string& file) {
   const std::string page = text_of(file), start = "<script id=\"data\" type=\"application/json\">";
   const std::size_t from = page.find(start) + start.size();
   return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
@@ -81,7 +81,7 @@ struct Road {
     words.insert(words.end(), more.begin(), more.end());
     return command(words);
   }
-  nlohmann::json data() const { return data_of(folder.file("out.html")); }
+  nlohmann::json data() const { return data_of_report(folder.file("out.html")); }
 
   TempFolder folder;
 };

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "language/language.hpp"
-#include "planar/stop_reasons.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -43,24 +42,16 @@ DriveGuard::DriveGuard(const sim::SensorModel& model, bool has_looked) : block_(
   result_.struct_size = sizeof result_;
 }
 
-Motion DriveGuard::limit(const std::optional<pose_wall_cloud>& cloud, std::int64_t now_ns, const Motion& measured,
+Motion DriveGuard::limit(const pose_wall_cloud& cloud, std::int64_t now_ns, const Motion& measured,
                          const Motion& wished) {
   const double wish_m_s = rim_speed_m_s(wished);
   const double judged_m_s = std::min(wish_m_s, std::max(rim_m_s_, kStart_m_s));
   const Motion judged = wish_m_s > 0.0 ? scaled(wished, judged_m_s / wish_m_s) : Motion{};
-  if (cloud) {
-    const pose_wall_planar_stop_motion motion = motion_of(measured, judged);
-    require_ok(pose_wall_planar_stop_process(stop_, &*cloud, &motion, now_ns, &result_), translatable("the stop"));
-  } else {
-    require_ok(pose_wall_planar_stop_tick(stop_, now_ns, &result_), translatable("the stop"));
-  }
+  const pose_wall_planar_stop_motion motion = motion_of(measured, judged);
+  require_ok(pose_wall_planar_stop_process(stop_, &cloud, &motion, now_ns, &result_), translatable("the stop"));
   const bool stops = result_.state == POSE_WALL_PLANAR_STOP_STOP;
   rim_m_s_ = stops ? 0.0 : std::min(wish_m_s, result_.allowed_speed_m_s);
   return wish_m_s > 0.0 ? scaled(wished, rim_m_s_ / wish_m_s) : Motion{};
-}
-
-std::string stop_reasons_text(std::uint32_t reasons) {
-  return fmt::format("{}", fmt::join(stop_reason_names(reasons), " "));
 }
 
 }  // namespace pose_wall::tools

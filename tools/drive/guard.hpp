@@ -5,8 +5,7 @@
 
 #pragma once
 
-#include <optional>
-#include <string>
+#include <cstdint>
 
 #include "drive/machine.hpp"
 #include "planar/part_block.hpp"
@@ -18,9 +17,8 @@ class DriveGuard {
   // Throws PlanarError. `has_looked`: someone has looked round the machine, as pose_wall_planar_stop_confirm wants it.
   DriveGuard(const sim::SensorModel& model, bool has_looked);
 
-  // How the machine may move: the wished arc, as fast as the stop allows. Without a cloud none has come.
-  Motion limit(const std::optional<pose_wall_cloud>& cloud, std::int64_t now_ns, const Motion& measured,
-               const Motion& wished);
+  // How the machine may move: the wished arc, as fast as the stop allows.
+  Motion limit(const pose_wall_cloud& cloud, std::int64_t now_ns, const Motion& measured, const Motion& wished);
 
   const pose_wall_planar_stop_result& last() const { return result_; }
 
@@ -30,8 +28,5 @@ class DriveGuard {
   pose_wall_planar_stop_result result_{};
   double rim_m_s_ = 0.0;  // that it let pass last
 };
-
-// "thing low", in the order of the bits; empty: none.
-std::string stop_reasons_text(std::uint32_t reasons);
 
 }  // namespace pose_wall::tools

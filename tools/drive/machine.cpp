@@ -117,6 +117,17 @@ sim::TrackSettings drive_tracks() {
   return tracks;
 }
 
+double stop_needs_least_m() {
+  // Half the diagonals of a place on the ground and of a cell of sight, and what is lost between two slices of the
+  // sweep: src/planar/stop.
+  constexpr double kPlaceCorner_m = 0.071, kCellCorner_m = 0.064, kSlice_m = 0.1;
+  return drive_stop_settings().protection_m + kPlaceCorner_m + kCellCorner_m + kSlice_m;
+}
+
+double stop_needs_most_m() {
+  return stop_needs_least_m() + drive_stop_settings().drift_max_m;
+}
+
 sim::TrackSpeeds track_speeds(const Motion& motion) {
   const sim::TrackSettings tracks = drive_tracks();
   const double grip = 1.0 - tracks.odometry_slip;

@@ -47,6 +47,11 @@ pose_wall_planar_track_settings drive_track_settings(double speed_max_m_s);
 pose_wall_planar_plan_settings drive_plan_settings(const pose_wall_planar_grid& grid, double margin_m);
 sim::TrackSettings drive_tracks();
 
+// Free room beside the footprint without which the stop lets it come no nearer to a thing: at least, for a thing in
+// sight, and at most, for one that it remembers from far back.
+double stop_needs_least_m();
+double stop_needs_most_m();
+
 // The speeds of the tracks for a motion, by what is known of them on average.
 sim::TrackSpeeds track_speeds(const Motion& motion);
 // Of the footprint's fastest corner.

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kCreep_m_s = 0.2;
 constexpr double kFelt_m = 12.0;
-constexpr double kBeside_m = 0.2;    // room wanted beside the machine
 constexpr double kLeast_m = 1.0;     // of free way, or it turns back
 constexpr double kCurve_1_m = 0.25;  // the sharpest
 constexpr int kArcs = 10;            // to each side
@@ -20,21 +19,29 @@ constexpr std::uint32_t kEachBeam = 5;
 
 }  // namespace
 
-// Along the arc up to the first thing in its strip, from the machine's end that leads. What is beside the machine is
-// the stop's to judge.
+// Along the arc up to the first thing in its strip, from the machine's end that leads. In a curve the ends swing out:
+// the strip is wider there on the outer side, and what stands beside the machine bars the way at once.
 double RoadFeeler::free_m(double drive, double curvature_1_m) const {
-  const double half_m = kHalfWidth_m + kBeside_m, end_m = drive > 0.0 ? kFront_m : kRear_m;
+  const double lead_m = drive > 0.0 ? kFront_m : kRear_m, trail_m = drive > 0.0 ? kRear_m : kFront_m;
+  const double beside_least_m = stop_needs_least_m();
+  const bool is_straight = std::abs(curvature_1_m) < 1e-6;
+  const double radius_m = is_straight ? 0.0 : 1.0 / curvature_1_m, side = radius_m > 0.0 ? 1.0 : -1.0;
+  const double out_m = std::hypot(std::abs(radius_m) + kHalfWidth_m, std::max(kFront_m, kRear_m)) - std::abs(radius_m);
   double free_m = kFelt_m;
   for (const sim::Place& thing : things_) {
     const double ahead_m = drive * thing.x(), aside_m = thing.y();
-    double along_m = ahead_m, beside_m = aside_m;
-    if (std::abs(curvature_1_m) > 1e-6) {
-      const double radius_m = 1.0 / curvature_1_m, side = radius_m > 0.0 ? 1.0 : -1.0;
+    double along_m = ahead_m, off_m = std::abs(aside_m), half_m = kHalfWidth_m;
+    bool is_swept = false;
+    if (!is_straight) {
       const double to_centre_m = std::hypot(ahead_m, radius_m - aside_m);
-      beside_m = side * (std::abs(radius_m) - to_centre_m);
       along_m = std::abs(radius_m) * std::atan2(ahead_m, side * (radius_m - aside_m));
+      off_m = std::abs(std::abs(radius_m) - to_centre_m);
+      is_swept = to_centre_m > std::abs(radius_m);
+      if (is_swept) half_m = out_m;
     }
-    if (along_m > end_m && std::abs(beside_m) < half_m) free_m = std::min(free_m, along_m - end_m);
+    if (off_m > half_m + beside_least_m) continue;
+    if (along_m > lead_m) free_m = std::min(free_m, along_m - lead_m);
+    if (is_swept && along_m > -trail_m && along_m <= lead_m) free_m = 0.0;
   }
   return free_m;
 }

@@ -16,6 +16,8 @@ class RoadFeeler {
  public:
   // The arc with the most room, ahead or behind; it turns back only where there is no way on. Standing still: no way.
   Motion creep(const pose_wall_planar_scan& scan);
+  // From now on the other way.
+  void turn_back() { drive_ = -drive_; }
 
  private:
   struct Arc {

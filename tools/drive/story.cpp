@@ -73,6 +73,11 @@ pose_wall_planar_pose first_room(const TaughtRoads& roads) {
   return {};
 }
 
+std::vector<pose_wall_planar_pose> goals_of(const pose_wall_planar_pose& goal, bool either_way) {
+  if (!either_way) return {goal};
+  return {goal, combined(goal, {0.0, 0.0, M_PI})};
+}
+
 double off_route_m(const PlannedRoute& route, const pose_wall_planar_pose& at) {
   double best_m = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k + 1 < route.poses.size(); ++k) {
@@ -97,7 +102,7 @@ DriveStory::DriveStory(const sim::Network& network, const sim::SensorModel& mode
       sight_(model),
       finder_(localiser_in(roads.trail)),
       guard_(model, /*has_looked=*/true),
-      pilot_(roads.map, goal_, kStorySpeed_m_s, settings.patience_s),
+      pilot_(roads.map, goals_of(goal_, !settings.goal), kStorySpeed_m_s, settings.patience_s),
       odometry_before_(pose_of(machine_.odometry())) {}
 
 // When the machine has its first route, people stand along it, and what will be lost is drawn.
@@ -197,7 +202,7 @@ StoryFrame DriveStory::take_frame() {
   look.measured = measured_motion();
   row.wished = pilot_.wish(look);
   row.command = guard_.limit(cloud, look.now_ns, look.measured, row.wished);
-  pilot_.obeyed(row.command, guard_.last().reasons);
+  pilot_.obeyed(row.command, guard_.last());
   report(&row);
   return row;
 }
@@ -227,12 +232,12 @@ void DriveStory::report(StoryFrame* row) {
 }
 
 void DriveStory::judge(const StoryFrame& row, StoryEnd* end) {
-  if (first_route_.poses.empty() && row.phase == PilotPhase::kFollowing) {
-    begin_trouble();
-    end->unique_after_s = row.time_s;
-    end->crept_m = machine_.driven_m();
-  }
+  if (first_route_.poses.empty() && row.phase == PilotPhase::kFollowing) begin_trouble();
   if (row.place_state == POSE_WALL_PLANAR_LOCALISE_UNIQUE) {
+    if (!(end->unique_after_s > 0.0) && row.phase != PilotPhase::kLocating) {
+      end->unique_after_s = row.time_s;
+      end->crept_m = machine_.driven_m();
+    }
     const double error_m = distance_m(row.truth, row.believed);
     const double error_rad = std::abs(std::remainder(row.truth.yaw_rad - row.believed.yaw_rad, 2.0 * M_PI));
     ++unique_frames_;

@@ -26,7 +26,7 @@ struct StorySettings {
   int people = 3;
   bool people_stay = false;
   bool loses_walls = true;
-  std::optional<pose_wall_planar_pose> goal;   // in map; none: where the map began
+  std::optional<pose_wall_planar_pose> goal;   // in map; none: where the map began, facing either way
   std::optional<pose_wall_planar_pose> start;  // of base, truly; none: drawn
   double time_most_s = 1800.0;
   double patience_s = 60.0;  // before a stop
@@ -57,7 +57,7 @@ struct StoryEnd {
   std::uint32_t wrong_places = 0;                  // frames that were unique and more than half a metre off
   double error_mean_m = 0.0, error_worst_m = 0.0;  // of unique places
   double off_route_worst_m = 0.0;
-  double unique_after_s = 0.0, crept_m = 0.0;  // until the first route
+  double unique_after_s = 0.0, crept_m = 0.0;  // until it planned; 0: never
   std::string loss;                            // what was lost; empty: nothing
   double loss_s = 0.0;
   std::size_t plans = 0, floors = 0, own_planes = 0;

@@ -11,6 +11,7 @@
 
 #include "csv/csv_table.hpp"
 #include "language/language.hpp"
+#include "planar/stop_reasons.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {
@@ -91,7 +92,7 @@ std::string story_as_csv(const std::vector<StoryFrame>& frames) {
                      pose_wall_planar_localise_state_name(row.place_state),
                      csv_number(row.place_sigma_m),
                      pose_wall_planar_stop_state_name(row.stop_state),
-                     stop_reasons_text(row.stop_reasons),
+                     fmt::format("{}", fmt::join(stop_reason_names(row.stop_reasons), " ")),
                      csv_number(row.allowed_m_s),
                      csv_number(row.limit_x_m),
                      csv_number(row.limit_y_m),
@@ -141,7 +142,7 @@ std::string story_table(const DriveStory& story, const StoryEnd& end, const Taug
       {tr("teaching drive"), say("{:.1f} m, {} scans, {} closures", roads.driven_m, roads.scans, roads.closures)});
   table.add_row({tr("map against the truth, worst"), fmt::format("{:.2f} m", roads.worst_m)});
   table.add_row({tr("place unique after the restart"),
-                 end.plans > 0 ? say("{:.1f} s, {:.1f} m", end.unique_after_s, end.crept_m) : tr("never")});
+                 end.unique_after_s > 0.0 ? say("{:.1f} s, {:.1f} m", end.unique_after_s, end.crept_m) : tr("never")});
   table.add_row({tr("driven"), say("{:.1f} m in {:.0f} s", end.driven_m, end.time_s)});
   table.add_row({tr("routes"), std::to_string(end.plans)});
   table.add_row({tr("position error, mean"), fmt::format("{:.3f} m", end.error_mean_m)});

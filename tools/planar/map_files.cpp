@@ -183,6 +183,18 @@ pose_wall_planar_grid MapFile::grid() const {
   return {sizeof(pose_wall_planar_grid), width, height, 0, resolution_m, origin_x_m, origin_y_m, cells.data()};
 }
 
+bool is_inside(const pose_wall_planar_grid& grid, double x_m, double y_m) {
+  const double in_x_m = x_m - grid.origin_x_m, in_y_m = y_m - grid.origin_y_m;
+  return in_x_m >= 0.0 && in_x_m <= grid.width * grid.resolution_m && in_y_m >= 0.0 &&
+         in_y_m <= grid.height * grid.resolution_m;
+}
+
+std::string extent_text(const pose_wall_planar_grid& grid) {
+  return say("The map reaches from x {:.2f} to {:.2f} m and from y {:.2f} to {:.2f} m.", grid.origin_x_m,
+             grid.origin_x_m + grid.width * grid.resolution_m, grid.origin_y_m,
+             grid.origin_y_m + grid.height * grid.resolution_m);
+}
+
 void write_map_files(const std::filesystem::path& yaml, const pose_wall_planar_grid& grid, int occupied_per_cent,
                      int free_per_cent) {
   PgmImage image;

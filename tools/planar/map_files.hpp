@@ -33,6 +33,10 @@ struct MapFile {
   pose_wall_planar_grid grid() const;
 };
 
+bool is_inside(const pose_wall_planar_grid& grid, double x_m, double y_m);
+// "The map reaches from x ... to ... m and from y ... to ... m."
+std::string extent_text(const pose_wall_planar_grid& grid);
+
 // Names file, line and key, and what is allowed.
 class MapFileError : public std::runtime_error {
  public:

@@ -10,6 +10,7 @@
 
 #include "csv/csv_table.hpp"
 #include "language/language.hpp"
+#include "planar/map_files.hpp"
 #include "planar/plane_pose.hpp"
 #include "planar/setting_words.hpp"
 #include "planar/thread_clock.hpp"
@@ -137,13 +138,8 @@ std::optional<BlockingCell> blocking_cell(const pose_wall_planar_grid& grid,
 
 std::string blocked_place_text(const pose_wall_planar_grid& grid, const pose_wall_planar_plan_settings& settings,
                                const pose_wall_planar_pose& at, const std::string& word) {
-  const double x_end_m = grid.origin_x_m + grid.width * grid.resolution_m;
-  const double y_end_m = grid.origin_y_m + grid.height * grid.resolution_m;
-  const std::string extent = say("The map reaches from x {:.2f} to {:.2f} m and from y {:.2f} to {:.2f} m.",
-                                 grid.origin_x_m, x_end_m, grid.origin_y_m, y_end_m);
-  const bool is_inside =
-      at.x_m >= grid.origin_x_m && at.x_m <= x_end_m && at.y_m >= grid.origin_y_m && at.y_m <= y_end_m;
-  if (!is_inside) return say("{} lies outside the map. {}", word, extent);
+  const std::string extent = extent_text(grid);
+  if (!is_inside(grid, at.x_m, at.y_m)) return say("{} lies outside the map. {}", word, extent);
   const std::optional<BlockingCell> cell = blocking_cell(grid, settings, at);
   std::string in_its_way;
   if (!cell) {
@@ -164,8 +160,7 @@ std::string no_route_text(const pose_wall_planar_plan_result& result) {
   switch (result.outcome) {
     case POSE_WALL_PLAN_START_BLOCKED:
       return tr(
-          "The machine does not fit at the start: with its margin it stands on cells that are occupied or "
-          "unknown.");
+          "The machine does not fit at the start: with its margin it stands on cells that are occupied or unknown.");
     case POSE_WALL_PLAN_GOAL_BLOCKED:
       return tr(
           "The machine does not fit at the goal: with its margin it would stand on cells that are occupied or "
@@ -181,11 +176,9 @@ std::string no_route_text(const pose_wall_planar_plan_result& result) {
           "tight for its length.",
           result.place.x_m, result.place.y_m);
     case POSE_WALL_PLAN_LIST_FULL:
-      return say("The search ran out of room after {} places. --set places_max and open_max give it more.",
-                 result.places);
+      return say("The search ran out of room after {} places.", result.places);
     case POSE_WALL_PLAN_WORK_LIMIT:
-      return say("The search ended at its limit of {} expansions. --set expansions_max gives it more.",
-                 result.expansions);
+      return say("The search ended at its limit of {} expansions.", result.expansions);
     default:
       return pose_wall_planar_plan_outcome_text(result.outcome);
   }

@@ -61,7 +61,7 @@ std::optional<BlockingCell> blocking_cell(const pose_wall_planar_grid& grid,
                                           const pose_wall_planar_plan_settings& settings,
                                           const pose_wall_planar_pose& at);
 
-// Why there is no route, and what to do, in sentences.
+// Why there is no route, in sentences.
 std::string no_route_text(const pose_wall_planar_plan_result& result);
 // That the machine does not fit at the place that `word` gives: what is in its way and how far it reaches, or where the
 // map ends.

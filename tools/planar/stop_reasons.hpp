@@ -20,4 +20,7 @@ inline std::vector<std::string> stop_reason_names(std::uint32_t reasons) {
   return names;
 }
 
+// As a person reads them: "a thing in the way, low".
+std::string stop_reasons_text(std::uint32_t reasons);
+
 }  // namespace pose_wall::tools

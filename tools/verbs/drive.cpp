@@ -141,7 +141,7 @@ void add_drive(CLI::App& app, int& exit_code) {
       ->check(whole_number_within(0, kPeopleMost));
   verb->add_flag("--people-stay", options->people_stay, tr("They stay there"));
   verb->add_option("--goal", options->goal,
-                   tr("Goal in the map: x,y,yaw; m, m, degrees. Without it: where the map begins"))
+                   tr("Goal in the map: x,y,yaw; m, m, degrees. Without it: where the map begins, facing either way"))
       ->type_name("X,Y,YAW");
   verb->add_flag("--no-lost-wall", options->no_lost_wall, tr("The sensor loses nothing"));
   verb->add_option("-o,--output", options->output,
@@ -157,6 +157,8 @@ void add_drive(CLI::App& app, int& exit_code) {
       "   road by its scan alone.\n"
       "3. It plans a route to the goal and follows it. People step into its way. For some seconds the returns of a\n"
       "   wall, most returns, or all returns are lost.\n"
+      "4. Where the stop holds it for 15 s it goes back some metres, if another way leads on from there; else it "
+      "waits.\n"
       "Each command passes the obstacle stop, which reads the raw cloud. All poses are in the map.\n"
       "Networks: rock; alike (two roads of one shape); twin (and of the same rock); smooth; steel; corridor.\n"
       "A sensor that does not see the floor round the machine is blind there: the stop then holds the machine.\n"

@@ -22,6 +22,7 @@
 #include "language/language.hpp"
 #include "planar/localised_picture.hpp"
 #include "planar/localised_rows.hpp"
+#include "planar/map_files.hpp"
 #include "planar/map_localiser.hpp"
 #include "planar/plane_pose.hpp"
 #include "planar/relation_table.hpp"
@@ -220,20 +221,6 @@ std::vector<std::string> hints_of(const LocaliseFigures& figures, const KnownMap
   return hints;
 }
 
-// Somebody may mean another map, or millimetres.
-void require_inside(const KnownMap& map, const pose_wall_planar_pose& start) {
-  const pose_wall_planar_grid grid = map.cells.grid();
-  const double end_x_m = grid.origin_x_m + grid.width * grid.resolution_m;
-  const double end_y_m = grid.origin_y_m + grid.height * grid.resolution_m;
-  if (start.x_m >= grid.origin_x_m && start.x_m <= end_x_m && start.y_m >= grid.origin_y_m && start.y_m <= end_y_m) {
-    return;
-  }
-  throw std::invalid_argument(
-      say("--start: x {:.2f} m, y {:.2f} m lies outside the map, which reaches from x {:.1f} to "
-          "{:.1f} m and from y {:.1f} to {:.1f} m",
-          start.x_m, start.y_m, grid.origin_x_m, end_x_m, grid.origin_y_m, end_y_m));
-}
-
 void write_folder(const LocaliseOptions& options, const KnownMap& map, const LocaliseWork& work) {
   const std::filesystem::path folder = options.output;
   const std::string title = std::filesystem::path(options.frames.inputs.front()).filename().string();
@@ -294,7 +281,10 @@ int localise_scans(LocaliseOptions options) {
   if (!options.start.empty()) start = pose_of_word(options.start, "--start");
   const std::unique_ptr<ScanSource> source = open_scans(options.frames, localise_setting_names());
   const KnownMap map = read_known_map(options.map);
-  if (start) require_inside(map, *start);
+  if (start && !is_inside(map.cells.grid(), start->x_m, start->y_m)) {  // of another map, or in millimetres
+    throw std::invalid_argument(
+        say("{} lies outside the map. {}", "--start " + options.start, extent_text(map.cells.grid())));
+  }
   std::vector<Relation> relations;
   if (!options.relations.empty()) relations = read_relations(options.relations);
   std::optional<TruePlaces> truth;

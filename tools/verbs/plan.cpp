@@ -84,7 +84,13 @@ std::string why_none(const PlanOptions& options, const MapFile& map, const pose_
   if (route.result.outcome == POSE_WALL_PLAN_GOAL_BLOCKED) {
     return blocked_place_text(map.grid(), settings, to, "--to " + options.to);
   }
-  return no_route_text(route.result);
+  std::string text = no_route_text(route.result);
+  if (route.result.outcome == POSE_WALL_PLAN_LIST_FULL) {
+    text += std::string(" ") + tr("--set places_max and open_max give it more.");
+  } else if (route.result.outcome == POSE_WALL_PLAN_WORK_LIMIT) {
+    text += std::string(" ") + tr("--set expansions_max gives it more.");
+  }
+  return text;
 }
 
 MapScene scene_of(const PlanOptions& options, const MapFile& map, const PlannedRoute& route,
