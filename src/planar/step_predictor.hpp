@@ -20,14 +20,16 @@ class StepPredictor {
   struct Prediction {
     Pose2 pose;
     double sigma_m = 0.0, sigma_rad = 0.0;  // of the step
-    double unlikely = 0.0;                  // half of a squared distance: how unlikely it is that this one holds
+    double unlikely = 0.0;                  // as a squared distance: what it costs to believe this one
     bool is_odometry = false;               // it tells the way, and not only that the machine goes on
   };
 
   // Standard deviation of odometry, and of going on, by a step's length and turn.
   void open(double share_m, double share_rad);
-  // Base has not moved yet, and odometry has not spoken.
+  // Nothing is known of base's way, and odometry has not spoken.
   void begin();
+  // The first scan: odometry's pose here, which may be nullptr. How base moves stays unknown.
+  void start(const Pose2* odometry);
   // odometry may be nullptr. The likeliest one first; returns how many.
   std::uint32_t predict(const Pose2& from, const Pose2* odometry, Prediction* out) const;
   // What became of it. `agrees`: the first prediction did.
@@ -42,7 +44,7 @@ class StepPredictor {
   Pose2 odometry_, last_step_;
   Pose2 since_agreed_;     // how base moved since odometry last agreed with a scan
   Pose2 agreed_odometry_;  // what it said then
-  bool has_odometry_ = false, has_agreed_ = false, is_astray_ = false;
+  bool knows_step_ = false, has_odometry_ = false, has_agreed_ = false, is_astray_ = false;
 };
 
 }  // namespace pose_wall::planar

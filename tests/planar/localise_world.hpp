@@ -344,12 +344,16 @@ class World {
   };
   // Drives 5 m from a place that is known, by steps of `step_m`.
   FaultyDrive drive_with_faulty_odometry(const Restart& restart, double step_m) const {
+    return drive_from(restart, step_m, {}, true);
+  }
+  // The same from a place that is off by as much, and perhaps without odometry.
+  FaultyDrive drive_from(const Restart& restart, double step_m, const Pose2& off_at_first, bool has_odometry) const {
     Localiser& own = *localiser_;
     FaultyDrive out;
     FaultyOdometry faulty(restart.seed);
     std::vector<float> ranges;
     sim::PlanePose last = pose_at(restart, 0.0);
-    own.place(in_map({last.x_m, last.y_m, last.yaw_rad}), 0.2, 0.1);
+    own.place(compose(in_map({last.x_m, last.y_m, last.yaw_rad}), off_at_first), 0.2, 0.1);
     const std::uint32_t lost = own.lost();
     for (double driven_m = 0.0; driven_m < 5.0; driven_m += step_m, ++out.scans) {
       const sim::PlanePose at = pose_at(restart, driven_m);
@@ -357,7 +361,7 @@ class World {
       last = at;
       const pose_wall_planar_scan scan =
           scan_at(at, restart.things, restart.seed * 64 + static_cast<std::uint64_t>(out.scans), &ranges);
-      const Where where = own.process(read_beams(scan, own.beams()), &odometry);
+      const Where where = own.process(read_beams(scan, own.beams()), has_odometry ? &odometry : nullptr);
       if (!own.is_tracking()) continue;
       const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
       const double variance = own.tracker().covariance()(0, 0) + own.tracker().covariance()(1, 1);

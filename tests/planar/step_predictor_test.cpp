@@ -19,6 +19,7 @@ class Predicted {
 
   std::uint32_t after(const Pose2* odometry) { return predictor_.predict(at_, odometry, all_); }
   const StepPredictor::Prediction& operator[](std::uint32_t k) const { return all_[k]; }
+  void starts(const Pose2* odometry) { predictor_.start(odometry); }
   void moves_to(const Pose2& to, const Pose2* odometry, bool agrees) {
     predictor_.follow(at_, to, odometry, agrees);
     at_ = to;
@@ -68,6 +69,37 @@ TEST(StepPredictor, OdometryThatStalledMayMakeUpForIt) {
   const Pose2 next{6.0, 5.0, 0.0};
   predicted.moves_to({1.0, 0.0, 0.0}, &next, true);
   EXPECT_EQ(predicted.after(&next), 2U) << "it agrees again";
+}
+
+TEST(StepPredictor, OdometryThatStalledForGoodDoesNotAgreeWithAMachineThatStands) {
+  Predicted predicted;
+  const Pose2 stalled{5.0, 5.0, 0.0}, made_up{5.25, 5.0, 0.0};
+  predicted.moves_to({}, &stalled, true);
+  predicted.moves_to({0.25, 0.0, 0.0}, &stalled, false);
+  predicted.moves_to({0.25, 0.0, 0.0}, &stalled, true);  // both stand
+  ASSERT_EQ(predicted.after(&made_up), 3U);
+  EXPECT_NEAR(predicted[1].pose.x_m, 0.25, kNear_m) << "it still owes the first step";
+}
+
+TEST(StepPredictor, AStartTellsNoStepAndForgetsWhatWas) {
+  Predicted predicted;
+  const Pose2 before{100.0, 0.0, 0.0}, here{0.0, 0.0, 0.0}, next{0.5, 0.0, 0.0};
+  predicted.moves_to({0.4, 0.0, 0.0}, &before, true);
+  predicted.starts(&here);
+  ASSERT_EQ(predicted.after(&next), 2U);
+  EXPECT_NEAR(predicted[0].pose.x_m, 0.9, kNear_m) << "odometry's step since the start";
+  EXPECT_NEAR(predicted[1].pose.x_m, 0.4, kNear_m) << "no step is known";
+  EXPECT_GE(predicted[1].sigma_m, 0.3);
+  predicted.starts(nullptr);
+  EXPECT_EQ(predicted.after(&next), 1U) << "one pose of odometry tells no step";
+}
+
+TEST(StepPredictor, ALeapOfOdometryDoesNotExplainAnyPlace) {
+  Predicted predicted;
+  const Pose2 here{}, leapt{50.0, 0.0, 0.0};
+  predicted.moves_to({}, &here, true);
+  ASSERT_EQ(predicted.after(&leapt), 2U);
+  EXPECT_LT(predicted[0].sigma_m, 0.5);
 }
 
 TEST(StepPredictor, OdometryThatBeginsLateIsTakenUp) {

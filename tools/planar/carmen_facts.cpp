@@ -156,7 +156,7 @@ std::string carmen_facts_json(const std::string& input, const CarmenLog& log) {
 
 int worthy_restart_m(const CarmenLog& log) {
   constexpr double kRestarts = 5.0;
-  // On the log aces (325 m) 9 of 17 restarts every 20 m end unique, and 5 of 6 every 60 m.
+  // On the log aces (325 m) 9 of 17 restarts every 20 m end unique, and 6 of 6 every 60 m.
   constexpr double kLeast_m = 5.0, kMost_m = 60.0;
   return static_cast<int>(std::clamp(facts_of(log).travel_m / kRestarts, kLeast_m, kMost_m));
 }

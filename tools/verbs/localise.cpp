@@ -85,9 +85,9 @@ class InputTravel {
 };
 
 // The answer to one scan, and what follows from it.
-class ScanFollower {
+class PlaceRecorder {
  public:
-  ScanFollower(const LocaliseOptions& options, TruePlaces* truth, MapLocaliser* localiser, LocaliseWork* work)
+  PlaceRecorder(const LocaliseOptions& options, TruePlaces* truth, MapLocaliser* localiser, LocaliseWork* work)
       : options_(options), truth_(truth), localiser_(localiser), work_(work) {}
 
   // Throws PlanarError for a scan that the library refuses.
@@ -138,7 +138,7 @@ class ScanFollower {
 };
 
 // Ctrl-C ends it after the scan at work.
-void follow_scans(const LocaliseOptions& options, ScanSource& source, ScanFollower follower, LocaliseWork* work) {
+void follow_scans(const LocaliseOptions& options, ScanSource& source, PlaceRecorder follower, LocaliseWork* work) {
   ProgressBar bar(source.scans(), !options.frames.quiet && is_terminal(2), "scans");
   for (std::size_t number = 0; !InterruptWatch::is_interrupted(); ++number) {
     std::optional<SourcedScan> scan = source.next();
@@ -202,7 +202,8 @@ std::string summary_text(const KnownMap& map, const MapLocaliser& localiser, con
 std::vector<std::string> hints_of(const LocaliseFigures& figures, const KnownMap& map, const LocaliseWork& work,
                                   const pose_wall_planar_localise_settings& settings) {
   std::vector<std::string> hints;
-  if (work.way.candidates.size() == 1) {
+  const bool is_ambiguous = work.way.rows.back().state == POSE_WALL_PLANAR_LOCALISE_AMBIGUOUS;
+  if (is_ambiguous && work.way.candidates.size() == 1) {
     const pose_wall_planar_pose& place = work.way.candidates.front().pose;
     hints.push_back(
         say("one candidate is left, and nothing proves it: {}. If you know that the machine stands there, "
@@ -246,7 +247,13 @@ void print_end(const LocaliseOptions& options, const KnownMap& map, const MapLoc
     fmt::print(stderr, "{}", tr("pose_wall localise: no unique scan has a row in --truth\n"));
   }
   if (!options.relations.empty()) {
-    fmt::print("{}{}", between, relation_table(judge_relations(parse_tum(work.poses), relations)));
+    const RelationReport report = judge_relations(parse_tum(work.poses), relations);
+    fmt::print("{}{}", between, relation_table(report));
+    if (report.all.relations == 0) {
+      fmt::print(stderr, "{}",
+                 say("pose_wall localise: --relations {}: no relation has the times of two scans with a pose\n",
+                     options.relations));
+    }
   }
 }
 
@@ -299,7 +306,7 @@ int localise_scans(LocaliseOptions options) {
   MapLocaliser localiser(map, settings);
   if (start) localiser.place(*start);
   LocaliseWork work;
-  follow_scans(options, *source, ScanFollower(options, truth ? &*truth : nullptr, &localiser, &work), &work);
+  follow_scans(options, *source, PlaceRecorder(options, truth ? &*truth : nullptr, &localiser, &work), &work);
   if (work.way.rows.empty()) {
     throw std::runtime_error(InterruptWatch::is_interrupted() ? tr("interrupted before the first scan")
                                                               : tr("no scan could be read; nothing is written"));

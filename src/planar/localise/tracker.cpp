@@ -34,6 +34,7 @@ void Tracker::open(double odometry_m, double odometry_rad) {
 
 void Tracker::begin(const Pose2& pose, double sigma_m, double sigma_rad) {
   predictor_.begin();
+  has_followed_ = false;
   pose_ = pose;
   covariance_.setZero();
   covariance_.diagonal() << sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad;
@@ -59,7 +60,7 @@ Tracker::Beliefs Tracker::predict(const Pose2* odometry) const {
     belief.covariance = J * covariance_ * J.transpose();
     belief.covariance.diagonal() += Eigen::Vector3d(step_m2, step_m2, step_rad2);
     belief.information = belief.covariance.inverse();
-    belief.unlikely = 2.0 * step.unlikely;
+    belief.unlikely = step.unlikely;
     belief.is_odometry = step.is_odometry;
   }
   return beliefs;
@@ -114,12 +115,14 @@ Tracker::Placed Tracker::place(const PlaceMap& map, const Look& look, const Beli
   }
   if (best.verdict.fits >= kFits) return best;
   constexpr double kWide_m = 0.2;
-  for (const double turn_rad : {0.0, 0.1, -0.1}) {
-    Pose2 start = beliefs.first().pose;
-    start.yaw_rad = wrapped(start.yaw_rad + turn_rad);
-    FitRule rule{kWide_m, PlaceMap::kReach_m, 4, 6, beliefs.first().pose};
-    rule.weight = beliefs.first().information;
-    offer(fit_pose(map, look, start, rule).pose, beliefs.first());
+  for (const Belief& about : beliefs) {
+    for (const double turn_rad : {0.0, 0.1, -0.1}) {
+      Pose2 start = about.pose;
+      start.yaw_rad = wrapped(start.yaw_rad + turn_rad);
+      FitRule rule{kWide_m, PlaceMap::kReach_m, 4, 6, about.pose};
+      rule.weight = about.information;
+      offer(fit_pose(map, look, start, rule).pose, about);
+    }
   }
   return best;
 }
@@ -223,7 +226,9 @@ Track Tracker::follow_to(const PlaceMap& map, const Look& look, const Pose2* odo
   } else {
     pose_ = likeliest.pose;
   }
-  predictor_.follow(before, pose_, odometry, agrees);
+  // The first fit corrects where base was said to stand, which tells nothing of how it moves.
+  has_followed_ ? predictor_.follow(before, pose_, odometry, agrees) : predictor_.start(odometry);
+  has_followed_ = true;
   constexpr double kPlaced_m = 0.2;  // a place that is less certain is not one place
   return track == Track::tracked && !(uncertain_along(covariance_).sigma_m < kPlaced_m) ? Track::loose : track;
 }

@@ -85,6 +85,7 @@ class Tracker {
   PatchVerdict verdict_;
   double slide_m_ = 0.0, doubtful_m_ = 0.0;
   std::uint32_t contradicted_ = 0;
+  bool has_followed_ = false;  // a scan since base was said to stand there
 };
 
 }  // namespace pose_wall::planar

@@ -19,11 +19,9 @@ void ScanFollower::see_first(const Pose2* odometry) {
   predictor_.follow(Pose2(), Pose2(), odometry, true);
 }
 
-// Half of the squared distance.
-double ScanFollower::Belief::cost(const Pose2& pose) const {
-  const Eigen::Vector3d off(pose.x_m - prior.pose.x_m, pose.y_m - prior.pose.y_m,
-                            wrapped(pose.yaw_rad - prior.pose.yaw_rad));
-  return unlikely + 0.5 * off.dot(prior.information * off);
+double ScanFollower::Belief::squared_distance(const Pose2& to) const {
+  const Eigen::Vector3d off(to.x_m - prior.pose.x_m, to.y_m - prior.pose.y_m, wrapped(to.yaw_rad - prior.pose.yaw_rad));
+  return off.dot(prior.information * off);
 }
 
 std::uint32_t ScanFollower::predict(const Pose2& from, const Pose2* odometry, Belief* beliefs) const {
@@ -42,8 +40,10 @@ std::uint32_t ScanFollower::predict(const Pose2& from, const Pose2* odometry, Be
 ScanFollower::Followed ScanFollower::follow(const Pose2& from, Span<const ScanPoint> points, const SurfaceMap& near,
                                             double noise_m, const Pose2* odometry, const Matcher& matcher) {
   constexpr double kGood = 0.9;  // share of explained points
-  constexpr double kFar_m = 0.6, kFar_rad = 0.6, kAnywhere = 12.0;
-  constexpr std::uint32_t kNodes = 128;
+  // What a machine may move from scan to scan; what it costs to believe such a place without a prediction: more than
+  // that odometry lies.
+  constexpr double kFar_m = 0.6, kFar_rad = 0.6, kAnywhere = 24.0;
+  constexpr std::uint32_t kNodes = 128;  // of the search, which is in the call's time
   Belief beliefs[StepPredictor::kMost];
   const std::uint32_t count = predict(from, odometry, beliefs);
   Refined best;
@@ -51,8 +51,10 @@ ScanFollower::Followed ScanFollower::follow(const Pose2& from, Span<const ScanPo
   const auto offer = [&](const Pose2& start, const Prior& prior) {
     const Refined match = matcher.refine(points, near, start, prior, noise_m);
     double unlikely = kAnywhere;
-    for (std::uint32_t k = 0; k < count; ++k) unlikely = std::min(unlikely, beliefs[k].cost(match.pose));
-    const double cost = 0.5 * match.misfit / kAlike + unlikely;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      unlikely = std::min(unlikely, beliefs[k].unlikely + beliefs[k].squared_distance(match.pose));
+    }
+    const double cost = match.misfit / kAlike + unlikely;
     if (!match.is_valid || (best.is_valid && cost >= least)) return;
     best = match;
     least = cost;
@@ -67,7 +69,7 @@ ScanFollower::Followed ScanFollower::follow(const Pose2& from, Span<const ScanPo
     offer(found.pose, loose);
   }
   if (!best.is_valid) best.pose = beliefs[0].prior.pose;
-  predictor_.follow(from, best.pose, odometry, 2.0 * beliefs[0].cost(best.pose) < StepPredictor::kAgrees);
+  predictor_.follow(from, best.pose, odometry, beliefs[0].squared_distance(best.pose) < StepPredictor::kAgrees);
   return {best, beliefs[0].prior};
 }
 

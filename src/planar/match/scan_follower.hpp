@@ -32,7 +32,7 @@ class ScanFollower {
     Prior prior;
     double unlikely = 0.0;  // as of StepPredictor
 
-    double cost(const Pose2& pose) const;
+    double squared_distance(const Pose2& to) const;
   };
 
   std::uint32_t predict(const Pose2& from, const Pose2* odometry, Belief* beliefs) const;
