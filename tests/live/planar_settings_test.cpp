@@ -62,11 +62,12 @@ TEST(PlanarSettings, TheStopsTimesFollowFromLatencyAndPeriod) {
   EXPECT_EQ(planar_fault_of({"planar_latency=1.5"}),
             "--set: planar_latency: '1.5' is refused; allowed: a number from 0 to 1.4 s");
   EXPECT_EQ(
-      planar_fault_of({"planar_period=0.25"}),
+      planar_fault_of({"planar=map", "planar_period=0.25"}),
       "planar_stale: 0.25 s is too short for planar_period 0.25 s: each frame would be stale before the next one; "
       "allowed: from 0.3 s");
-  EXPECT_EQ(planar_fault_of({"planar_stale=0.15"}), "") << "the least";
-  EXPECT_EQ(planar_fault_of({"planar_scan_time=0.2"}),
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_stale=0.15"}), "") << "the least";
+  EXPECT_EQ(planar_fault_of({"planar_stale=0.1"}), "") << "no stop that runs";
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_scan_time=0.2"}),
             "planar_scan_time: 0.2 s is longer than planar_period, 0.1 s: a frame lasts no longer than its period");
 }
 

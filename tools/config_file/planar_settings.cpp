@@ -221,8 +221,9 @@ std::string broken_planar_rule(const PlanarSettings& settings) {
   if (settings.tf != "off" && (settings.map_frame.empty() || settings.odom_frame.empty())) {
     return say("planar_tf: {} needs names in planar_map_frame and planar_odom_frame", settings.tf);
   }
-  if (!settings.is_on()) return "";
-  if (std::string rule = broken_time_rule(settings); !rule.empty()) return rule;
+  if (settings.is_on()) {
+    if (std::string rule = broken_time_rule(settings); !rule.empty()) return rule;
+  }
   const pose_wall_planar_stop_settings stop = stop_settings_of(settings);
   if (pose_wall_planar_stop_settings_check(&stop, nullptr) != POSE_WALL_OK) {
     return say(
