@@ -31,7 +31,7 @@ struct DrawnScene {
 
 constexpr double kThingLeast_m = 0.2, kThingFarthest_m = 10.0;
 
-inline DrawnScene draw_scene(Draw* draw, const pose_wall_planar_scanner_settings& settings) {
+inline DrawnScene draw_scene(SceneDraw* draw, const pose_wall_planar_scanner_settings& settings) {
   DrawnScene out;
   RoadScene& road = out.road;
   road.height_m = draw->between(0.6, 2.3);  // also from above the band
@@ -46,7 +46,7 @@ inline DrawnScene draw_scene(Draw* draw, const pose_wall_planar_scanner_settings
   road.lost = draw->below(2) == 0 ? 0.0 : draw->between(0.0, 0.2);
   road.dust = draw->below(4) == 0 ? draw->between(0.0, 0.05) : 0.0;
   const double top_m = settings.machine_height_m + settings.margin_m;
-  Thing thing;
+  SceneThing thing;
   out.kind = static_cast<ThingKind>(draw->below(static_cast<std::uint32_t>(ThingKind::kinds)));
   const double width_m = draw->between(kThingLeast_m, 0.6), tall_m = draw->between(kThingLeast_m, 0.6);
   thing.round = out.kind == ThingKind::post || draw->below(2) == 0;
@@ -83,8 +83,8 @@ inline Stretch stretch_of(const PlacedThing& column, double angle_rad) {
   return {near_m, near_m + 2.0 * std::hypot(column.half_length, column.half_width)};
 }
 // Its outline, at all heights.
-inline PlacedThing column_of(const Thing& thing) {
-  Thing column = thing;
+inline PlacedThing column_of(const SceneThing& thing) {
+  SceneThing column = thing;
   column.z0 = -1.0, column.z1 = 1.0;
   return PlacedThing(column);
 }
@@ -153,7 +153,7 @@ class CampaignRunner {
   }
 
   void run(std::uint64_t seed, Campaign* campaign) {
-    Draw draw(seed);
+    SceneDraw draw(seed);
     DrawnScene drawn = draw_scene(&draw, settings_);
     drawn.road.noise_m = sensor_.noise_m;
     drawn.road.things_are_dark = seed % 8 == 7;  // nothing comes back from it: it can only not be clear

@@ -46,7 +46,7 @@ TEST(ScanCampaign, TheClearRangeIsOfUse) {
   road.left_m = road.right_m = 8.0;
   road.noise_m = kScanOs1.noise_m;
   const SeenScene seen = see(road, kScanOs1, rays_of(kScanOs1, 1), 1);
-  Draw draw(1);
+  SceneDraw draw(1);
   const pose_wall_planar_floor floor = floor_of(road, kCampaignTilt_rad, &draw);
   runner.scanner().process(cloud_of(seen.points, 0), &floor);
   std::uint32_t clear = 0;

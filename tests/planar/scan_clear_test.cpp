@@ -12,7 +12,7 @@
 namespace {
 
 using namespace pose_wall::planar;
-using pose_wall::test::Draw;
+using pose_wall::test::SceneDraw;
 
 ClearScene scene_of(double sensor_m) {
   ClearScene scene;
@@ -50,7 +50,7 @@ std::vector<double> even(double low, double high, double step) {
 
 TEST(ScanClear, EdgesOfSlotsEncloseTheirTangents) {
   const SlotEdges edges;
-  Draw draw(3);
+  SceneDraw draw(3);
   for (int i = 0; i < 10000; ++i) {
     const double t = draw.between(-3.0, 3.0);
     const std::uint32_t slot = slot_of(t);
@@ -127,7 +127,7 @@ bool hides(const std::vector<double>& tangents, const ClearScene& s, double rang
 }
 
 TEST(ScanClear, NothingFitsBetweenRaysThatAreClear) {
-  Draw draw(11);
+  SceneDraw draw(11);
   int clear_cases = 0, points = 0;
   for (int trial = 0; trial < 1500; ++trial) {
     const ClearScene scene = scene_of(draw.between(0.3, 2.6));

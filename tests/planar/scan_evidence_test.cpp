@@ -155,7 +155,7 @@ TEST(ScanEvidence, AnyLayoutOfTheCloudGivesTheSameScan) {
 }
 
 TEST(ScanEvidence, DirectionsAreWithinAHundredthOfABeam) {
-  Draw draw(5);
+  SceneDraw draw(5);
   for (int i = 0; i < 20000; ++i) {
     const double angle_rad = draw.between(-kPi, kPi);
     const Points one = {

@@ -221,7 +221,7 @@ TEST(ScanScanner, AnEmptyCloudAndOneOfGarbageAreScansToo) {
   const pose_wall_planar_floor floor = level_floor();
   scanner.process(cloud_of({}, 0), &floor);
   EXPECT_EQ(things_of(scanner.scan()), 0U);
-  Draw draw(9);
+  SceneDraw draw(9);
   for (int round = 0; round < 30; ++round) {
     Points points(3000);
     for (auto& p : points) {

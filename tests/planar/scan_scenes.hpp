@@ -20,9 +20,9 @@
 
 namespace pose_wall::test {
 
-class Draw {
+class SceneDraw {
  public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
+  explicit SceneDraw(std::uint64_t seed) : random_(seed) {}
   double uniform() { return static_cast<double>(random_.next() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + (high - low) * uniform(); }
   std::uint32_t below(std::uint32_t bound) { return random_.below(bound); }
@@ -50,7 +50,7 @@ inline std::vector<Eigen::Vector3f> rays_of(const RingSensor& sensor, std::uint6
     rays.emplace_back(
         Eigen::Vector3d(std::cos(e) * std::cos(azimuth), std::cos(e) * std::sin(azimuth), std::sin(e)).cast<float>());
   };
-  Draw draw(seed);
+  SceneDraw draw(seed);
   const double span = sensor.elevation_max_deg - sensor.elevation_min_deg;
   for (std::uint32_t c = 0; c < sensor.columns; ++c) {
     if (sensor.rings == 0) add(draw.between(0.0, 2.0 * M_PI), sensor.elevation_min_deg + span * draw.uniform());
@@ -62,7 +62,7 @@ inline std::vector<Eigen::Vector3f> rays_of(const RingSensor& sensor, std::uint6
 }
 
 // A thing that stands, hangs or floats: a round post, or a box that is turned.
-struct Thing {
+struct SceneThing {
   bool round = true;
   double x = 5.0, y = 0.0, z0 = 0.0, z1 = 1.0;
   double half_length = 0.1, half_width = 0.1;  // round: the radius
@@ -74,7 +74,7 @@ struct RoadScene {
   double roll_rad = 0.0, pitch_rad = 0.0, yaw_rad = 0.0;  // of base in the world
   double noise_m = 0.0;
   double lost = 0.0, dust = 0.0;  // share of rays that do not come back, and that end in the air
-  std::vector<Thing> things;
+  std::vector<SceneThing> things;
   bool things_are_dark = false;  // nothing comes back from them
   double rough_m = 0.0;          // standard deviation of the walls' relief
 
@@ -85,7 +85,7 @@ struct RoadScene {
 class WallRelief {
  public:
   explicit WallRelief(std::uint64_t seed) {
-    Draw draw(seed);
+    SceneDraw draw(seed);
     for (Wave& w : waves_) {
       const double k = 2.0 * M_PI / draw.between(0.15, 0.8), a = draw.between(0.0, 2.0 * M_PI);
       w = {k * std::cos(a), k * std::sin(a), draw.between(0.0, 2.0 * M_PI)};
@@ -106,9 +106,9 @@ class WallRelief {
 };
 
 // A thing with what is the same for all rays.
-struct PlacedThing : Thing {
-  explicit PlacedThing(const Thing& thing)
-      : Thing(thing), c(static_cast<float>(std::cos(turn_rad))), s(static_cast<float>(std::sin(turn_rad))) {
+struct PlacedThing : SceneThing {
+  explicit PlacedThing(const SceneThing& thing)
+      : SceneThing(thing), c(static_cast<float>(std::cos(turn_rad))), s(static_cast<float>(std::sin(turn_rad))) {
     const double away = std::hypot(x, y), reach = std::hypot(half_length, half_width);
     to_x = static_cast<float>(x / away), to_y = static_cast<float>(y / away);
     // beyond its outline, or all around where the sensor stands in it
@@ -161,9 +161,9 @@ struct SeenScene {
 
 inline SeenScene see(const RoadScene& scene, const RingSensor& sensor, const std::vector<Eigen::Vector3f>& rays,
                      std::uint64_t seed, const WallRelief* relief = nullptr) {
-  Draw draw(seed);
+  SceneDraw draw(seed);
   static const std::vector<float> normals = [] {
-    Draw of_table(1);
+    SceneDraw of_table(1);
     std::vector<float> table(1U << 16U);
     for (float& n : table) n = static_cast<float>(of_table.normal());
     return table;
@@ -216,7 +216,7 @@ inline SeenScene see(const RoadScene& scene, const RingSensor& sensor, const std
 }
 
 // The floor that the engine would report: off by some of its own standard deviation.
-inline pose_wall_planar_floor floor_of(const RoadScene& scene, double sigma_rad, Draw* draw) {
+inline pose_wall_planar_floor floor_of(const RoadScene& scene, double sigma_rad, SceneDraw* draw) {
   pose_wall_planar_floor floor{};
   floor.struct_size = sizeof(floor);
   floor.measured = 1;

@@ -33,7 +33,7 @@ struct WallErrors {
 // The rule of pointcloud_to_laserscan and of the document: the nearest return of a beam with the heights of the
 // sensor's own axes. Here the band is told apart by the true floor, so that only the rule of the range is compared.
 inline void measure_walls(const RingSensor& sensor, double rough_m, std::uint64_t seed, WallErrors* errors) {
-  Draw draw(seed);
+  SceneDraw draw(seed);
   RoadScene road;
   road.height_m = draw.between(1.2, 1.8);
   road.left_m = draw.between(2.2, 2.8), road.right_m = draw.between(2.2, 2.8);
@@ -95,7 +95,7 @@ struct FalseThings {
 // Beams that end at the floor or the roof of a plain road, within the range of the scan, on a machine that is tilted by
 // so much; ours, and with the document's heights counted from the sensor along its own axes.
 inline void count_false_things(const RingSensor& sensor, double tilt_rad, std::uint64_t seed, FalseThings* counts) {
-  Draw draw(seed);
+  SceneDraw draw(seed);
   RoadScene road;
   const double way_rad = draw.between(-M_PI, M_PI);
   road.roll_rad = tilt_rad * std::cos(way_rad), road.pitch_rad = tilt_rad * std::sin(way_rad);

@@ -106,7 +106,7 @@ int cost(int frames) {
     pose_wall_config config = config_with();
     set(&config, "extrinsic_roll", sensor.mount_roll_rad);
     ScannerUnderTest scanner(config);
-    Draw draw(1);
+    SceneDraw draw(1);
     const pose_wall_planar_floor floor = floor_of(road, kCampaignTilt_rad, &draw);
     double best_ms = 1e9, sum_ms = 0.0;
     for (int i = 0; i < frames; ++i) {
