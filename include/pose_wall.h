@@ -295,7 +295,8 @@ enum pose_wall_input {
 /* The machine's pose at this frame's stamp, by an odometry that measures. pose_wall_motion_give fills it; the caller
  * may use an odometry of its own. The engine uses only the difference between two frames of one run. So an odometry may
  * drift and may have any origin. The error of such a difference stays within
- *     level (then) + level (now) + protection_factor sqrt(drift_variance (now) - (then)) + drift (now) - (then). */
+ *     level (then) + level (now) + k sqrt(drift_variance (now) - (then)) + drift (now) - (then),
+ * where k is the number of standard deviations that integrity_risk leaves beyond: 4.89 for 1e-6. */
 typedef struct pose_wall_odometry {
   uint64_t run;               /* poses of one run are comparable; another number after each new start. Not 0 */
   double position_m[3];       /* of base, in the run's frame */
@@ -314,7 +315,7 @@ typedef struct pose_wall_odometry {
  * frame then has POSE_WALL_R_PRIOR; sound boxes are applied all the same. Without motion the levels of held values grow
  * by hold_rate_angle and hold_rate_distance. With it:
  * STANDING: no level grows (age_s still does).
- * TURN_RATE: a held yaw turns with it, and its level grows by protection_factor sigma. It does not affect roll and
+ * TURN_RATE: a held yaw turns with it, and its level grows by k sigma (k as above). It does not affect roll and
  * pitch.
  * SPEED with TURN_RATE: the levels of distances grow no faster than the sampling points move, |speed| + reach x |turn
  * rate| and their sigmas, where that is less than hold_rate_distance. The direction of that motion is not used.
@@ -451,7 +452,7 @@ const char* pose_wall_quantity_name(uint32_t quantity);
 
 /* The parts of a protection level; index of pose_wall_value.part. */
 enum pose_wall_part {
-  POSE_WALL_PART_RANDOM = 0,        /* protection_factor standard deviations of the fit */
+  POSE_WALL_PART_RANDOM = 0,        /* standard deviations of the fit, as many as integrity_risk asks for */
   POSE_WALL_PART_RANGE_BIAS = 1,    /* effect of range_bias_max on this quantity */
   POSE_WALL_PART_BEND = 2,          /* the surface is no plane: bends, waves, ribs, walls that are not parallel */
   POSE_WALL_PART_RIVAL = 3,         /* another surface may be the floor or the wall, in this frame or a moment ago */

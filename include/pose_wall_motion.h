@@ -62,7 +62,7 @@ uint32_t pose_wall_motion_abi_version(void);
 
 /* Settings that the engine's config does not hold. In pose_wall.yaml they are the keys motion_speed_max, _turn_max_deg
  * (in degrees there), _range_max and _keyframe. The command reads these; pose_wall_config_set does not know them.
- * Extrinsic, forward_axis, range_min, body boxes and protection_factor come from the engine's config. */
+ * Extrinsic, forward_axis, range_min, body boxes and integrity_risk come from the engine's config. */
 typedef struct pose_wall_motion_settings {
   uint32_t struct_size;  /* set by pose_wall_motion_settings_init */
   uint32_t reserved;     /* 0 */

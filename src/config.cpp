@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/estimation/protection.hpp"
 #include "base/math/crc32.hpp"
 #include "base/math/elementary.hpp"
 #include "number_text.hpp"
@@ -276,6 +277,7 @@ Settings read_settings(const pose_wall_config& config) {
 #undef POSE_WALL_NUMBER
 #undef POSE_WALL_COUNT
 #undef POSE_WALL_BOX
+  s.protection_sigmas = sigmas_at_risk(s.integrity_risk);
   return s;
 }
 

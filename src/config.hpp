@@ -46,6 +46,8 @@ struct Settings {
 #undef POSE_WALL_NUMBER
 #undef POSE_WALL_COUNT
 #undef POSE_WALL_BOX
+
+  double protection_sigmas;  // by integrity_risk, before the stretch to Student's t (base/estimation/protection.hpp)
 };
 
 constexpr std::int32_t kMotionOn = 0;  // of the choices of the key `motion`

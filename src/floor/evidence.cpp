@@ -172,17 +172,32 @@ void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
   }
 }
 
-void FloorGrid::mark(const PointSet& open_base, const Plane& plane, double thresh_m) {
+template <typename IsOn>
+void FloorGrid::mark_where(const PointSet& open_base, const IsOn& is_on) {
   clear_marks();
-  const FourDistances distances(plane);
-  const FourFloats most = all_four(static_cast<float>(thresh_m));
   for_each_four_points(open_base, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    const FourTruths on_plane = counts & (magnitude_of(distances.of(x, y, z)) <= most);
+    const FourTruths on_plane = counts & is_on(x, y, z);
     if (!any_of(on_plane)) return;
     const FourInts ix = cells_of(x), iy = cells_of(y);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       if (on_plane[lane] != 0 && marked_[index(ix[lane], iy[lane])] == 0) mark_cell(ix[lane], iy[lane]);
     }
+  });
+}
+
+void FloorGrid::mark(const PointSet& open_base, const Plane& plane, double thresh_m) {
+  const FourDistances distances(plane);
+  const FourFloats most = all_four(static_cast<float>(thresh_m));
+  mark_where(open_base,
+             [&](FourFloats x, FourFloats y, FourFloats z) { return magnitude_of(distances.of(x, y, z)) <= most; });
+}
+
+void FloorGrid::mark_apart(const PointSet& open_base, const Plane& plane, double thresh_m, const Plane& other,
+                           double other_m) {
+  const FourDistances distances(plane), from_other(other);
+  const FourFloats most = all_four(static_cast<float>(thresh_m)), off = all_four(static_cast<float>(other_m));
+  mark_where(open_base, [&](FourFloats x, FourFloats y, FourFloats z) {
+    return (magnitude_of(distances.of(x, y, z)) <= most) & (magnitude_of(from_other.of(x, y, z)) > off);
   });
 }
 

@@ -46,6 +46,8 @@ class FloorGrid {
 
   // Marks the cells in which a plane has points. open_base: from find_open(), all within the grid.
   void mark(const PointSet& open_base, const Plane& plane, double thresh_m);
+  // The same, without the points within other_m of another plane.
+  void mark_apart(const PointSet& open_base, const Plane& plane, double thresh_m, const Plane& other, double other_m);
   // Evidence for the marked plane.
   FloorEvidence evidence(const Axes& axes) const;
   // True if the marked plane has floor at or next to this place.
@@ -60,6 +62,9 @@ class FloorGrid {
   static bool inside(std::int32_t ix, std::int32_t iy) { return ix >= 0 && ix < kSide && iy >= 0 && iy < kSide; }
   static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
 
+  // is_on(x, y, z): which of four points the plane has.
+  template <typename IsOn>
+  void mark_where(const PointSet& open_base, const IsOn& is_on);
   [[gnu::noinline]] void mark_cell(std::int32_t ix, std::int32_t iy);  // called once for each cell
   void clear_marks();
 

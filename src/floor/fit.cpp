@@ -16,7 +16,6 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kGateInThresholds = 3.0;  // judgement, 2026-11-21: 9 cm around the start; Tukey's weights narrow it
 // Relative to a range's noise. Centroids of dense voxels scatter far less. But at a finer scale the thinner half of a
 // voxel layer that the plane cuts became outliers: mean z2 2 to 6 (README, tried and dropped).
 constexpr double kScaleLeastInNoise = 2.0 / 3.0;
@@ -25,7 +24,7 @@ constexpr int kRounds = 5;         // judgement, 2026-11-21: most fits settle ea
 constexpr int kSelections = 3;  // judgement, 2026-11-21: the gate widens after the first; two more let the fit settle
 
 IrlsSettings irls_settings(const Settings& s) {
-  return {kGateInThresholds * s.ground_ransac_thresh, kScaleLeastInNoise * s.range_noise, s.ground_ransac_thresh,
+  return {kOwnInThresholds * s.ground_ransac_thresh, kScaleLeastInNoise * s.range_noise, s.ground_ransac_thresh,
           kRounds, kBeforePatches};
 }
 
@@ -206,7 +205,8 @@ FloorResult fit_floor(const FloorScene& scene, const FloorLook& look, const Plan
   scratch->work.add(scratch->points.count, steps::kPointPatched);
   scratch->work.add(bend.work);
   scratch->work.add(patches.size(), steps::kPatchWaved);
-  const UnevenFit uneven = bend.solved ? scratch->patches.waves().fit(patches) : UnevenFit{};
+  const UnevenFit uneven =
+      bend.solved ? scratch->patches.waves().fit(patches, settings.protection_sigmas) : UnevenFit{};
   if (!demand<gate::FLOOR_FIT>(&out.fit, uneven.solved)) return out;
   PlaneOver over = irls.over;
   over.add(uneven.correction);

@@ -71,7 +71,7 @@ FloorResult floor_within(const FloorScene& scene, const FloorLook& look, Random*
   out.open_points = within.count;
   out.roi_radius_m = look.radius_m;
   out.area_m2 = best->evidence.area_m2;
-  reach_to_rivals(*best, found.all(), scene.settings, &out);
+  reach_to_rivals(scene, within, found, scratch, &out);
   judge_fit(scene, *best, &out.fit);
   // A fit that failed or wandered off says less about the floor than its start.
   if ((out.fit.reasons & POSE_WALL_R_FLOOR_NOT_FOUND) != 0) out.fit.plane = best->plane;

@@ -34,7 +34,7 @@ struct Protections {
 inline Protections protections_of(const FloorResult& f, const Settings& s) {
   constexpr double kNone_rad = 1e9;  // no protection at all: larger than any
   if (f.fit.refused) return {kNone_rad, kNone_rad};
-  const double k = protection_factor(s.protection_factor, f.dof);
+  const double k = protection_factor(s.protection_sigmas, f.dof);
   return {k * f.roll_sigma_rad + f.roll_bound_rad.sum(), k * f.pitch_sigma_rad + f.pitch_bound_rad.sum()};
 }
 

@@ -30,7 +30,6 @@ bool is_weaker(double share, const Plane& floor, const Settings& s) {
                                           : passes<gate::FLOOR_RIVAL>(share, s);
 }
 
-constexpr double kOffInThresholds = 3.0;  // judgement, 2026-11-23: within 9 cm points are the floor's own
 constexpr double kOneSide = 0.8;  // judgement, 2026-11-23: a fifth of the points may be strays where both planes meet
 constexpr double kNearLine_m = 0.3;  // judgement, 2026-11-23: accuracy of the line in which two floors meet
 constexpr double kLower_m = 0.3;  // a belt's or a table's height, more than a kerb's; 0.5 before a review, 2026-11-23
@@ -47,10 +46,14 @@ constexpr double kNearInRadii = 1.5;
 // Points on all sides: the machine stands on them. Judgement, 2026-11-23: its body hides a quarter of a turn.
 constexpr std::uint32_t kGapOfBody = 2;
 constexpr std::uint32_t kAnyPart = 100;  // judgement, 2026-11-23: one point in a hundred is there
-// A real part of the floor: a plane that is prolonged meets a few points of walls. Judgement, 2026-11-26.
+// A real part of the floor, as the limit of floor_near is: a prolonged plane meets a few points of walls. Judgement,
+// 2026-11-26.
 constexpr std::uint32_t kRealPart = 20;
 // Half a turn: the machine stands at the edge of what is seen. Beyond, all of it lies ahead, behind or to one side.
 constexpr std::uint32_t kGapOfHalf = 4;
+// Ramps that were taken for the floor before floor_near was a gate lay up to 4.7 degrees otherwise. Twice as much, 10
+// degrees, is more than any usual alert limit. Judgement, 2026-11-26.
+constexpr double kUnseenRamp_rad = 0.17;
 
 // Number of points in each eighth of a turn around the machine.
 struct Eighths {
@@ -59,7 +62,7 @@ struct Eighths {
 
   // parts: at least one of so many of all points.
   bool hold(std::uint32_t eighth, std::uint32_t parts) const { return total > 0 && count[eighth] * parts >= total; }
-  bool reach_machine(std::uint32_t parts) const { return total > 0 && near * parts >= total; }
+  double near_share() const { return total > 0 ? static_cast<double>(near) / total : 0.0; }
 };
 
 // Counts points within reach of the plane and below the sensor. Prolonged, a steep plane meets the roof.
@@ -95,10 +98,11 @@ std::uint32_t widest_gap(const Eighths& floor, std::uint32_t parts) {
 
 // Ground that is seen on one side only, and not where the machine stands, may be a ramp before or behind it. Nothing of
 // the machine's own ground is left over to show that.
-void reach_to_unseen_ground(FloorResult* floor) {
-  floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += kSteep_rad;
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += kSteep_rad;
+void reach_to_unseen_ground(const Eighths& seen, const Settings& s, FloorResult* floor) {
+  if (widest_gap(seen, kRealPart) <= kGapOfHalf) return;
+  if (demand<gate::FLOOR_NEAR>(&floor->fit, seen.near_share(), s)) return;
+  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += kUnseenRamp_rad;
+  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += kUnseenRamp_rad;
 }
 
 // Copies open points off the floor and below the sensor. Over the floor they may be as high as the sensor. In base they
@@ -121,7 +125,7 @@ void copy_left_over(const PointSet& open, const Plane& floor, double off_m, cons
 double share_above(const PointSet& open, const Plane& on, const Plane& other, double thresh_m) {
   const FourDistances from_own(on), from_other(other);
   const FourFloats thresh = all_four(static_cast<float>(thresh_m));
-  const FourFloats off = all_four(static_cast<float>(kOffInThresholds * thresh_m));
+  const FourFloats off = all_four(static_cast<float>(kOwnInThresholds * thresh_m));
   FourInts of_own{}, above{};  // true is -1
   for_each_four_points(open, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     const FourFloats height = from_other.of(x, y, z);
@@ -148,16 +152,36 @@ bool may_stand_on(const PointSet& open, const Plane& other, const Plane& floor, 
   return other_is_lower && floor_is_higher && step_m < -kLower_m && unlike < kAlike;
 }
 
+// True if all ground of a plane but strays is the floor's own, which its fit has taken: a tilted plane through rough
+// ground meets much of it as well, and the fit's errors cover that. Not for small floors, where a few centimetres are
+// many degrees.
+bool lies_in_floors_ground(const FloorScene& scene, const PointSet& within_base, const FloorCandidate& rival,
+                           const Plane& floor, FloorScratch* scratch) {
+  const double thresh_m = scene.settings.ground_ransac_thresh;
+  scratch->work.add(2 * within_base.count, steps::kPointMarked);
+  scratch->grid.mark_apart(within_base, rival.plane, thresh_m, floor, kOwnInThresholds * thresh_m);
+  return scratch->grid.evidence(scene.axes).score_m2 * kRealPart < rival.evidence.score_m2;
+}
+
 }  // namespace
 
 // Through a small floor the real floor may show instead of a reflection.
-void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> candidates, const Settings& s,
-                     FloorResult* floor) {
+void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const FloorCandidates& candidates,
+                     FloorScratch* scratch, FloorResult* floor) {
+  const Settings& s = scene.settings;
+  const FloorCandidate& best = *candidates.best();
   const RollPitch a = roll_pitch_of_up(best.plane.n);
+  // A fit that failed, or wandered off to the rival, tells nothing about it.
+  const Plane fitted = floor->fit.plane;
+  const bool may_exclude =
+      floor->fit.found && same_floor(fitted, best.plane) && !(best.evidence.area_m2 < kSmallArea_m2);
+  const double least = std::fmin(limit_of<gate::FLOOR_RIVAL>(s), limit_of<gate::FLOOR_RIVAL_STEEP>(s));
   double roll = 0.0, pitch = 0.0;
-  for (const FloorCandidate& rival : candidates) {
+  for (const FloorCandidate& rival : candidates.all()) {
     if (&rival == &best || (rival.ghost && best.evidence.area_m2 >= kSureArea_m2)) continue;
-    const double share = rival.evidence.score_m2 / best.evidence.score_m2;
+    if (scratch->work.is_spent()) break;
+    double share = rival.evidence.score_m2 / best.evidence.score_m2;
+    if (may_exclude && share >= least && lies_in_floors_ground(scene, within_base, rival, fitted, scratch)) share = 0.0;
     if (is_weaker(share, best.plane, s)) continue;
     POSE_WALL_NOTE(trace::fate(rival.plane, POSE_WALL_TRACE_RIVAL));
     const RollPitch b = roll_pitch_of_up(rival.plane.n);
@@ -203,9 +227,9 @@ void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratc
   const Plane plane = floor->fit.plane;
   scratch->work.add(open.count, steps::kPointWithin);
   const Eighths seen = eighths_of(open, plane, s, sensor_base_m.z());
-  if (widest_gap(seen, kRealPart) > kGapOfHalf && !seen.reach_machine(kRealPart)) reach_to_unseen_ground(floor);
+  reach_to_unseen_ground(seen, s, floor);
   if (widest_gap(seen, kAnyPart) <= kGapOfBody) return;
-  const double off_m = kOffInThresholds * s.ground_ransac_thresh;
+  const double off_m = kOwnInThresholds * s.ground_ransac_thresh;
   copy_left_over(open, plane, off_m, sensor_base_m, &scratch->within_base);
   if (left_over.count < kPointsMin) return;
   FloorCandidates found;

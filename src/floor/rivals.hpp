@@ -16,9 +16,10 @@
 
 namespace pose_wall {
 
-// Planes in the same look that are nearly as good. A small floor must stand alone, or is refused.
-void reach_to_rivals(const FloorCandidate& best, Span<const FloorCandidate> candidates, const Settings& settings,
-                     FloorResult* floor);
+// Planes in the same look that are nearly as good, by ground that the fit leaves out. A tilted plane through the fit's
+// own points is no other floor: the fit's errors cover it. A small floor must stand alone, or is refused.
+void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const FloorCandidates& candidates,
+                     FloorScratch* scratch, FloorResult* floor);
 
 // The floor within another radius.
 void reach_to_other_look(const FloorResult& other, const Settings& settings, FloorResult* floor);

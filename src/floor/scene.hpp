@@ -27,6 +27,10 @@ struct FloorScene {
   const Plane* last_floor;  // the last frame's, or nullptr; scored like any other hypothesis
 };
 
+// Points so near a floor's plane are its own: 9 cm by default. The fit takes them, and ground further off may be
+// another floor. Judgement, 2026-11-21.
+constexpr double kOwnInThresholds = 3.0;
+
 // Points of a fit, as many as a wall's. More points add nothing, since rock and waves limit the fit. Judgement,
 // 2026-11-21.
 constexpr std::uint32_t kFloorFitPoints = 8192;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "base/estimation/protection.hpp"
 #include "base/math/rotation.hpp"
 #include "export.hpp"
 #include "motion/motion_image.hpp"
@@ -140,7 +141,7 @@ MotionSettings settings_of(const pose_wall_config& config, const pose_wall_motio
   out.speed_max_m_s = settings.speed_max_m_s;
   out.turn_max_rad_s = settings.turn_max_rad_s;
   out.keyframe_m = settings.keyframe_m;
-  out.protection_factor = number_of(config, "protection_factor");
+  out.protection_sigmas = pose_wall::sigmas_at_risk(number_of(config, "integrity_risk"));
   char axis[POSE_WALL_TEXT_MAX] = {};
   (void)pose_wall_config_get_text(&config, "forward_axis", axis, sizeof(axis));
   out.forward_base =

@@ -195,7 +195,7 @@ void Odometry::refine(const Scan& scan, Frame* frame) {
   a.pose.t += place.best_m * a.axes.along;
   // Shifts further off than the curve's own steps resolve, which the patches do not exclude, are within the level.
   const double around_m = frame->curve.around_m > 2.5 * kCurveStep_m ? frame->curve.around_m : 0.0;
-  const double sigma_m = around_m / settings_.protection_factor;
+  const double sigma_m = around_m / settings_.protection_sigmas;
   // One frame's own estimate of it has heavy tails, and the rock does not change from frame to frame.
   const double own_m2 = place.sigma_m * place.sigma_m;
   rock_variance_m2_ = rock_variance_m2_ > 0.0 ? 0.5 * (own_m2 + rock_variance_m2_) : own_m2;
@@ -294,7 +294,7 @@ void Odometry::use_prior(Frame* frame) const {
   const double way_m = (a.pose.t - pose_.t).dot(a.axes.along);
   if (!frame->is(POSE_WALL_ALONG_MEASURED)) {
     a.pose.t += (frame->prior.way_m * towards - way_m) * a.axes.along;
-  } else if (!weigh_in(frame->prior, towards, way_m, settings_.protection_factor, &a)) {
+  } else if (!weigh_in(frame->prior, towards, way_m, settings_.protection_sigmas, &a)) {
     frame->reasons |= POSE_WALL_MOTION_R_PRIOR;
   }
 }
@@ -302,7 +302,7 @@ void Odometry::use_prior(Frame* frame) const {
 // The unknown way along, beyond sigma.
 double Odometry::slip_of(const Frame& frame, double along_m) const {
   if (frame.is(POSE_WALL_ALONG_MEASURED)) return 0.0;
-  if (frame.prior.has_way()) return settings_.protection_factor * frame.prior.way_sigma_m;
+  if (frame.prior.has_way()) return settings_.protection_sigmas * frame.prior.way_sigma_m;
   if (frame.is(POSE_WALL_ALONG_AMBIGUOUS)) return frame.curve.apart_m;
   return settings_.speed_max_m_s * frame.dt_s + std::fabs(along_m);
 }
@@ -354,7 +354,7 @@ void Odometry::conclude(Frame* frame) {
   }
   travel_.go(along_m);
   const double step_slip_m = measured ? slipped_m_ : frame->slip_m;  // the first one found makes up for the others
-  frame->step = Travel::of_step(last_covariance_, a.covariance, step_slip_m, settings_.protection_factor);
+  frame->step = Travel::of_step(last_covariance_, a.covariance, step_slip_m, settings_.protection_sigmas);
   if (lost_s_ > 0.0) {
     frame->step.widen(settings_.speed_max_m_s * lost_s_, settings_.turn_max_rad_s * lost_s_);
     frame->step_s += lost_s_;
@@ -369,7 +369,7 @@ void Odometry::conclude(Frame* frame) {
   axes_ = a.axes;
   last_covariance_ = a.covariance;
   ++since_start_;
-  frame->whole = travel_.bounds(a.covariance, slipped_m_, settings_.protection_factor);
+  frame->whole = travel_.bounds(a.covariance, slipped_m_, settings_.protection_sigmas);
   keep_map(*frame);
 }
 
@@ -467,7 +467,7 @@ void Odometry::measure(Frame* frame) {
   } else if (!has_map_) {
     begin_map(frame);
     frame->reasons |= POSE_WALL_MOTION_R_FIRST;
-    frame->whole = travel_.bounds(SixBySix::Zero(), slipped_m_, settings_.protection_factor);
+    frame->whole = travel_.bounds(SixBySix::Zero(), slipped_m_, settings_.protection_sigmas);
   } else if (place_scan(frame)) {
     align(frame);
     check_reach(frame);
@@ -517,7 +517,7 @@ void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* re
     frame.state = has_map_ ? POSE_WALL_ALONG_UNOBSERVABLE : POSE_WALL_ALONG_LOST;
     frame.alignment.pose = pose_;
     frame.alignment.axes = axes_;
-    frame.whole = travel_.bounds(last_covariance_, slipped_m_, settings_.protection_factor);
+    frame.whole = travel_.bounds(last_covariance_, slipped_m_, settings_.protection_sigmas);
     image_.count = 0;
     // One frame out of order, or a clock that was set back: the second one decides. The usual period is the best
     // estimate of the time since the last pose.
@@ -541,7 +541,7 @@ bool Odometry::tell(pose_wall_odometry* out) const {
   Eigen::Quaterniond q(pose_.R);
   q.normalize();
   out->run = run_;
-  const Six level = Travel::level_of(last_covariance_, slipped_m_, settings_.protection_factor);
+  const Six level = Travel::level_of(last_covariance_, slipped_m_, settings_.protection_sigmas);
   for (int k = 0; k < 3; ++k) {
     out->position_m[k] = pose_.t[k];
     out->along[k] = axes_.along[k];

@@ -14,7 +14,7 @@ namespace pose_wall::motion {
 
 struct MotionSettings {
   double speed_max_m_s = 2.0, turn_max_rad_s = 1.5, keyframe_m = 0.2;
-  double protection_factor = 5.0;
+  double protection_sigmas = 0.0;  // by the engine's integrity_risk
   Eigen::Vector3d forward_base = Eigen::Vector3d::UnitX();
 };
 

@@ -366,8 +366,8 @@ std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts
 
 namespace {
 
-// Cosine to the machine's up: a road as steep as 45 degrees is none. A sensor that sees little floor and roof knows
-// least which way is up.
+// Cosine of 45 degrees to the machine's up. The sixteen rings of a VLP-16 see little floor and roof, and know least
+// which way is up (engine_with_motion_test). No road is as steep. Judgement, 2026-11-26: halfway between the two.
 constexpr double kUpright = 0.7;
 
 // By inverse iteration: the smallest eigenvalue is far below the others on a road, and any axis does in a hall.

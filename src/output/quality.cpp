@@ -43,7 +43,7 @@ Measurement measurement(double raw, double sigma, const ProtectionParts& bound, 
   m.raw = raw;
   m.sigma = predictive(sigma, dof);
   m.protection = bound;
-  m.protection[POSE_WALL_PART_RANDOM] += protection_factor(s.protection_factor, dof) * sigma;
+  m.protection[POSE_WALL_PART_RANDOM] += protection_factor(s.protection_sigmas, dof) * sigma;
   // A measurement without a finite bound is none.
   m.measured = is_finite(m.raw) && is_finite(m.sigma) && is_finite(m.protection.sum());
   if (!m.measured) m.reasons = POSE_WALL_R_ALERT_LIMIT;

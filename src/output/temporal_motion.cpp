@@ -13,7 +13,7 @@ namespace {
 struct Known {
   bool given = false;
   double rate = 0.0;
-  double uncertain = 0.0;  // protection_factor standard deviations
+  double uncertain = 0.0;  // protection_sigmas standard deviations
 
   double most() const { return std::fabs(rate) + uncertain; }
 };
@@ -21,7 +21,7 @@ struct Known {
 // False if it is given and not a number within its range.
 bool read_known(bool given, double rate, double sigma, double most, const Settings& s, Known* known) {
   if (!given) return true;
-  *known = {true, rate, s.protection_factor * sigma};
+  *known = {true, rate, s.protection_sigmas * sigma};
   return rate >= -most && rate <= most && sigma > 0.0 && sigma <= most;
 }
 

@@ -25,7 +25,7 @@ struct Change {
   bool by_places[POSE_WALL_QUANTITIES] = {};
   double place_level_before[POSE_WALL_QUANTITIES] = {};
   double place_level[POSE_WALL_QUANTITIES] = {};
-  double drift2[POSE_WALL_QUANTITIES] = {};  // variance times protection_factor^2
+  double drift2[POSE_WALL_QUANTITIES] = {};  // variance times protection_sigmas^2
 };
 
 // The unknown change of a quantity since the frame that measured it.

@@ -194,7 +194,7 @@ void see_floor(const FloorResult& floor, const Place& at, const Settings& s, See
   seen->centre_m = at.position_m;
   seen->radius_m = floor.roi_radius_m;
   seen->slope_level = larger(floor.roll_bound_rad.sum(), floor.pitch_bound_rad.sum()) +
-                      s.protection_factor * larger(floor.roll_sigma_rad, floor.pitch_sigma_rad);
+                      s.protection_sigmas * larger(floor.roll_sigma_rad, floor.pitch_sigma_rad);
 }
 
 void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levelling, const Settings& s,
@@ -206,7 +206,7 @@ void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levellin
   const double here_m = seen->along.dot(at.position_m);
   seen->from_m = here_m + wall.along_min_m;
   seen->to_m = here_m + wall.along_max_m;
-  seen->slope_level = wall.yaw_bound_rad.sum() + s.protection_factor * wall.yaw_sigma_rad +
+  seen->slope_level = wall.yaw_bound_rad.sum() + s.protection_sigmas * wall.yaw_sigma_rad +
                       s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
 }
 
@@ -248,7 +248,7 @@ bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
     change->by_places[q] = true;
     change->place_level_before[q] = memory.place_level[q];
     change->place_level[q] = level;
-    change->drift2[q] = s.protection_factor * s.protection_factor * response.variance(variance);
+    change->drift2[q] = s.protection_sigmas * s.protection_sigmas * response.variance(variance);
   }
   return true;
 }

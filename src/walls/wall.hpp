@@ -41,9 +41,6 @@ struct FittedWall {
   double area_m2 = 0.0;
   bool straight = false;  // over its height, as far as it shows: its long waves are no bend
   bool grooved = false;   // its surface lies in two depths along its length, like pipes one above the other
-
-  // Sets the standard deviations, their degrees of freedom and the pivot. errors: of this wall's surface.
-  void set_sigmas(const PatchErrors& errors);
 };
 
 // One argument against a wall. It widens the protection levels, or refuses the wall.

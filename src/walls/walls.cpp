@@ -9,6 +9,7 @@
 #include "walls/direction.hpp"
 #include "walls/doubts/doubts.hpp"
 #include "walls/sample/measure.hpp"
+#include "walls/sample/sigmas.hpp"
 
 namespace pose_wall {
 namespace {
@@ -37,20 +38,6 @@ FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int sid
   wall.along_min_m = chosen.evidence.along_min_m;
   wall.along_max_m = chosen.evidence.along_max_m;
   return wall;
-}
-
-// Sets what both walls err by. What one shows of the rock holds for the other as well. A wall that may bend looks as if
-// it had long waves, and other rock knows nothing of that.
-void set_sigmas_of(PatchErrors (*errors)[2], JudgedWall (*walls)[2]) {
-  WaveEvidence of[2];  // exists if both are walls
-  const bool both = !(*walls)[0].fit.refused && !(*walls)[1].fit.refused;
-  for (int side = 0; both && side < 2; ++side) of[side] = (*errors)[side].layer[0].evidence;
-  for (int side = 0; side < 2; ++side) {
-    JudgedWall& wall = (*walls)[side];
-    if (!wall.fit.found) continue;
-    if (wall.straight) (*errors)[side].layer[0].weigh(of[1 - side]);
-    wall.set_sigmas((*errors)[side]);
-  }
 }
 
 // A plane that was not weighed may be the better wall, and one wall may doubt what the other shows of the road. So if
@@ -96,7 +83,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   doubt_those_alone(s, choice, beside, &out.side);
   doubt_short_ones_apart(s, choice, &out.side);
   refuse_blocked_sides(scene.counts, s, &out.side);
-  set_sigmas_of(&scratch->errors, &out.side);
+  set_sigmas(scratch->errors, s.protection_sigmas, &out.side);
   share_direction(scene, &out.side);
   return out;
 }

@@ -5,6 +5,7 @@
 // and by its number, and changes nothing; both ends of its range are taken and, by themselves, open an engine that
 // keeps the contract; keys that contradict each other open none.
 
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -23,9 +24,12 @@ bool is_number(const pose_wall_key_info& key) {
   return key.type == POSE_WALL_KEY_NUMBER || key.type == POSE_WALL_KEY_INTEGER;
 }
 
+// The shortest that is this number, as a person writes it: the engine reads 15 digits exactly.
 std::string text_of(double number) {
   char text[64];
-  std::snprintf(text, sizeof text, "%.17g", number);
+  for (int digits = 1; digits <= 17 && (digits == 1 || std::strtod(text, nullptr) != number); ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, number);
+  }
   return text;
 }
 

@@ -138,9 +138,9 @@ POSE_WALL_WRAP(FloorResult, fit_floor,
 }
 
 POSE_WALL_WRAP_METHOD(UnevenFit, floor_waves, UnevenPlane::fit,
-                      (UnevenPlane * self, Span<const SurfacePatch> patches)) {
+                      (UnevenPlane * self, Span<const SurfacePatch> patches, double sigmas)) {
   if (fails(Fault::kFloorWavesUnsolved)) return {};
-  return floor_waves_for_real(self, patches);
+  return floor_waves_for_real(self, patches, sigmas);
 }
 
 POSE_WALL_WRAP(double, reach_of_halves,

@@ -100,6 +100,26 @@ TEST_F(Steps, TheRoadsAxisIsWhereSurfacesGiveLeastHold) {
   }
 }
 
+// Neither floor nor roof is in sight, so up is what is known least. The way along lies about level in the machine then,
+// which may be pitched itself.
+TEST_F(Steps, TheRoadsAxisIsNotUpWhereOnlyWallsAreSeen) {
+  const auto rock = [](int, double u, double v) { return 0.02 * std::sin(2.0 * u + v) + 0.02 * std::sin(3.0 * v - u); };
+  room_ = {6.0, 2.5, 20.0, 20.0, rock};
+  map_room();
+  for (const double pitch_deg : {0.0, 15.0}) {
+    const Pose at = pose_of(0.0, 0.0, 0.0, 0.0, pitch_deg * kDegree_rad, 0.0);
+    pipeline_.see(scan_of(room_, at), at);
+    for (const double forward : {1.0, -1.0}) {
+      Alignment a;
+      a.pose = at;
+      find_axes(pipeline_.scan(), {forward, 0.2, 0.0}, &a);
+      EXPECT_GT(a.axes.along.dot(Eigen::Vector3d(forward, 0.0, 0.0)), 0.9) << pitch_deg << " " << forward;
+      EXPECT_LT(std::fabs(a.axes.along.y()), 0.05) << pitch_deg << " " << forward;
+      EXPECT_GT(a.axes.up.z(), 0.9) << pitch_deg << " " << forward;
+    }
+  }
+}
+
 TEST_F(Steps, AHallHoldsInEveryDirection) {
   room_ = {2.5, 2.5, 1.4, 1.8, {}};
   map_room();

@@ -72,6 +72,8 @@ class Keys(unittest.TestCase):
                 self.assertIsInstance(caught.exception, pose_wall.Error)
                 self.assertEqual(caught.exception.status, Status.KEY_UNKNOWN)
                 self.assertIn(f"did you mean '{meant}'?", str(caught.exception))
+        with self.assertRaisesRegex(KeyError, "replaced it: leave it out, or write integrity_risk=5.73e-07"):
+            Config(protection_factor=5.0)
         for key in ("qqqqqqqq", "", 7, None, b"yaw_max_deg", "yaw_max_deg\0"):
             self.assertNotIn(key, Config())
             with self.assertRaises(KeyError):

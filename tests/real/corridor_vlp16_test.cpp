@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// corridor_vlp16: a hand-held VLP-16 in a corridor 2.03 m wide, +Y ahead, by config/vlp16.yaml.
+// corridor_vlp16: a hand-held VLP-16 in a corridor 2.03 m wide, +Y ahead, by config/vlp16.yaml alone and with
+// config/hand_held.yaml over it.
 // Proves: frames 09 to 21 are measured as the plane fits of the reference say, within what those fits differ among
 // themselves. Does not prove accuracy: the reference is no ground truth.
 
@@ -35,12 +36,12 @@ double outside_deg(double azimuth_deg, const Reference& reference, int frame) {
   return least <= 0.0 && most >= 0.0 ? 0.0 : std::min(std::fabs(least), std::fabs(most));
 }
 
-class CorridorVlp16 : public RealFrames {
+class CorridorVlp16 : public RealFrames, public ::testing::WithParamInterface<const char*> {
  protected:
   void SetUp() override {
     RealFrames::SetUp();
     if (IsSkipped()) return;
-    const tools::LoadedConfig loaded = tools::load_config("config/vlp16.yaml", {"forward_axis=+Y"});
+    const tools::LoadedConfig loaded = tools::load_config(GetParam(), {"forward_axis=+Y"});
     EngineUnderTest engine(*loaded.config.get());
     for (int i = kFirst; i <= kLast; ++i) {
       const std::string name = (i < 10 ? "0" : "") + std::to_string(i) + ".pcd";
@@ -53,7 +54,7 @@ class CorridorVlp16 : public RealFrames {
   std::optional<Reference> reference_;
 };
 
-TEST_F(CorridorVlp16, BothWallsAreMeasuredAndTheWidthIsRight) {
+TEST_P(CorridorVlp16, BothWallsAreMeasuredAndTheWidthIsRight) {
   int both = 0;
   for (const auto& [frame, r] : results_) {
     const double left = r.quantity[POSE_WALL_D_LF].raw, right = r.quantity[POSE_WALL_D_RF].raw;
@@ -64,7 +65,7 @@ TEST_F(CorridorVlp16, BothWallsAreMeasuredAndTheWidthIsRight) {
   EXPECT_GE(both, 12);
 }
 
-TEST_F(CorridorVlp16, RollAndYawAreTheReferences) {
+TEST_P(CorridorVlp16, RollAndYawAreTheReferences) {
   for (const auto& [frame, r] : results_) {
     const pose_wall_value &roll = r.quantity[POSE_WALL_ROLL], &yaw = r.quantity[POSE_WALL_YAW];
     if (is_measured(roll)) {
@@ -77,7 +78,7 @@ TEST_F(CorridorVlp16, RollAndYawAreTheReferences) {
   }
 }
 
-TEST_F(CorridorVlp16, PitchIsTheReferencesOrSaysHowFarItMayBe) {
+TEST_P(CorridorVlp16, PitchIsTheReferencesOrSaysHowFarItMayBe) {
   for (const auto& [frame, r] : results_) {
     const pose_wall_value& pitch = r.quantity[POSE_WALL_PITCH];
     if (!is_measured(pitch)) continue;
@@ -87,6 +88,9 @@ TEST_F(CorridorVlp16, PitchIsTheReferencesOrSaysHowFarItMayBe) {
         << "frame " << frame << ": " << error << " deg off, level " << pitch.protection_level * kDegPerRad;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(ByConfig, CorridorVlp16,
+                         ::testing::Values("config/vlp16.yaml", "config/vlp16.yaml,config/hand_held.yaml"));
 
 }  // namespace
 }  // namespace pose_wall::test

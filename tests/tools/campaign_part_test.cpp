@@ -203,7 +203,7 @@ TEST_F(ThreeParts, PartsOfOtherCampaignsAreNamedWithWhatDiffers) {
   };
   refused_with({"--seed", "2"}, "seed: " + part_folder(1) + " has 1, " + other + " has 2");
   refused_with({"--kind", "nominal"}, "kind: " + part_folder(1) + " has all, " + other + " has nominal");
-  refused_with({"--set", "protection_factor=4"}, other + " has 'protection_factor=4'");
+  refused_with({"--set", "integrity_risk=1e-4"}, other + " has 'integrity_risk=0.0001'");
 }
 
 TEST_F(ThreeParts, ADivisionIntoOthersPartsIsRefused) {

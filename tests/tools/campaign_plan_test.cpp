@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 
 #include "campaign/event.hpp"
 #include "campaign/manifest.hpp"
@@ -162,15 +164,38 @@ TEST(CampaignPlan, NominalScenesAreDrawnMoreOften) {
   EXPECT_EQ(make_plan(request).size(), 2U) << "what was asked for";
 }
 
+// An engine for a simulated sensor.
+LoadedConfig engine_for(const sim::SensorModel& sensor) {
+  std::vector<std::string> settings;
+  for (const sim::EngineSetting& s : sensor.engine) settings.push_back(s.key + "=" + s.value);
+  return load_config("", settings);
+}
+
 TEST(CampaignPlan, SensorsAreRunWithTheShippedSettings) {
   for (const std::string name : {"vlp16", "mid360", "os1-64"}) {
-    std::vector<std::string> settings;
-    for (const sim::EngineSetting& s : sim::find_sensor(name)->engine) settings.push_back(s.key + "=" + s.value);
     const LoadedConfig shipped = load_config("config/" + name + ".yaml", {});
-    const LoadedConfig ours = load_config("", settings);
+    const LoadedConfig ours = engine_for(*sim::find_sensor(name));
+    EXPECT_NE(shipped.origins.count("range_bias_max"), 0U) << name << ": not by its data sheet";
     for (const pose_wall_key_info& key : config_keys()) {
       EXPECT_EQ(config_value_text(*ours.config.get(), key), config_value_text(*shipped.config.get(), key))
           << name << " " << key.name;
+    }
+  }
+}
+
+// A larger bias would be outside the levels by what the user was told.
+TEST(CampaignPlan, NoSceneDrawsALargerBiasThanTheSensorsFileAllows) {
+  for (const sim::SensorModel& sensor : sim::sensor_models()) {
+    const double most_m = engine_for(sensor).config.number("range_bias_max");
+    EXPECT_LE(std::fabs(sensor.sensor.range_bias_m), most_m) << sensor.sensor.name;
+    for (const sim::SceneChoice& scene : sim::scenes()) {
+      for (const sim::SceneValue& value : scene.values) {
+        if (std::string_view(value.key) != "range_bias_m") continue;
+        const double fixed_m = std::stod(value.fixed);
+        for (const double drawn_m : {value.low, value.high, fixed_m}) {
+          EXPECT_LE(std::fabs(drawn_m), most_m) << scene.name << ", " << sensor.sensor.name;
+        }
+      }
     }
   }
 }

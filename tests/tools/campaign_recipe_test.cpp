@@ -75,7 +75,7 @@ TEST(CampaignRecipe, FramesOnDiskGiveTheValuesOfTheCampaign) {
   const TempFolder folder;
   const TempFolder again;
   const std::string line = command_of_event(folder.path(), again.path(),
-                                            {"--scenes", "rough", "--frames", "5", "--set", "protection_factor=9"});
+                                            {"--scenes", "rough", "--frames", "5", "--set", "integrity_risk=1e-9"});
   EXPECT_TRUE(contains(line, "pose_wall run")) << line;
   run_all_of(line);
   expect_same_last_row(folder.file("frames.csv"), again.file("out.csv"));
@@ -85,7 +85,7 @@ TEST(CampaignRecipe, StampsThatJumpComeFromTheCampaignItself) {
   const TempFolder folder;
   const TempFolder again;
   const std::string line = command_of_event(folder.path(), again.path(),
-                                            {"--scenes", "jitter", "--frames", "5", "--set", "protection_factor=9"});
+                                            {"--scenes", "jitter", "--frames", "5", "--set", "integrity_risk=1e-9"});
   EXPECT_TRUE(contains(line, "pose_wall campaign")) << line;
   run_all_of(line + " --quiet");
   expect_same_last_row(folder.file("frames.csv"), again.file("frames.csv"));

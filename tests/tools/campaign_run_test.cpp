@@ -89,9 +89,9 @@ TEST(Campaign, RefusesRecordsOfOtherSettingsUnlessToldToRemoveThem) {
   const TempFolder folder;
   ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
   const std::string frames = text_of(folder.file("frames.csv"));
-  const Ran other = campaign_in(folder.path(), {"--set", "protection_factor=9"});
+  const Ran other = campaign_in(folder.path(), {"--set", "integrity_risk=1e-9"});
   EXPECT_EQ(other.exit_status, 2);
-  EXPECT_NE(other.errors.find("settings: the records have 'defaults', this campaign has 'protection_factor=9'"),
+  EXPECT_NE(other.errors.find("settings: the records have 'defaults', this campaign has 'integrity_risk=1e-09'"),
             std::string::npos)
       << other.errors;
   EXPECT_NE(other.errors.find("--fresh"), std::string::npos);
@@ -100,7 +100,7 @@ TEST(Campaign, RefusesRecordsOfOtherSettingsUnlessToldToRemoveThem) {
   EXPECT_NE(seed.errors.find("\n  seed: the records have 1, this campaign has 9\n--fresh"), std::string::npos)
       << "nothing else differs: " << seed.errors;
   EXPECT_EQ(text_of(folder.file("frames.csv")), frames);
-  EXPECT_EQ(campaign_in(folder.path(), {"--set", "protection_factor=9", "--fresh"}).exit_status, 0);
+  EXPECT_EQ(campaign_in(folder.path(), {"--set", "integrity_risk=1e-9", "--fresh"}).exit_status, 0);
   EXPECT_NE(text_of(folder.file("frames.csv")), frames);
 }
 
@@ -161,7 +161,7 @@ TEST(Campaign, RefusesARecordThatCameFromElsewhere) {
   const TempFolder folder;
   const TempFolder other;
   ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
-  ASSERT_EQ(campaign_in(other.path(), {"--set", "protection_factor=9"}).exit_status, 0);
+  ASSERT_EQ(campaign_in(other.path(), {"--set", "integrity_risk=1e-9"}).exit_status, 0);
   const char* record = "records/clean/vlp16/000001.csv";
   folder.write(record, text_of(other.file(record)));
   const Ran ran = campaign_in(folder.path());

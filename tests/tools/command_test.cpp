@@ -88,6 +88,16 @@ TEST(RunVerb, UnreadableFramesKeepTheirRowAndTheOthersAreProcessed) {
   EXPECT_EQ(table.cell(1, *table.find_column("frame")), "1");
 }
 
+TEST(RunVerb, WithoutAnyReadableFrameItSaysSoAndShowsNoFigures) {
+  const TempFolder folder;
+  const Ran ran = command({"run", "-o", folder.file("o.csv"), folder.write("torn.bin", "abc")});
+  EXPECT_EQ(ran.exit_status, 1);
+  EXPECT_TRUE(contains(ran.errors, "1 frame, none processed")) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "unreadable: 1 of 1 frame")) << ran.errors;
+  EXPECT_FALSE(contains(ran.errors, "median value")) << ran.errors;
+  EXPECT_FALSE(contains(ran.errors, "verdict")) << ran.errors;
+}
+
 TEST(RunVerb, UsageAndConfigFaultsEndBeforeAnyWork) {
   const TempFolder folder;
   const std::string good = folder.write("good.bin", kitti_point(1));
@@ -101,6 +111,9 @@ TEST(RunVerb, UsageAndConfigFaultsEndBeforeAnyWork) {
       {{"run", "--output", good, good}, "this is an input"},
       {{"run", "--outptu", "x", good}, "did you mean '--output'"},
       {{"rum", good}, "did you mean 'run'"},
+      {{"eval", good, good, "-5"}, "unexpected number -5"},
+      {{"eval", good, good, "-x"}, "unknown option -x"},
+      {{"eval", good, good, "5m"}, "unexpected word '5m'"},
       {{"run", "--metadata", good, good}, "no input is a capture of packets"},
       {{"explain", "--frame", "0", "--picture", folder.file("why.png"), good}, "a file ending in .svg is allowed"},
       {{"check-config", "--set", "range_min=9", "--set", "range_max=2"}, "range_min"},

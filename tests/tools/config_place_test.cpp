@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: --config takes the name of a config that comes with pose_wall; a file of that name wins and a line says so; a
-// mistyped name is answered with the one that was meant and the list.
+// Proves: --config takes the name of a config that comes with pose_wall; a file of that name wins and a line says so;
+// of several the later one wins; a mistyped name is answered with the one that was meant and the list.
 
 #include <gtest/gtest.h>
 
@@ -62,6 +62,22 @@ TEST_F(ConfigPlaceTest, AFileOfThisFolderWinsAndALineSaysSo) {
   EXPECT_FALSE(contains(command({"run", "-q", "-c", "mine", folder.file("a.bin")}).errors, "of this folder is taken"));
 }
 
+TEST_F(ConfigPlaceTest, SeveralStandOverEachOtherInTheirOrder) {
+  folder.write("here/own.yaml", "range_max: 8\nrange_min: 0.4\n");
+  const auto range_max = [](const char* words) { return load_config(words, {}).config.number("range_max"); };
+  EXPECT_EQ(range_max("mine,own"), 8.0);
+  EXPECT_EQ(range_max("own,mine"), 17.0);
+  const LoadedConfig both = load_config("own,mine", {"range_min=0.5"});
+  EXPECT_EQ(both.origin("range_max"), folder.file("shipped/mine.yaml") + ":1");
+  EXPECT_EQ(both.origin("range_min"), "--set");
+  EXPECT_EQ(both.file, "own.yaml," + folder.file("shipped/mine.yaml"));
+  folder.write("here/a,b.yaml", "range_max: 6\n");
+  EXPECT_EQ(range_max("a,b.yaml"), 6.0) << "a name with a comma";
+  for (const char* words : {"mine,", ",mine", "mine,,own", "mine,nothing"}) {
+    EXPECT_THROW(load_config(words, {}), ConfigError) << words;
+  }
+}
+
 TEST_F(ConfigPlaceTest, AMistypedNameIsAnsweredWithTheListAndAPathIsNoName) {
   const auto refusal = [](const char* word) {
     try {
@@ -81,7 +97,7 @@ TEST_F(ConfigPlaceTest, AMistypedNameIsAnsweredWithTheListAndAPathIsNoName) {
 // The tests' program lies in the build folder of the source tree, as the command does.
 TEST(ConfigPlace, ThoseOfTheSourceTreeAreFoundFromItsBuild) {
   const std::vector<std::string> names = config_names();
-  for (const char* name : {"vlp16", "os1-64", "mid360", "pose_wall"}) {
+  for (const char* name : {"vlp16", "os1-64", "mid360", "pose_wall", "hand_held"}) {
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
   }
 }

@@ -272,13 +272,27 @@ TEST(Doctor, NoGateIsEverLoosened) {
   const api::Config defaults;
   const api::Config& config = d.proposal.config();
   for (const char* key :
-       {"alert_limit_angle_deg", "alert_limit_distance", "range_bias_max", "protection_factor", "ground_tilt_max_deg",
+       {"alert_limit_angle_deg", "alert_limit_distance", "range_bias_max", "integrity_risk", "ground_tilt_max_deg",
         "ground_ransac_thresh", "wall_ransac_thresh", "wall_length_min", "wall_alone_length_min", "wall_lean_max_deg",
         "wall_parallel_cos", "yaw_max_deg", "hold_max", "range_min", "range_max", "frozen_frames"}) {
     EXPECT_EQ(config.number(key), defaults.number(key)) << key;
   }
   EXPECT_GE(config.number("ground_height_min"), defaults.number("ground_height_min"));
   EXPECT_LE(config.number("ground_height_max"), 1.9);
+}
+
+TEST(Doctor, ASensorThatItDoesNotKnowHasABiasThatNobodyRead) {
+  const auto file_of = [](const std::vector<std::string>& settings) {
+    const Simulated simulated = simulate(setup_of("vlp16", {"rings=24", "base_height_m=1.5"}), 2);
+    const doctor::Diagnosis d = diagnosis_of(simulated, told(settings));
+    EXPECT_FALSE(d.sensor.is_known());
+    return d.proposal.yaml({});
+  };
+  const std::string advice = "Set this to the accuracy of its data sheet.";
+  EXPECT_TRUE(contains(file_of({}), advice + "\nrange_bias_max: 0.03\n"));
+  const std::string as_told = file_of({"range_bias_max=0.05"});
+  EXPECT_FALSE(contains(as_told, advice)) << as_told;
+  EXPECT_TRUE(contains(as_told, "\nrange_bias_max: 0.05\n")) << as_told;
 }
 
 TEST(Doctor, OfNothingItDoesNotSayThatAllIsWell) {

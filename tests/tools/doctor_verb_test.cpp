@@ -49,6 +49,7 @@ TEST(DoctorVerb, WritesAFileThatLoadsAndNeverOverTheOneThatIsThere) {
   const std::string text = text_of(file);
   EXPECT_TRUE(contains(text, "\nextrinsic_pitch: 0.0")) << text;
   EXPECT_TRUE(contains(text, "# VLP-16 class: as in config/vlp16.yaml")) << text;
+  EXPECT_TRUE(contains(text, "\nrange_bias_max: 0.03\n")) << "of its data sheet, though it is the default: " << text;
   EXPECT_EQ(command({"run", "--quiet", "-c", file, "-o", road.folder.file("o.csv"), road.folder.file("road/frames")})
                 .exit_status,
             0);

@@ -96,6 +96,22 @@ TEST(LoadConfig, EveryFaultIsNamedAtOnce) {
   }
 }
 
+TEST(LoadConfig, AnOldFactorIsSentToTheRiskThatItWas) {
+  const std::string message = refusal_of_text("range_min: 0.5\nprotection_factor: 5.0\n", {"protection_factor=4"});
+  EXPECT_TRUE(contains(message,
+                       "c.yaml:2: unknown key 'protection_factor'; integrity_risk replaced it: leave it out, or write "
+                       "integrity_risk: 5.73e-07\n"))
+      << message;
+  EXPECT_TRUE(contains(message, "or write integrity_risk: 6.33e-05")) << message;
+  EXPECT_TRUE(contains(refusal_of_text("protection_factor: 9\n"), "write integrity_risk: 1e-09")) << "as allowed";
+  EXPECT_EQ(refusal_of_text("integrity_risk: 5.73e-07\n"), "");
+  for (const char* risk : {"0", "1", "nan", "5.0"}) {
+    const std::string refusal = refusal_of_text(std::string("integrity_risk: ") + risk + "\n");
+    EXPECT_TRUE(contains(refusal, "integrity_risk: '") && contains(refusal, "allowed: a number from 1e-09 to 0.01"))
+        << refusal;
+  }
+}
+
 TEST(LoadConfig, BrokenRulesNameTheLinesOfBothKeys) {
   const std::string message = refusal_of_text("voxel_leaf: 0.1\nrange_min: 5\n", {"range_max=4"});
   EXPECT_TRUE(contains(message, "c.yaml:2)")) << message;

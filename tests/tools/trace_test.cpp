@@ -121,6 +121,7 @@ const Case kCases[] = {
     {"millimetres", "os1-64", 1, 1},
     {"hard_day", "os1-64", 2, 2},
     {"nominal", "vlp16", 2, 2},
+    {"face", "vlp16", 759560359, 1},
 };
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Trace, ::testing::ValuesIn(kCases), [](const auto& test) {

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <cctype>
+#include <cstdlib>
 #include <vector>
 
 #include "language/language.hpp"
@@ -30,16 +31,21 @@ std::vector<std::string> long_names(const CLI::App& part) {
   return names;
 }
 
+std::string left_over_text(const CLI::App& part, const std::string& word) {
+  char* end = nullptr;
+  std::strtod(word.c_str(), &end);
+  if (!word.empty() && *end == '\0') return say("unexpected number {}", word);
+  const std::string name = word.substr(0, word.find('='));
+  const bool is_option = word.size() > 1 && word[0] == '-';
+  return is_option ? say("unknown option {}{}", name, did_you_mean(name, long_names(part)))
+                   : say("unexpected word '{}'", word);
+}
+
 // Words that the parser could not use; empty where there are none.
 std::string left_over_text(const CLI::App& app) {
   std::vector<std::string> faults;
   for (const CLI::App* part : parsed_parts(app)) {
-    for (const std::string& word : part->remaining()) {
-      const std::string name = word.substr(0, word.find('='));
-      const bool is_option = word.size() > 1 && word[0] == '-';
-      faults.push_back(is_option ? say("unknown option {}{}", name, did_you_mean(name, long_names(*part)))
-                                 : say("unexpected word '{}'", word));
-    }
+    for (const std::string& word : part->remaining()) faults.push_back(left_over_text(*part, word));
   }
   return fmt::format("{}", fmt::join(faults, "; "));
 }

@@ -114,8 +114,23 @@ ConfigPlace find_config(const std::string& word) {
   return {word, "", say("{}: no such file{}", word, what_is_there(word))};
 }
 
-std::string shipped_config_name(const std::string& word) {
-  const fs::path file = find_config(word).file;
+std::vector<ConfigPlace> find_configs(const std::string& words) {
+  std::error_code ignored;
+  if (words.empty()) return {};
+  if (fs::exists(words, ignored)) return {find_config(words)};
+  std::vector<ConfigPlace> places;
+  for (std::size_t from = 0; from <= words.size();) {
+    const std::size_t comma = std::min(words.find(',', from), words.size());
+    const std::string word = words.substr(from, comma - from);
+    places.push_back(word.empty() ? ConfigPlace{words, "", say("{}: no such file{}", words, what_is_there(words))}
+                                  : find_config(word));
+    from = comma + 1;
+  }
+  return places;
+}
+
+std::string shipped_config_name(const ConfigPlace& place) {
+  const fs::path file = place.file;
   const std::vector<fs::path> folders = config_folders();
   std::error_code ignored;
   const fs::path parent = fs::absolute(file, ignored).parent_path();

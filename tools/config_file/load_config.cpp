@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -28,12 +30,11 @@ constexpr std::size_t kFileBytesMax = 1024 * 1024;
 
 class ConfigLoader {
  public:
-  void apply_file(const std::string& word) {
-    const ConfigPlace place = find_config(word);
+  void apply_file(const ConfigPlace& place) {
     if (!place.error.empty()) return fault(place.error);
-    loaded_.file = place.file;
-    loaded_.notes = place.note;
     const std::string& file = place.file;
+    loaded_.file += (loaded_.file.empty() ? "" : ",") + file;
+    if (!place.note.empty()) loaded_.notes += (loaded_.notes.empty() ? "" : "\n") + place.note;
     std::map<std::string, std::size_t> lines;
     for (const YamlEntry& entry : entries_of(file)) {
       const std::string where = fmt::format("{}:{}", file, entry.line);
@@ -146,8 +147,14 @@ class ConfigLoader {
 
   // The unit is part of the question where the name leaves it out or has another one.
   static std::string suggestion(const std::string& key, const std::string& value) {
+    if (key == "protection_factor") {                // until 0.2: the levels' factor itself, 5.0 unless set
+      constexpr double kLeast = 1e-9, kMost = 1e-2;  // of integrity_risk
+      const double sigmas = std::strtod(value.c_str(), nullptr), risk = std::erfc(sigmas / std::sqrt(2.0));
+      return say("; integrity_risk replaced it: leave it out, or write integrity_risk: {:.3g}",
+                 std::clamp(risk, kLeast, kMost));
+    }
     if (find_config_key(key + "_deg")) return did_you_mean(key + "_deg_", {key + "_deg"});
-    const std::string question = did_you_mean(key, all_key_names());
+    std::string question = did_you_mean(key, all_key_names());
     const std::string ending = "_deg";
     if (key.size() <= ending.size() || key.compare(key.size() - ending.size(), ending.size(), ending) != 0) {
       return question;
@@ -182,9 +189,9 @@ std::string LoadedConfig::origin(const std::string& key) const {
   return set != origins.end() ? set->second : "default";
 }
 
-LoadedConfig load_config(const std::string& file, const std::vector<std::string>& settings) {
+LoadedConfig load_config(const std::string& files, const std::vector<std::string>& settings) {
   ConfigLoader loader;
-  if (!file.empty()) loader.apply_file(file);
+  for (const ConfigPlace& place : find_configs(files)) loader.apply_file(place);
   for (const std::string& setting : settings) loader.apply_setting(setting);
   loader.check_rules();
   return loader.take();

@@ -20,8 +20,8 @@ namespace pose_wall::tools {
 
 struct LoadedConfig {
   api::Config config;
-  std::string file;       // that was read; empty: none
-  std::string notes;      // what a person should know of the choice of the file; empty: nothing
+  std::string file;       // that was read, or files with commas between them; empty: none
+  std::string notes;      // what a person should know of their choice, a line each; empty: nothing
   LiveSettings live;      // of pose_walld; the engine does not read them
   PlanarSettings planar;  // likewise
   pose_wall_motion_settings motion = default_motion_settings();
@@ -37,8 +37,8 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Defaults, then the file or the config of that name (find_config; "": none), then each KEY=VALUE in turn; then the
-// rules over several keys. All faults are collected before anything is thrown. Throws ConfigError.
-LoadedConfig load_config(const std::string& file, const std::vector<std::string>& settings);
+// Defaults, then each file or config of that name in turn (find_configs; "": none), then each KEY=VALUE in turn; then
+// the rules over several keys. All faults are collected before anything is thrown. Throws ConfigError.
+LoadedConfig load_config(const std::string& files, const std::vector<std::string>& settings);
 
 }  // namespace pose_wall::tools

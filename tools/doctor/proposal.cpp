@@ -59,12 +59,18 @@ void Proposal::lower(const std::string& key, double value, const std::string& re
   if (!is_told(key) && value < config_.number(key.c_str())) set(key, fmt::format("{:.2f}", value), reason);
 }
 
-void Proposal::take_class(const std::string& model, const std::string& title) {
+void Proposal::take_class(const std::string& model, const std::string& title, const std::string& config) {
+  if (config.empty() && !is_told("range_bias_max")) {
+    state("range_bias_max",
+          tr("No file of config/ is made for this sensor. Set this to the accuracy of its data sheet."));
+  }
   const sim::SensorModel* const known = sim::find_sensor(model);
   if (known == nullptr) return;
   for (const sim::EngineSetting& setting : known->engine) {
     if (is_told(setting.key)) continue;
-    set(setting.key, setting.value, say("{} class: as in config/{}.yaml", title, model));
+    const std::string reason = say("{} class: as in config/{}.yaml", title, config);
+    set(setting.key, setting.value, reason);
+    state(setting.key, reason);
   }
 }
 

@@ -34,8 +34,9 @@ class Proposal {
   // Only a smaller ground_height_max, a larger ground_height_min: nothing otherwise.
   void raise(const std::string& key, double value, const std::string& reason);
   void lower(const std::string& key, double value, const std::string& reason);
-  // What config/ says for the class of sensor. A key that was told by file or --set is left alone.
-  void take_class(const std::string& model, const std::string& title);
+  // What config/ says for the class of sensor. A key that was told by file or --set is left alone. `config`: its file;
+  // where there is none, the file says that range_bias_max is an assumption.
+  void take_class(const std::string& model, const std::string& title, const std::string& config);
 
   bool is_told(const std::string& key) const { return told_.origins.count(key) != 0; }
   const LoadedConfig& told() const { return told_; }

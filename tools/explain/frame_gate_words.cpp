@@ -84,6 +84,10 @@ constexpr GateWords kFloorWords[] = {
      translatable("show more of the floor; ground_roi_radius_max lets it look farther out")},
     {"floor_spread", translatable("The visible floor is a strip that spreads by {value} across; {limit} is needed."),
      translatable("show more of the floor to the sides")},
+    {"floor_near",
+     translatable("The floor is seen on one side of the machine only, and {value} of it near the machine; {limit} is "
+                  "needed. It may be a ramp ahead, so the protection levels grow by 10 degrees."),
+     translatable("show the ground that the machine stands on; mount the sensor so that it looks further down")},
     {"floor_beside",
      translatable("The floor is seen on one side of the machine only; ground on the other side lies otherwise by "
                   "{value}. The machine may stand on that, and the protection levels reach to it."),

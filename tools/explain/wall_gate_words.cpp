@@ -63,8 +63,8 @@ constexpr GateWords kChoiceWords[] = {
                   "{limit} is needed. Less means a hall, a cavern or a heap of things, not a road."),
      translatable("wall_z_min and wall_z_max set the height of walls")},
     {"wall_rival",
-     translatable("Another plane on this side scores {value} of the chosen one, less what is seen through it. From "
-                  "{limit} on either may be the wall, and the protection levels reach to it."),
+     translatable("Another plane on this side scores {value} of the chosen one, less what is seen through it and what "
+                  "belongs to both. From {limit} on either may be the wall, and the protection levels reach to it."),
      translatable("a vehicle, a curtain or a niche; see the planes below")},
     {"wall_rival_behind",
      translatable("A parallel plane behind the wall scores {value} of it. From {limit} on that plane may be the wall, "

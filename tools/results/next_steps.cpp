@@ -93,9 +93,12 @@ std::string NextSteps::unit_line() const {
 }
 
 std::string NextSteps::config_line() const {
-  const std::string given = shipped_config_name(config_word_);
-  const bool is_own = !config_word_.empty() && given.empty();
-  if (fitting_.config.empty() || is_own || given == fitting_.config) return "";
+  if (fitting_.config.empty()) return "";
+  for (const ConfigPlace& place : find_configs(config_word_)) {
+    const std::string given = shipped_config_name(place);
+    const bool is_own = given.empty();
+    if (is_own || given == fitting_.config) return "";
+  }
   return say("The sensor looks like a {}: try --config {}.", fitting_.title, fitting_.config);
 }
 

@@ -95,10 +95,11 @@ std::string RunSummary::level_text(std::size_t quantity, const std::vector<doubl
 }
 
 std::string RunSummary::text(double wall_s) const {
-  std::string text = quantities_text() + levels_text() + '\n' + times_text(wall_s) + reasons_text();
-  if (unreadable_ < frames_) text += say("verdict: {}\n", usability_text(valid_shares()));
-  if (unreadable_ > 0) text += say("unreadable: {} of {}\n", unreadable_, frames_text(frames_));
-  return text;
+  const std::string unreadable =
+      unreadable_ > 0 ? say("unreadable: {} of {}\n", unreadable_, frames_text(frames_)) : "";
+  if (elapsed_ms_.empty()) return say("{}, none processed\n", frames_text(frames_)) + unreadable;
+  return quantities_text() + levels_text() + '\n' + times_text(wall_s) + reasons_text() +
+         say("verdict: {}\n", usability_text(valid_shares())) + unreadable;
 }
 
 std::string RunSummary::quantities_text() const {
@@ -147,7 +148,6 @@ std::string RunSummary::levels_text() const {
 }
 
 std::string RunSummary::times_text(double wall_s) const {
-  if (elapsed_ms_.empty()) return say("{}, none processed\n", frames_text(frames_));
   TextTable table({tr("engine, per frame"), tr("median"), "95 %", tr("max"), tr("frames/s")});
   const auto add = [&table](const char* what, const std::vector<double>& times_ms) {
     const double sum_s = std::accumulate(times_ms.begin(), times_ms.end(), 0.0) * 1e-3;

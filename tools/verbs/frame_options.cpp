@@ -66,7 +66,7 @@ FrameSequence FrameOptions::open() const {
 
 std::vector<std::filesystem::path> FrameOptions::files_read(const FrameSequence& sequence) const {
   std::vector<std::filesystem::path> files = sequence.files();
-  if (!config_file.empty()) files.emplace_back(find_config(config_file).file);
+  for (const ConfigPlace& place : find_configs(config_file)) files.emplace_back(place.file);
   if (!input.packets.metadata.empty()) files.emplace_back(input.packets.metadata);
   return files;
 }
@@ -110,8 +110,8 @@ void add_frame_options(CLI::App* verb, FrameOptions* options, const char* input_
   verb->add_option("INPUT", options->inputs, tr(input_help))->required();
   add_input_options(verb, &options->input);
   verb->add_option("-c,--config", options->config_file,
-                   tr("Settings: a file, or the name of a config that comes with pose_wall, as vlp16; default: the "
-                      "defaults"));
+                   tr("Settings: a file, or the name of a config that comes with pose_wall, as vlp16; several with "
+                      "commas between, as vlp16,hand_held, each over the ones before; default: the defaults"));
   verb->add_option("-s,--set", options->settings, tr("KEY=VALUE over the config; may be repeated"))
       ->allow_extra_args(false);
   verb->add_option("-r,--rate", options->rate_hz, tr("Frames per second, for frames without stamps"))

@@ -86,9 +86,9 @@ struct Products {
 
 }  // namespace
 
-Spread PatchErrors::spread_of(const Eigen::Vector3d& at) const {
-  Spread sum = layer[0].spread_of(at);
-  for (std::uint32_t k = 1; k < layers; ++k) sum = sum_of(sum, layer[k].spread_of(at));
+Spread PatchErrors::spread_of(const Eigen::Vector3d& at, double sigmas) const {
+  Spread sum = layer[0].spread_of(at, sigmas);
+  for (std::uint32_t k = 1; k < layers; ++k) sum = sum_of(sum, layer[k].spread_of(at, sigmas));
   return sum;
 }
 

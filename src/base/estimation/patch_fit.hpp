@@ -32,7 +32,7 @@ struct PatchErrors {
   std::uint32_t layers = 0;
 
   // Of at.dot(errors of offset, slope along u, slope along v).
-  Spread spread_of(const Eigen::Vector3d& at) const;
+  Spread spread_of(const Eigen::Vector3d& at, double sigmas) const;
   Eigen::Matrix3d covariance() const;
 };
 

@@ -59,10 +59,10 @@ struct UnevenPlane::Models {
     evidence.exists = evidence.solved[number] = true;
     evidence.log_likelihood[number] = static_cast<float>(of[number].log_likelihood);
   }
-  UnevenFit average(double freedom) const;
+  UnevenFit average(double freedom, double sigmas) const;
 };
 
-UnevenFit UnevenPlane::Models::average(double freedom) const {
+UnevenFit UnevenPlane::Models::average(double freedom, double sigmas) const {
   UnevenFit out;
   double weights[kWaveModels], slopes[kWaveModels] = {};
   out.solved = weigh_models(evidence, WaveEvidence{}, &weights);
@@ -79,7 +79,7 @@ UnevenFit UnevenPlane::Models::average(double freedom) const {
     const Eigen::Vector3d apart = of[k].correction - out.correction;
     out.covariance += weights[k] * apart * apart.transpose();
   }
-  out.dof = spread_of_mixture(weights, slopes, freedom).dof;
+  out.dof = spread_of_mixture(weights, slopes, freedom, sigmas).dof;
   return out;
 }
 
@@ -349,8 +349,8 @@ UnevenPlane::Models UnevenPlane::models_of(Span<const SurfacePatch> patches, Spa
   return models;
 }
 
-UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches) {
-  return models_of(patches, {}).average(static_cast<double>(patches.size()) - 3.0);
+UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches, double sigmas) {
+  return models_of(patches, {}).average(static_cast<double>(patches.size()) - 3.0, sigmas);
 }
 
 LinearErrors UnevenPlane::errors_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses) {

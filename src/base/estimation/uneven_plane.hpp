@@ -33,8 +33,8 @@ struct UnevenFit {
 class UnevenPlane {
  public:
   void lay_out(Arena& arena);
-  // The plane that the waves allow best.
-  UnevenFit fit(Span<const SurfacePatch> patches);
+  // The plane that the waves allow best. sigmas: as in spread_of_mixture().
+  UnevenFit fit(Span<const SurfacePatch> patches, double sigmas);
   // How an estimator errs that is linear in the patches' residuals, on the surface that they show. responses: of its
   // offset and slopes to each residual.
   LinearErrors errors_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);

@@ -13,18 +13,11 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kTailAt = 5.0;  // standard deviations: protection_factor's default, where the level is read
-constexpr int kTailSteps = 24;   // halvings: a bound to a millionth
+constexpr int kTailSteps = 24;  // halvings: a bound to a millionth
 // Both walls of a road are one rock, cut by one machine; lining or a fault on one side is the exception. Judgement,
 // 2026-11-26.
 constexpr double kSameRock = 0.9;
 constexpr double kFaintest = -50.0;  // e to this is no likelihood
-
-// Share of a normal distribution beyond so many standard deviations, on both sides; to 4 % from 4 on.
-double beyond(double sigmas) {
-  constexpr double kRootOf2ByPi = 0.79788456080286536;  // of the normal density
-  return sigmas > 1.0 ? kRootOf2ByPi / sigmas * exponential(-0.5 * sigmas * sigmas) : 1.0;
-}
 
 // Likelihoods relative to the best one. Returns their sum, over counted models.
 double relative(const WaveEvidence& of, const bool (&counted)[kWaveModels], double (*likelihoods)[kWaveModels]) {
@@ -68,31 +61,32 @@ bool weigh_models(const WaveEvidence& own, const WaveEvidence& elsewhere, double
   return true;
 }
 
-Spread spread_of_mixture(const double (&weights)[kWaveModels], const double (&variances)[kWaveModels], double freedom) {
+Spread spread_of_mixture(const double (&weights)[kWaveModels], const double (&variances)[kWaveModels], double freedom,
+                         double sigmas) {
   Spread out;
   for (std::uint32_t k = 0; k < kWaveModels; ++k) out.variance += weights[k] * variances[k];
   double sigma[kWaveModels] = {}, low = 1e9, high = 0.0;
-  const double of_scale = protection_factor(kTailAt, freedom) / kTailAt;
+  const double of_scale = protection_factor(sigmas, freedom) / sigmas;
   for (std::uint32_t k = 0; k < kWaveModels; ++k) {
     if (!(weights[k] > 0.0)) continue;
     sigma[k] = of_scale * std::sqrt(variances[k] / out.variance);
     low = sigma[k] < low ? sigma[k] : low;
     high = sigma[k] > high ? sigma[k] : high;
   }
-  low *= kTailAt;
-  high *= kTailAt;
-  const double risk = beyond(kTailAt);
+  low *= sigmas;
+  high *= sigmas;
+  const double risk = share_beyond(sigmas);
   for (int step = 0; step < kTailSteps; ++step) {
     const double middle = 0.5 * (low + high);
     double share = 0.0;
     for (std::uint32_t k = 0; k < kWaveModels; ++k) {
-      if (weights[k] > 0.0) share += weights[k] * beyond(middle / sigma[k]);
+      if (weights[k] > 0.0) share += weights[k] * share_beyond(middle / sigma[k]);
     }
     (share > risk ? low : high) = middle;
   }
   // The inverse of protection_factor(), no better than freedom allows.
-  const double more = high / kTailAt - 1.0, least = (kTailAt * kTailAt + 1.0) / (4.0 * freedom);
-  out.dof = (kTailAt * kTailAt + 1.0) / (4.0 * (more > least ? more : least));
+  const double more = high / sigmas - 1.0, least = (sigmas * sigmas + 1.0) / (4.0 * freedom);
+  out.dof = (sigmas * sigmas + 1.0) / (4.0 * (more > least ? more : least));
   return out;
 }
 
@@ -112,7 +106,7 @@ void LinearErrors::weigh(const WaveEvidence& elsewhere) {
   weigh_models(evidence, elsewhere, &weights);
 }
 
-Spread LinearErrors::spread_of(const Eigen::Vector3d& at) const {
+Spread LinearErrors::spread_of(const Eigen::Vector3d& at, double sigmas) const {
   double variances[kWaveModels] = {};
   for (std::uint32_t k = 0; k < kWaveModels; ++k) {
     for (int i = 0; i < 6; ++i) {
@@ -120,7 +114,7 @@ Spread LinearErrors::spread_of(const Eigen::Vector3d& at) const {
       variances[k] += twice * static_cast<double>(covariance[k][i]) * at[kRow[i]] * at[kColumn[i]];
     }
   }
-  return spread_of_mixture(weights, variances, freedom);
+  return spread_of_mixture(weights, variances, freedom, sigmas);
 }
 
 Eigen::Matrix3d LinearErrors::mean_covariance() const {

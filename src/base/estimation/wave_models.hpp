@@ -37,8 +37,9 @@ struct Spread {
 };
 
 // Of a mixture of models by the variance under each: the degrees of freedom are those with which Student's t has the
-// mixture's tail. freedom: of the variance under one model.
-Spread spread_of_mixture(const double (&weights)[kWaveModels], const double (&variances)[kWaveModels], double freedom);
+// mixture's tail at so many standard deviations, where a level is read. freedom: of the variance under one model.
+Spread spread_of_mixture(const double (&weights)[kWaveModels], const double (&variances)[kWaveModels], double freedom,
+                         double sigmas);
 
 // The sum of two independent errors (Welch 1947; Satterthwaite 1946).
 Spread sum_of(const Spread& a, const Spread& b);
@@ -55,7 +56,7 @@ struct LinearErrors {
   // Once more with the evidence of other rock.
   void weigh(const WaveEvidence& elsewhere);
   // Of at.dot(errors of offset, slope along u, slope along v).
-  Spread spread_of(const Eigen::Vector3d& at) const;
+  Spread spread_of(const Eigen::Vector3d& at, double sigmas) const;
   Eigen::Matrix3d mean_covariance() const;
 };
 

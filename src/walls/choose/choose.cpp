@@ -148,13 +148,27 @@ bool stops_before(const WallCandidate& rival, const WallCandidate& chosen) {
   return rival.evidence.stopped >= kStopsMin && lies_behind(chosen.plane, rival.plane);
 }
 
-// True if a plane shows too little, beside the chosen one, to be the wall as well.
+// Share of a plane's solid area that does not belong to the chosen wall, which runs elsewhere. What does is no evidence
+// for another wall: a plane through the machine's end of a wall, turned by two degrees, holds most of the same points.
+double own_share(const WallCandidate& rival, const WallCandidate& chosen, const Settings& s) {
+  double all = 0.0, own = 0.0;
+  for (std::uint32_t column = 0; column < kWallColumns; ++column) {
+    const double rows = rival.evidence.solid_rows[column];
+    const double along_m = (static_cast<double>(column) + 0.5 - 0.5 * kWallColumns) * kWallColumn_m;
+    const Eigen::Vector3d place_m = along_m * rival.along_level - rival.plane.d * rival.plane.n;
+    all += rows;
+    own += std::fabs(chosen.plane.signed_distance(place_m)) > on_wall_m(s) ? rows : 0.0;
+  }
+  return all > 0.0 ? own / all : 1.0;
+}
+
+// True if a plane shows too little of its own, beside the chosen one, to be the wall as well.
 bool is_weaker(const WallCandidate& rival, const WallCandidate& chosen, const Settings& s) {
   const double share = rival.evidence.score_m2 / chosen.evidence.score_m2;
   if (goes_on_behind(rival, chosen) || goes_on_before(rival, chosen)) return passes<gate::WALL_RIVAL_ENDS>(share, s);
   if (stops_before(rival, chosen)) return passes<gate::WALL_RIVAL_STOPS>(share, s);
   if (lies_behind(rival.plane, chosen.plane)) return passes<gate::WALL_RIVAL_BEHIND>(share, s);
-  return passes<gate::WALL_RIVAL>(share, s);
+  return passes<gate::WALL_RIVAL>(own_share(rival, chosen, s) * share, s);
 }
 
 // Planes with few points count here: they are enough for a doubt.

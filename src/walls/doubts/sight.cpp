@@ -27,8 +27,10 @@ constexpr double kUnexplainedMax = 0.05;               // judgement, 2026-11-21:
 constexpr std::uint32_t kRows = DirectionGrid::kRows;  // of the directions' grid
 constexpr double kExpectedMin = 3.0;                   // by Poisson: of three expected, none comes in 5 % by chance
 constexpr double kSilentShare = 0.25;                  // judgement, 2026-11-21: of the expected returns, without chance
-constexpr double kChanceInSigmas = 5.0;  // as a level spans, or whole walls are called open in every few frames
-constexpr double kThroughShare = 0.5;    // most of a cell's returns are from behind
+// Not the level's risk, since a smaller one would make this test laxer. Beyond lie 2.9e-7: two tests of two walls at
+// 10 Hz call a whole wall open once a day.
+constexpr double kChanceInSigmas = 5.0;
+constexpr double kThroughShare = 0.5;  // most of a cell's returns are from behind
 constexpr double kGapShare = 0.2;     // judgement, 2026-11-21: a column silent or seen through over more of it is a gap
 constexpr double kBrightRank = 0.75;  // the upper quartile: half of a wall may be wet, or hidden
 constexpr double kDeadShare = 0.1;    // judgement, 2026-11-21: of the expected returns

@@ -30,7 +30,8 @@ struct JointRounds {
 constexpr double kAnyOffset_m = 1e9;  // beyond every offset
 constexpr JointRounds kOfARing{3, kAnyOffset_m, 5e-4};
 constexpr JointRounds kLast{8, 2e-4, 2e-4};
-// As many as a level spans: fronts that disagree more are out (Hausman 1978). Judgement, 2026-11-26.
+// Fronts that disagree more are out (Hausman 1978). Not the factor of the levels: a smaller risk must not let more
+// join. Judgement, 2026-11-26.
 constexpr double kAgreeInSigmas = 5.0;
 constexpr std::uint32_t kFrontPointsMin = 60;  // judgement, 2026-11-21: fewer points are no fronts
 constexpr double kFrontStepMin_m = 0.06;       // fronts of a smaller step, chosen by residual, look too straight
@@ -49,8 +50,8 @@ void fill_strips(const WallPoints& points, StripProfile* strips) {
 bool agree(const WallSurface& a, const WallSurface& b) {
   const Eigen::Vector3d difference = a.over().as_correction() - b.over().as_correction();
   for (int k = 1; k < 3; ++k) {
-    const Spread of_a = a.patch.errors.spread_of(Eigen::Vector3d::Unit(k));
-    const Spread of_b = b.patch.errors.spread_of(Eigen::Vector3d::Unit(k));
+    const Spread of_a = a.patch.errors.spread_of(Eigen::Vector3d::Unit(k), kAgreeInSigmas);
+    const Spread of_b = b.patch.errors.spread_of(Eigen::Vector3d::Unit(k), kAgreeInSigmas);
     const Spread& wider = of_a.variance > of_b.variance ? of_a : of_b;
     const double factor = protection_factor(kAgreeInSigmas, wider.dof), apart = difference[k];
     if (!(apart * apart <= factor * factor * wider.variance)) return false;

@@ -254,11 +254,12 @@ void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* searc
     if (holds_one_like(*out, surely_same, plane)) continue;
     if (!refine(RefineWidth::kNarrow, &plane)) continue;
     if (!may_be_wall(plane, view, limits) || holds_one_like(*out, same, plane)) continue;
-    mark_wall(scene, plane, along_of(plane, view.along_level), MarkWidth::kThreshold, scratch->grid);
+    const Eigen::Vector3d along_level = along_of(plane, view.along_level);
+    mark_wall(scene, plane, along_level, MarkWidth::kThreshold, scratch->grid);
     const WallEvidence evidence = scratch->grid->evidence();
     scratch->work->add(steps::kWallWeighed);
     scratch->work->add(scene.band_level.count, steps::kPointMarked);
-    out->item[out->count++] = {plane, evidence, failed_gates(plane, evidence, scene.settings)};
+    out->item[out->count++] = {plane, along_level, evidence, failed_gates(plane, evidence, scene.settings)};
     POSE_WALL_NOTE(note_weighed_wall(out->item[out->count - 1]));
   }
 }

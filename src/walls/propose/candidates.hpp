@@ -81,6 +81,7 @@ class WallSearch {
 
 struct WallCandidate {
   Plane plane;
+  Eigen::Vector3d along_level = Eigen::Vector3d::Zero();  // of the evidence's columns
   WallEvidence evidence;
   std::uint32_t failed = 0;  // reasons of the gates that it fails
 };

@@ -130,6 +130,7 @@ WallEvidence WallGrid::evidence() const {
   for (std::uint32_t column = 0; column < kColumns; ++column) {
     const std::uint32_t solid_rows = solid_rows_[column], open_rows = open_rows_[column];
     if (solid_rows == 0) continue;  // no part of the plane here: an opening is no evidence against it
+    out.solid_rows[column] = solid_rows_[column];
     solid_cells += solid_rows;
     own_open_cells += open_rows;
     if (solid_rows < open_rows) continue;

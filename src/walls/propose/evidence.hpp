@@ -16,6 +16,9 @@
 
 namespace pose_wall {
 
+constexpr std::uint32_t kWallColumns = 128;  // 64 m: 32 m to both sides
+constexpr double kWallColumn_m = 0.5;        // judgement, 2026-11-21: a door or a niche fills one or more
+
 struct WallEvidence {
   double score_m2 = 0.0;      // solid area, reduced by the share that is seen through
   double area_m2 = 0.0;       // solid area
@@ -26,6 +29,7 @@ struct WallEvidence {
   double away_m = 1e3;        // along it, from the machine to the nearest two solid columns side by side
   std::uint32_t inliers = 0;  // measured points on the plane
   double stopped = 0.0;       // share of the returns at or behind it that came from it, wherever it has gaps, 0..1
+  std::uint8_t solid_rows[kWallColumns] = {};  // solid cells of each column: where along the wall its area lies
 };
 
 // A plane cut into cells along the road and up. A cell is solid when points lie on the plane there. It is seen through
@@ -34,9 +38,9 @@ struct WallEvidence {
 // neither does how near or shiny a thing is.
 class WallGrid {
  public:
-  static constexpr std::uint32_t kColumns = 128;  // 64 m: 32 m to both sides
-  static constexpr std::uint32_t kRowsMax = 16;   // 4.8 m of height; the default band has 8
-  static constexpr double kColumn_m = 0.5;        // judgement, 2026-11-21: a door or a niche fills one or more
+  static constexpr std::uint32_t kColumns = kWallColumns;  // of the evidence, too
+  static constexpr std::uint32_t kRowsMax = 16;            // 4.8 m of height; the default band has 8
+  static constexpr double kColumn_m = kWallColumn_m;       // of the evidence, too
 
   void lay_out(Arena& arena);
 

@@ -11,7 +11,7 @@
 namespace pose_wall {
 
 // side: 0 left, 1 right. grid: marked with the RANSAC threshold.
-// The standard deviations are left to FittedWall::set_sigmas(). errors: gets the surface's.
+// The standard deviations are left to set_sigmas(). errors: gets the surface's.
 FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int side, const WallGrid& grid,
                         PatchErrors* errors);
 

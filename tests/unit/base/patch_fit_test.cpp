@@ -114,8 +114,8 @@ TEST(PatchFit, FarFromTheOriginTheErrorsAreTheSame) {
       ASSERT_TRUE(fits[far].solved);
     }
     for (const double u : {0.0, 4.0, 8.0}) {
-      const double near = fits[0].errors.spread_of({1.0, u, 1.0}).variance,
-                   far = fits[1].errors.spread_of({1.0, 24.0 + u, 1.0}).variance;
+      const double near = fits[0].errors.spread_of({1.0, u, 1.0}, 5.0).variance,
+                   far = fits[1].errors.spread_of({1.0, 24.0 + u, 1.0}, 5.0).variance;
       EXPECT_NEAR(far / near, 1.0, 1e-3) << layers << " layers, u " << u;
     }
     EXPECT_NEAR(fits[1].curvature_v_sigma / fits[0].curvature_v_sigma, 1.0, 2e-2) << layers << " layers";
@@ -134,8 +134,8 @@ TEST(PatchFit, GivesBackAnOffsetAndSlopes) {
   // The variance at a place is that of a + b u + c v.
   const Eigen::Vector3d a(1.0, 2.0, 0.5);
   const double variance = a.dot(f.errors.covariance() * a);
-  EXPECT_NEAR(f.errors.spread_of(a).variance, variance, 1e-9 * variance);
-  EXPECT_GT(f.errors.spread_of({1.0, 20.0, 0.5}).variance, variance);
+  EXPECT_NEAR(f.errors.spread_of(a, 5.0).variance, variance, 1e-9 * variance);
+  EXPECT_GT(f.errors.spread_of({1.0, 20.0, 0.5}, 5.0).variance, variance);
 }
 
 TEST(PatchFit, ABiasMovesTheFitAsTheResponseSays) {
@@ -167,7 +167,7 @@ TEST(PatchFit, TheLevelOfABentWallReachesItsSurface) {
     ASSERT_TRUE(f.solved);
     for (const double u : {-3.0, 0.0, 2.0, 3.0}) {
       const double plane = f.correction[0] + f.correction[1] * u + f.correction[2];
-      const Spread at = f.errors.spread_of({1.0, u, 1.0});
+      const Spread at = f.errors.spread_of({1.0, u, 1.0}, 5.0);
       const double level = protection_factor(5.0, at.dof) * std::sqrt(at.variance) + std::fabs(f.bend_at(u, 1.0));
       EXPECT_LE(std::fabs(plane - bend * u * u), level) << bend << " at " << u;
     }
@@ -285,6 +285,40 @@ TEST(PatchFit, AnExtentLargerThanTheGridGetsLargerPatches) {
   EXPECT_LE(f.patches, PatchGrid::kCapacity);
 }
 
+// More patches than the models of waves have room for: blocks of them, which have the same errors.
+TEST(PatchFit, ALongWallsErrorsAreThoseOfBlocksOfItsPatches) {
+  constexpr double kLong_m = 60.0, kHigh_m = 3.0;
+  constexpr int kWalls = 60;
+  test::Placed<PatchGrid> grid;
+  test::Noise noise(12);
+  double z2[3] = {};
+  for (int run = 0; run < kWalls; ++run) {
+    const Rock rock(0.03, 0.3, &noise);
+    grid->begin(-kLong_m / 2, kLong_m / 2, 0.0, kHigh_m, PatchGrid::kPatch_m, kRangeNoise_m);
+    for (int i = 0; i < 8 * kPoints; ++i) {
+      const double u = noise.uniform(-kLong_m / 2, kLong_m / 2), v = noise.uniform(0.0, kHigh_m);
+      grid->add(test::patch_point(u, v, rock.at(u, v) + noise.normal(0.01), 1.0, 1.0));
+    }
+    const PatchFit f = grid->fit();
+    ASSERT_TRUE(f.solved);
+    ASSERT_GT(f.patches, SurfacePatches::kMost);
+    ASSERT_EQ(f.errors.layer[0].evidence.patch_m, 2.0F * static_cast<float>(PatchGrid::kPatch_m))
+        << "of larger patches a model of waves means another thing";
+    ASSERT_LT(f.errors.layer[0].freedom, static_cast<double>(SurfacePatches::kMost));
+    for (int k = 0; k < 3; ++k) z2[k] += f.correction[k] * f.correction[k] / f.errors.covariance()(k, k) / kWalls;
+  }
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_GT(z2[k], 0.3) << "parameter " << k;
+    EXPECT_LT(z2[k], 1.6) << "parameter " << k;
+  }
+  grid->begin(-kLength_m / 2, kLength_m / 2, 0.0, kHeight_m, PatchGrid::kPatch_m, kRangeNoise_m);
+  for (int i = 0; i < kPoints; ++i) {
+    const double u = noise.uniform(-kLength_m / 2, kLength_m / 2), v = noise.uniform(0.0, kHeight_m);
+    grid->add(test::patch_point(u, v, noise.normal(0.01), 1.0, 1.0));
+  }
+  EXPECT_EQ(grid->fit().errors.layer[0].evidence.patch_m, static_cast<float>(PatchGrid::kPatch_m)) << "a short wall";
+}
+
 // Two layers: a step of unknown size before the surface leaves its offset alone, and lends it the slopes.
 TEST(PatchFit, ASecondLayerTellsSlopesButNoOffset) {
   test::Placed<PatchGrid> grid;
@@ -357,8 +391,8 @@ TEST(PatchFit, SumsOfPatchesAreThoseOfTheirPoints) {
   EXPECT_EQ(without_bends.correction, a.correction);
   EXPECT_EQ(without_bends.errors.covariance(), a.errors.covariance());
   EXPECT_EQ(without_bends.bias_response, a.bias_response);
-  EXPECT_EQ(without_bends.errors.spread_of(Eigen::Vector3d::UnitY()).dof,
-            a.errors.spread_of(Eigen::Vector3d::UnitY()).dof);
+  EXPECT_EQ(without_bends.errors.spread_of(Eigen::Vector3d::UnitY(), 5.0).dof,
+            a.errors.spread_of(Eigen::Vector3d::UnitY(), 5.0).dof);
 }
 
 TEST(PatchFit, EveryPlaceHasAPatch) {

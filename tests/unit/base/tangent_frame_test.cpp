@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the small helpers of every fit: tangent coordinates, the corrected plane, Tukey's weight, the protection
-// factor.
+// Proves: the small helpers of every fit: tangent coordinates, the corrected plane, Tukey's weight.
 
 #include "base/estimation/tangent_frame.hpp"
 
@@ -10,7 +9,6 @@
 
 #include <cmath>
 
-#include "base/estimation/protection.hpp"
 #include "base/estimation/tukey.hpp"
 #include "support/stage_fixtures.hpp"
 
@@ -67,17 +65,6 @@ TEST(Tukey, WeightsFallFromOneToNothing) {
   EXPECT_EQ(tukey_weight(0.04686, 0.01), 0.0);
   EXPECT_EQ(tukey_weight(1e9, 0.01), 0.0);
   EXPECT_EQ(tukey_weight(std::nan(""), 0.01), 0.0);
-}
-
-// Student's t quantiles beyond Phi(2), from tables: t(0.97725; dof).
-TEST(Protection, StretchesTheNormalQuantileToStudents) {
-  EXPECT_NEAR(protection_factor(2.0, 10.0), 2.28, 0.06);
-  EXPECT_NEAR(protection_factor(2.0, 30.0), 2.09, 0.01);
-  EXPECT_NEAR(protection_factor(5.0, 1e9), 5.0, 1e-6);
-  for (double dof = 1.0; dof < 100.0; dof += 1.0) {
-    EXPECT_GT(protection_factor(5.0, dof), protection_factor(5.0, dof + 1.0));
-    EXPECT_GT(protection_factor(5.0, dof), 5.0);
-  }
 }
 
 }  // namespace

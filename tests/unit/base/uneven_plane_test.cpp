@@ -48,7 +48,7 @@ void add_waves(double height_m, double width_m, test::Noise* noise, std::vector<
 
 UnevenFit fit(const std::vector<SurfacePatch>& patches) {
   test::Placed<UnevenPlane> plane;
-  return plane->fit(Span<const SurfacePatch>(patches.data(), static_cast<std::uint32_t>(patches.size())));
+  return plane->fit(Span<const SurfacePatch>(patches.data(), static_cast<std::uint32_t>(patches.size())), 5.0);
 }
 
 template <typename Rough>

@@ -30,8 +30,8 @@ WaveEvidence evidence_of(std::initializer_list<float> log_likelihoods) {
   return out;
 }
 
-double level_of(const Spread& s) {
-  return protection_factor(5.0, s.dof) * std::sqrt(s.variance);
+double level_of(const Spread& s, double sigmas) {
+  return protection_factor(sigmas, s.dof) * std::sqrt(s.variance);
 }
 
 TEST(WaveModels, WeightsFollowTheLikelihoodAndAddUp) {
@@ -63,22 +63,36 @@ TEST(WaveModels, AnotherSurfaceHelpsWhereTheOwnCannotTell) {
 TEST(WaveModels, TheLevelHasTheTailOfTheMixture) {
   const double one[kWaveModels] = {1.0};
   const double variances[kWaveModels] = {4.0, 100.0};
-  const Spread alone = spread_of_mixture(one, variances, 30.0);
-  EXPECT_NEAR(alone.variance, 4.0, 1e-12);
-  EXPECT_NEAR(alone.dof, 30.0, 1e-3);
-  double last = level_of(alone);
-  for (const double wide : {1e-9, 1e-6, 1e-3, 0.1, 0.5}) {
-    const double weights[kWaveModels] = {1.0 - wide, wide};
-    const double level = level_of(spread_of_mixture(weights, variances, 1e6));
-    // Share of the two normal distributions beyond the level, by the normal distribution itself.
-    const double beyond =
-        (1.0 - wide) * std::erfc(level / 2.0 / std::sqrt(2.0)) + wide * std::erfc(level / 10.0 / std::sqrt(2.0));
-    EXPECT_LT(beyond, 1.1 * std::erfc(5.0 / std::sqrt(2.0))) << wide;
-    EXPECT_LE(level, 50.0 * 1.01) << wide;
-    if (wide > 1e-6) {
-      EXPECT_GT(level, last) << wide;
+  for (const double risk : {1e-2, 1e-4, 1e-6, 1e-9}) {
+    const double sigmas = sigmas_at_risk(risk);
+    const Spread alone = spread_of_mixture(one, variances, 30.0, sigmas);
+    EXPECT_NEAR(alone.variance, 4.0, 1e-12);
+    EXPECT_NEAR(alone.dof, 30.0, 1e-3);
+    double last = level_of(alone, sigmas);
+    for (const double wide : {1e-12, 1e-9, 1e-6, 1e-3, 0.1, 0.5}) {
+      const double weights[kWaveModels] = {1.0 - wide, wide};
+      const double level = level_of(spread_of_mixture(weights, variances, 1e6, sigmas), sigmas);
+      // Share of the two normal distributions beyond the level, by the normal distribution itself.
+      const double beyond =
+          (1.0 - wide) * std::erfc(level / 2.0 / std::sqrt(2.0)) + wide * std::erfc(level / 10.0 / std::sqrt(2.0));
+      EXPECT_LT(beyond, 1.02 * risk) << wide << " at " << risk;
+      EXPECT_LE(level, 10.0 * sigmas * 1.01) << wide << " at " << risk;
+      if (wide > risk) {
+        EXPECT_GT(level, last) << wide << " at " << risk;
+        EXPECT_GT(beyond, 0.9 * risk) << wide << " at " << risk;
+      }
+      last = level;
     }
-    last = level;
+  }
+}
+
+// A model whose variance is a thousandth of another's: far out it has no tail at all.
+TEST(WaveModels, ANarrowModelTakesNothingFromTheTailOfAWideOne) {
+  const double weights[kWaveModels] = {0.5, 0.5};
+  for (const double narrow : {1e-2, 1e-4, 1e-8}) {
+    const double variances[kWaveModels] = {narrow, 1.0};
+    const double level = level_of(spread_of_mixture(weights, variances, 1e6, 5.0), 5.0);
+    EXPECT_NEAR(0.5 * std::erfc(level / std::sqrt(2.0)) / std::erfc(5.0 / std::sqrt(2.0)), 1.0, 0.01) << narrow;
   }
 }
 
@@ -129,7 +143,7 @@ double mean_z2(int columns, int rows, double waves_m, int runs) {
     EXPECT_TRUE(errors.solved());
     for (const int k : {1, 2}) {
       const Eigen::Vector3d at = Eigen::Vector3d::Unit(k);
-      sum += error.dot(at) * error.dot(at) / errors.spread_of(at).variance / (2.0 * runs);
+      sum += error.dot(at) * error.dot(at) / errors.spread_of(at, 5.0).variance / (2.0 * runs);
     }
   }
   return sum;

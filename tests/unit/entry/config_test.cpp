@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "support/engine_under_test.hpp"
+#include "support/stage_fixtures.hpp"
 
 namespace pose_wall {
 namespace {
@@ -217,6 +218,21 @@ TEST(Config, UnknownKeysAndWrongKindsOfKeys) {
   char text[8];
   EXPECT_EQ(config_get_text(config, "range_min", text, sizeof text), POSE_WALL_E_VALUE_TYPE);
   EXPECT_EQ(value, 7.0);
+}
+
+// What the factor of the levels follows from. Its old key holds another number, so it is unknown and not ignored.
+TEST(Config, TheRiskSetsTheFactorOfTheLevels) {
+  EXPECT_NEAR(read_settings(test::config_with()).protection_sigmas, 4.8916, 1e-3) << "1e-6";
+  EXPECT_NEAR(test::settings_with({{"integrity_risk", "1e-2"}}).protection_sigmas, 2.5758, 1e-3);
+  EXPECT_NEAR(test::settings_with({{"integrity_risk", "0.000000001"}}).protection_sigmas, 6.1094, 1e-3);
+  for (const char* risk : {"0", "1", "-1e-6", "0.0101", "9.9e-10", "5.0"}) {
+    EXPECT_EQ(refused_set("integrity_risk", risk), POSE_WALL_E_VALUE_RANGE) << risk;
+  }
+  EXPECT_EQ(refused_set("integrity_risk", "nan"), POSE_WALL_E_VALUE_TYPE);
+  pose_wall_config config = test::config_with();
+  EXPECT_EQ(refused(&config, [&] { return config_set_number(&config, "integrity_risk", std::nan("")); }),
+            POSE_WALL_E_VALUE_RANGE);
+  EXPECT_EQ(refused_set("protection_factor", "5.0"), POSE_WALL_E_KEY_UNKNOWN);
 }
 
 struct BrokenRule {

@@ -81,6 +81,26 @@ bool more_is_below(test::FloorFixture* g, double height_above_floor, double shar
   return has_much_below(*open.grid, plane, g->points().set(), 15.0, Eigen::Vector3d::Zero(), share);
 }
 
+// Two planes that cross in the middle: ground of the one is marked from where the other is further off.
+TEST(FloorGrid, GroundApartFromAnotherPlaneIsMarkedAlone) {
+  constexpr double kSlope = 0.1, kOff_m = 0.09;
+  test::FloorFixture g;
+  for (double x = -4.0; x <= 4.0; x += 0.05) {
+    for (double y = -2.0; y <= 2.0; y += 0.05) g.add(x, y, kSlope * x);
+  }
+  const Open open(&g);
+  const Eigen::Vector3d n = Eigen::Vector3d(-kSlope, 0.0, 1.0).normalized();
+  const Plane tilted{n, n.z() * test::kFloorBelow_m}, level = level_at(0.0);
+  open.grid->mark(open.set(), tilted, 0.03);
+  const double whole_m2 = open.grid_of().evidence(kAhead_x).area_m2;
+  open.grid->mark_apart(open.set(), tilted, 0.03, level, kOff_m);
+  EXPECT_FALSE(open.grid_of().marked_near(0.0, 0.0));
+  EXPECT_TRUE(open.grid_of().marked_near(2.0, 0.0));
+  EXPECT_NEAR(open.grid_of().evidence(kAhead_x).area_m2, whole_m2 * (1.0 - kOff_m / kSlope / 4.0), 0.1 * whole_m2);
+  open.grid->mark_apart(open.set(), tilted, 0.03, tilted, kOff_m);
+  EXPECT_EQ(open.grid_of().evidence(kAhead_x).area_m2, 0.0) << "from itself";
+}
+
 TEST(FloorGrid, WhatLiesBelowAPlaneSpeaksAgainstItUnlessItIsAReflection) {
   test::FloorFixture floor;
   floor.add_level({-3, 3, -2.0, 2.0}, 0.0);

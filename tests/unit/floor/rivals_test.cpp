@@ -4,7 +4,9 @@
 // Proves: where a ramp rises or falls before the machine and most of what is seen is the ramp, the levels reach to the
 // flat floor that it stands on, whichever way it looks; where it stands on the ramp they need not; a floor below a
 // table as long as the road is told of as well. What lies beside a floor that is seen to all sides, a ramp or heap
-// further on, costs nothing. Does not prove what share of a floor must be seen: next to nothing of it is too little.
+// further on, costs nothing. A floor that is seen on one side only and not near the machine is doubted by itself. A
+// tilted plane through the floor's own rough ground is no rival; one that shows ground which the floor leaves out is.
+// Does not prove what share of a floor must be seen: next to nothing of it is too little.
 
 #include "floor/rivals.hpp"
 
@@ -192,12 +194,140 @@ TEST(FloorBeside, AReflectionInTheFloorCarriesNothing) {
   }
 }
 
+// Flat ground alone, so that nothing beside it can be the reason.
+FloorResult reached_on(std::initializer_list<FloorFixture::Area> seen, const char* roi_radius_m = "3") {
+  FloorFixture g({{"ground_roi_radius", roi_radius_m}});
+  for (const FloorFixture::Area& area : seen) g.add_level(area, 0.0);
+  return TwoPlanes::reach_to_what_is_beside(&g);
+}
+
+void expect_may_be_a_ramp(const FloorResult& f) {
+  constexpr double kAsTheRampsWere_rad = 0.082;  // 4.7 degrees, on a hard campaign
+  EXPECT_TRUE(is_ambiguous(f));
+  EXPECT_GT(f.roll_bound_rad.sum(), 2.0 * kAsTheRampsWere_rad);
+  EXPECT_GT(f.pitch_bound_rad.sum(), 2.0 * kAsTheRampsWere_rad);
+}
+
+void expect_carries_the_machine(const FloorResult& f) {
+  EXPECT_FALSE(is_ambiguous(f));
+  EXPECT_EQ(f.roll_bound_rad.sum(), 0.0);
+  EXPECT_EQ(f.pitch_bound_rad.sum(), 0.0);
+}
+
+TEST(FloorUnseen, SeenAheadOnlyAndNotNearItMayBeARamp) {
+  expect_may_be_a_ramp(reached_on({{5.0, 12.0, -2.0, 2.0}}));
+  expect_may_be_a_ramp(reached_on({{-12.0, -5.0, -2.0, 2.0}}));
+  expect_may_be_a_ramp(reached_on({{-2.0, 2.0, 5.0, 12.0}}));
+  expect_may_be_a_ramp(reached_on({}));
+}
+
+TEST(FloorUnseen, AFloorNearTheMachineCarriesIt) {
+  expect_carries_the_machine(reached_on({{2.5, 12.0, -2.0, 2.0}}));
+}
+
+TEST(FloorUnseen, NearIsByTheConfiguredRadius) {
+  expect_carries_the_machine(reached_on({{5.0, 12.0, -2.0, 2.0}}, "5"));
+  expect_may_be_a_ramp(reached_on({{2.5, 12.0, -2.0, 2.0}}, "1.5"));
+}
+
+TEST(FloorUnseen, AFloorOnBothSidesCarriesTheMachineFromFarAsWell) {
+  expect_carries_the_machine(reached_on({{5.0, 12.0, -2.0, 2.0}, {-12.0, -5.0, -2.0, 2.0}}));
+}
+
+// A plane that is prolonged meets a few points of walls on its other side, and near the machine.
+TEST(FloorUnseen, AFewPointsOfOtherThingsAreNoFloor) {
+  expect_may_be_a_ramp(
+      reached_on({{5.0, 12.0, -2.0, 2.0}, {-6.0, -5.6, -0.5, 0.5}, {2.0, 2.5, 1.5, 2.0}, {-2.5, -2.0, 1.5, 2.0}}));
+}
+
 TEST(FloorBeside, AFloorToAllSidesIsNotDoubtedForARampFurtherOn) {
   const FloorResult f = Ramp{5.0, 0.2, -13.0, 5.0, 9.0}.floor();
   ASSERT_TRUE(f.fit.found && !f.fit.refused);
   EXPECT_LT(tilt_of_up(f.fit.plane.n), 0.01);
   EXPECT_FALSE(is_ambiguous(f));
   EXPECT_LT(std::max(f.roll_bound_rad.sum(), f.pitch_bound_rad.sum()), 0.03);
+}
+
+// The floor's fit, level, and a plane through its middle that rises to the left. Both as weighed candidates.
+struct TwoReadings {
+  FloorFixture g;
+  test::Noise noise{7};
+  Plane rival;
+
+  explicit TwoReadings(double rise_rad) {
+    rival.n = Eigen::Vector3d(0.0, -std::sin(rise_rad), std::cos(rise_rad));
+    rival.d = std::cos(rise_rad) * test::kFloorBelow_m;
+  }
+  double rise_at(double y_m) const { return -rival.n.y() / rival.n.z() * y_m; }
+  // Ground of so much roughness; beyond a line it may follow the other plane.
+  void add_ground(double rough_m, double follows_rival_from_y_m, double half_length_m = 5.0) {
+    for (double x = -half_length_m; x <= half_length_m; x += 0.1) {
+      for (double y = -3.0; y <= 3.0; y += 0.1) {
+        const double height_m = y >= follows_rival_from_y_m ? rise_at(y) : 0.0;
+        g.add(x, y, height_m + noise.uniform(-rough_m, rough_m));
+      }
+    }
+  }
+  // fitted: the floor's fit; level unless it wandered off.
+  FloorResult reached(const Plane* fitted = nullptr) {
+    const BoundedPoints& points = g.points().set();
+    test::Placed<FloorScratch> scratch(points.capacity());
+    scratch->grid.find_open(points, 15.0, 0.0, scratch->low, &scratch->open_base);
+    const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+    const double thresh_m = g.settings().ground_ransac_thresh;
+    FloorCandidates candidates;
+    for (const Plane& plane : {Plane{Eigen::Vector3d::UnitZ(), test::kFloorBelow_m}, rival}) {
+      scratch->grid.mark(scratch->open_base, plane, thresh_m);
+      candidates.item[candidates.count++] = {plane, scratch->grid.evidence(axes), false};
+    }
+    const double share = candidates.item[1].evidence.score_m2 / candidates.item[0].evidence.score_m2;
+    EXPECT_GT(share, 0.5) << "else it is no rival anyway";
+    EXPECT_LT(share, 1.0);
+    FloorResult floor;
+    floor.fit.found = true;
+    floor.fit.plane = fitted != nullptr ? *fitted : candidates.item[0].plane;
+    reach_to_rivals(g.scene(), scratch->open_base, candidates, scratch.get(), &floor);
+    return floor;
+  }
+};
+
+TEST(FloorRivals, ATiltedPlaneThroughTheFloorsOwnRoughGroundIsNone) {
+  TwoReadings readings(0.045);
+  readings.add_ground(0.06, 100.0);
+  const FloorResult f = readings.reached();
+  EXPECT_FALSE(is_ambiguous(f));
+  EXPECT_EQ(f.roll_bound_rad.sum(), 0.0);
+}
+
+TEST(FloorRivals, APlaneThatShowsGroundTheFloorLeavesOutIsOne) {
+  for (const double rise_rad : {0.1, -0.1, 0.2}) {
+    TwoReadings readings(rise_rad);
+    readings.add_ground(0.01, 0.7);
+    const FloorResult f = readings.reached();
+    EXPECT_TRUE(is_ambiguous(f)) << rise_rad;
+    EXPECT_NEAR(f.roll_bound_rad.sum(), std::fabs(rise_rad), 1e-9) << rise_rad;
+  }
+}
+
+// On a small floor a few centimetres are many degrees.
+TEST(FloorRivals, OnASmallFloorItIsOne) {
+  TwoReadings readings(0.045);
+  readings.add_ground(0.06, 100.0, 0.3);
+  EXPECT_TRUE(is_ambiguous(readings.reached()));
+}
+
+TEST(FloorRivals, AFitThatWanderedOffToTheRivalExcludesNothing) {
+  TwoReadings readings(0.1);
+  readings.add_ground(0.01, 0.7);
+  EXPECT_TRUE(is_ambiguous(readings.reached(&readings.rival)));
+}
+
+// A few stray points of a wall's foot on it do not make it a floor.
+TEST(FloorRivals, StraysFurtherOffAreNoGround) {
+  TwoReadings readings(0.045);
+  readings.add_ground(0.06, 100.0);
+  for (double x = -5.0; x <= 5.0; x += 2.5) readings.g.add(x, 4.0, readings.rise_at(4.0));
+  EXPECT_FALSE(is_ambiguous(readings.reached()));
 }
 
 }  // namespace

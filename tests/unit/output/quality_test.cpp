@@ -44,7 +44,7 @@ struct Scene {
   FloorResult floor = good_floor();
   Levelling levelling;
   JudgedWall walls[2] = {good_wall(), good_wall()};
-  Settings settings = test::settings_with({{"range_bias_max", "0.03"}, {"protection_factor", "5"}});
+  Settings settings = test::settings_with({{"range_bias_max", "0.03"}, {"integrity_risk", "5.733e-7"}});
 
   Measurements measured() const { return measure_quantities(floor, levelling, walls, settings); }
 };

@@ -127,7 +127,7 @@ TEST(TemporalOdometry, ErrorsOfPlacesDoNotAddUpAndDriftDoes) {
     unknown.grow(change, POSE_WALL_YAW, 0.1);
     memory = road.seen_from(at, s);
   }
-  const double drift = s.protection_factor * std::sqrt(100 * 1e-8) + 100 * 1e-6;
+  const double drift = s.protection_sigmas * std::sqrt(100 * 1e-8) + 100 * 1e-6;
   EXPECT_NEAR(unknown.total(), 2.0 * kPlaceLevel + drift, 1e-9);
   EXPECT_EQ(unknown.blind_s, 0.0);
 }

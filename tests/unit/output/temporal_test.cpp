@@ -14,6 +14,7 @@
 #include <limits>
 #include <random>
 
+#include "base/estimation/protection.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {
@@ -21,6 +22,7 @@ namespace {
 
 constexpr std::int64_t kMs = 1000000;
 constexpr double kRoundingS = 1e-9;
+const double kSigmas = sigmas_at_risk(1e-6);  // by the default of integrity_risk
 
 // One quantity's life, frame by frame.
 class Life {
@@ -459,13 +461,13 @@ TEST(TemporalInputs, WhatStandsStillDoesNotAge) {
 }
 
 TEST(TemporalInputs, AHeldYawTurnsWithTheMachine) {
-  Life life({{"protection_factor", "5"}}, POSE_WALL_YAW);
+  Life life({}, POSE_WALL_YAW);
   life.measured(0, 0.10, 0.005);
   life.know(inputs_of(POSE_WALL_INPUT_TURN_RATE, 0.0, 0.2));
   const pose_wall_value held = life.missing(500);
   EXPECT_EQ(held.state, POSE_WALL_HELD);
   EXPECT_NEAR(held.value, 0.10 - 0.2 * 0.5, 1e-12) << "a turn to the left makes yaw smaller";
-  EXPECT_NEAR(held.part[POSE_WALL_PART_AGE], 5.0 * 0.001 * 0.5, 1e-12);
+  EXPECT_NEAR(held.part[POSE_WALL_PART_AGE], kSigmas * 0.001 * 0.5, 1e-12);
   const pose_wall_value again = life.measured(600, 0.10 - 0.2 * 0.6, 0.005);
   EXPECT_EQ(again.state, POSE_WALL_VALID);
   EXPECT_FALSE(life.contradicted());
@@ -475,7 +477,7 @@ TEST(TemporalInputs, ADistanceChangesNoFasterThanItsSamplingPoint) {
   Life life;
   life.measured(0, 2.0);
   life.know(inputs_of(POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_TURN_RATE, 0.05, 0.0));
-  EXPECT_NEAR(life.missing(1000).part[POSE_WALL_PART_AGE], 0.05 + 5.0 * 0.001 + 2.0 * 5.0 * 0.001, 1e-12);
+  EXPECT_NEAR(life.missing(1000).part[POSE_WALL_PART_AGE], 0.05 + kSigmas * 0.001 + 2.0 * kSigmas * 0.001, 1e-12);
 }
 
 TEST(TemporalInputs, WhatIsMeasuredSpeaksAgainstThem) {

@@ -195,6 +195,37 @@ WallCandidate from_to(WallCandidate c, double from_m, double to_m, double solid_
   return c;
 }
 
+// With a solid column of three cells in each half metre from here to there.
+WallCandidate solid_from_to(WallCandidate c, double from_m, double to_m) {
+  c.along_level = Eigen::Vector3d(-c.plane.n.y(), c.plane.n.x(), 0.0);
+  for (double along_m = from_m; along_m < to_m; along_m += kWallColumn_m) {
+    c.evidence.solid_rows[static_cast<std::uint32_t>(along_m / kWallColumn_m + 0.5 * kWallColumns)] = 3;
+  }
+  return c;
+}
+
+// A wall that is no exact plane has planes through its ends that hold most of its points.
+TEST(WallSelect, WhatAPlaneSharesWithTheChosenOneIsNoEvidenceForIt) {
+  constexpr double kTurned_rad = 0.035, kCross_m = 4.0;  // within 15 cm from 0 to 8 m
+  struct Case {
+    double turned_rad, d_m, from_m, to_m;
+    bool is_rival;
+  };
+  const double d_m = 2.5 - kCross_m * kTurned_rad;
+  for (const Case& other : {Case{kTurned_rad, d_m, 0.0, 8.0, false}, Case{kTurned_rad, d_m, 0.0, 12.0, false},
+                            Case{kTurned_rad, d_m, 0.0, 20.0, true}, Case{kTurned_rad, d_m, -12.0, 8.0, true},
+                            Case{0.0, 2.1, 0.0, 8.0, true}, Case{0.0, 2.9, 0.0, 8.0, true}}) {
+    Choice c;
+    c.left = list({solid_from_to(left_wall(2.5, 20.0), -10.0, 10.0),
+                   solid_from_to(left_wall(other.d_m, 19.0, other.turned_rad), other.from_m, other.to_m)});
+    c.right = list({right_wall(2.5, 20.0)});
+    const WallChoice chosen = c.choose();
+    EXPECT_EQ(chosen.side[0], &c.left.item[0]);
+    EXPECT_EQ(chosen.rival[0], other.is_rival ? &c.left.item[1] : nullptr)
+        << other.turned_rad << " " << other.d_m << " " << other.from_m << " " << other.to_m;
+  }
+}
+
 // The end of a crosscut shows more of itself than is left of the wall to both sides of its mouth.
 TEST(WallSelect, AWallThatGoesOnBesideWhatItsOpeningShowsIsARival) {
   struct Case {

@@ -102,7 +102,7 @@ Fitted fitted(const Strips& strips, double rock_sigma_m, std::uint32_t seed, boo
   out.offset_m = wall.signed_distance(Eigen::Vector3d::Zero()) - kWall_m;
   out.yaw_rad = std::atan2(along.y(), along.x());
   const double sigma_m = surface.layer_sigma_m;
-  out.offset_sigma_m = std::sqrt(surface.patch.errors.spread_of({1.0, 0.0, 0.0}).variance + sigma_m * sigma_m);
+  out.offset_sigma_m = std::sqrt(surface.patch.errors.spread_of({1.0, 0.0, 0.0}, 5.0).variance + sigma_m * sigma_m);
   out.yaw_sigma_rad = std::sqrt(surface.patch.errors.covariance()(1, 1));
   return out;
 }

@@ -89,9 +89,15 @@ OUTSIDE_KEYS = frozenset((
     "planar_latency", "planar_period", "planar_stale", "planar_scan_time"))
 
 
+# Keys of old files, and what to write instead.
+REPLACED = {"protection_factor": "integrity_risk replaced it: leave it out, or write integrity_risk=5.73e-07 for 5.0"}
+
+
 def _known(key: Any) -> KeyInfo:
     if isinstance(key, str) and key in KEYS:
         return KEYS[key]
+    if isinstance(key, str) and key in REPLACED:
+        raise UnknownKey(Status.KEY_UNKNOWN, f"{key!r}, {REPLACED[key]}")
     near = difflib.get_close_matches(str(key), KEYS, 1)
     raise UnknownKey(Status.KEY_UNKNOWN, f"{key!r}{f', did you mean {near[0]!r}?' if near else ''}")
 
