@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kNoise_m = 0.01;
 constexpr double kHeight_m = 1.5;
-constexpr double kHalfWidth_m = 4.0;
+constexpr double kToWall_m = 4.0;
 const std::array<double, kTruthQuantities> kStraight = {0, 0, 0, 4, 4, 4, 4};
 const View kWide = {kHeight_m, 100.0, {{{-100.0, 100.0}, {-100.0, 100.0}}}};
 
@@ -77,14 +77,14 @@ TEST(CramerRao, TwoFloorPointsTellNothing) {
 NoisyRoad with_left_wall(double reach_m) {
   NoisyRoad road = square_floor(1.2);
   for (const double x : {-reach_m, reach_m}) {
-    for (const double z : {-0.5, 0.5}) road.add(x, kHalfWidth_m, z);
+    for (const double z : {-0.5, 0.5}) road.add(x, kToWall_m, z);
   }
   return road;
 }
 
 TEST(CramerRao, OneWallGivesItsOwnDistancesAndYaw) {
   const FrameBound bound = CramerRao(api::Config(), kNoise_m).bound(with_left_wall(3.0).cloud(), kStraight, kWide);
-  const double share = kHalfWidth_m / std::sqrt(3.0 * 3.0 + kHalfWidth_m * kHalfWidth_m + 0.5 * 0.5);
+  const double share = kToWall_m / std::sqrt(3.0 * 3.0 + kToWall_m * kToWall_m + 0.5 * 0.5);
   // The machine stands level and straight: no error of the floor turns into yaw.
   EXPECT_NEAR(bound.sigma[POSE_WALL_YAW], kNoise_m * share / (2.0 * 3.0), 1e-7);
   // At 2 m ahead: offset and slope together.
@@ -105,7 +105,7 @@ TEST(CramerRao, AnErrorOfTheFloorTurnsIntoYawWhereTheNoseIsUp) {
         road.add(p.x(), p.y(), p.z());
       }
       for (const double z : {-0.5, 0.5}) {
-        const Eigen::Vector3d p = level.transpose() * Eigen::Vector3d(3.0 * x, kHalfWidth_m, z);
+        const Eigen::Vector3d p = level.transpose() * Eigen::Vector3d(3.0 * x, kToWall_m, z);
         road.add(p.x(), p.y(), p.z());
       }
     }
@@ -143,7 +143,7 @@ TEST(CramerRao, OnlyPointsInViewCount) {
 
 TEST(CramerRao, FloorAtTheFootOfAWallDoesNotCount) {
   NoisyRoad road = square_floor(1.2);
-  for (const double away_m : {0.1, 0.2, 0.3}) road.add(1.0, kHalfWidth_m - away_m, -kHeight_m);
+  for (const double away_m : {0.1, 0.2, 0.3}) road.add(1.0, kToWall_m - away_m, -kHeight_m);
   const CramerRao bounds{api::Config(), kNoise_m};
   EXPECT_EQ(bounds.bound(road.cloud(), kStraight, kWide).floor_points, 5U);
   const std::array<double, kTruthQuantities> no_walls = {0, 0, 0, kNoTruth, kNoTruth, kNoTruth, kNoTruth};

@@ -37,6 +37,7 @@ void add_run(ClassCard& card, const RunRecord& record, const AlertLimits& limits
   card.is_cut = card.is_cut || is_cut(record.run);
   for (const FrameRecord& frame : record.frames) {
     card.frames.add(frame, limits);
+    if (frame.phase == Phase::kDriveIn) continue;  // what is wrong there is wrong, but shares are of the scene
     for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       card.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].truth);
       count_reasons(card, frame.quantity[q]);

@@ -60,7 +60,7 @@ struct ClassCard {
   std::size_t draws = 0;
   bool is_cut = false;  // a run is shorter than its scene asks for: no floor
   FrameCounts frames;
-  SevenStatistics quantities;
+  SevenStatistics quantities;  // of the scene, without the way in
   EventTimes times;
   std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons{};  // values with a truth that were not valid, by reason
 };

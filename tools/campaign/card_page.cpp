@@ -22,6 +22,12 @@ std::string head_of(const Card& card) {
                       counted(card.judged.frames.frames + card.unobservable.frames.frames, "frame"), card.runs,
                       counted(card.manifest.runs, "run"), counted(card.classes.size(), "class", "classes"),
                       amount(true, card.manifest.limits.angle_rad), amount(false, card.manifest.limits.distance_m));
+  if (card.manifest.plan.drive_in_m > 0.0) {
+    text += fmt::format(
+        "The machine drove {} m before each scene began. Shares, levels, mean z² and the table of quantities leave "
+        "these frames out. Counts of frames, diagrams and worst events have them.\n\n",
+        card.manifest.plan.drive_in_m);
+  }
   return text + origin_text(card.manifest);
 }
 
@@ -117,6 +123,10 @@ std::string quantities_of(const Card& card) {
          table.text() + "\n";
 }
 
+std::string frame_text(const WorstEvent& event) {
+  return fmt::format("{}{}", event.frame, event.frame < event.run.drive_in_frames ? " (driving in)" : "");
+}
+
 std::string events_of(const Card& card) {
   if (card.events.empty()) return "## Worst events\n\nNone.\n";
   MarkdownTable table({"breach", "scene", "sensor", "draw", "frame", "quantity", "error", "protection level", "sigma",
@@ -126,15 +136,16 @@ std::string events_of(const Card& card) {
     const bool angle = is_angle(e.quantity);
     std::string reasons = reason_names(e.reasons);
     for (std::size_t at = reasons.find('|'); at != std::string::npos; at = reasons.find('|')) reasons[at] = ' ';
-    table.add_row({breach_name(e.breach), e.run.scene, e.run.sensor, std::to_string(e.run.draw),
-                   std::to_string(e.frame), pose_wall_quantity_name(e.quantity), amount(angle, e.error),
+    table.add_row({breach_name(e.breach), e.run.scene, e.run.sensor, std::to_string(e.run.draw), frame_text(e),
+                   pose_wall_quantity_name(e.quantity), amount(angle, e.error),
                    amount(angle, e.measured.protection_level), amount(angle, e.measured.sigma),
                    pose_wall_state_name(e.measured.state), reasons, fmt::format("`{}`", recipe(e, card.manifest))});
   }
   return "## Worst events\n\n"
          "One row per run and quantity: the worst frame of its gravest breach. The command at the end of a row "
          "measures it again. It is the last row of `DIR/out.csv`. Where frame files cannot repeat it (a second file of "
-         "settings, stamps out of step), it is the last row of `DIR/frames.csv`.\n\n" +
+         "settings, stamps out of step, a machine that drove in), it is the last row of `DIR/frames.csv`. While the "
+         "machine drives in, it is the row of that frame.\n\n" +
          table.text();
 }
 

@@ -48,6 +48,7 @@ std::string campaign_command(const PlanRequest& request, const EngineChoice& cho
   if (!request.sensors.empty()) words += fmt::format(" --sensors {}", fmt::join(request.sensors, ","));
   if (request.draws) words += fmt::format(" --draws {}", *request.draws);
   if (request.frames) words += fmt::format(" --frames {}", *request.frames);
+  if (request.drive_in_m > 0.0) words += fmt::format(" --drive-in {}", request.drive_in_m);
   if (request.first_draw != 0) words += fmt::format(" --first-draw {}", request.first_draw);
   return words + engine_words(choice);
 }
@@ -61,7 +62,8 @@ std::vector<std::pair<std::string, std::string>> request_words(const PlanRequest
           {"draws", number_or(request.draws, "those of the size")},
           {"first draw", std::to_string(request.first_draw)},
           {"frames", number_or(request.frames, "those of size and scene")},
-          {"seed", std::to_string(request.seed)}};
+          {"seed", std::to_string(request.seed)},
+          {"driven in", fmt::format("{} m", request.drive_in_m)}};
 }
 
 }  // namespace pose_wall::tools::campaign

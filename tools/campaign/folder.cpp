@@ -92,6 +92,7 @@ std::vector<RunRecord> read_records(const std::filesystem::path& folder, const M
   std::vector<RunRecord> records;
   for (const std::filesystem::path& file : record_files(folder)) {
     records.push_back(read_record(file, manifest.fingerprint()));
+    records.back().run.drive_in_m = manifest.plan.drive_in_m;  // it has no column of its own
   }
   std::sort(records.begin(), records.end(), [](const auto& a, const auto& b) { return rank(a) < rank(b); });
   return records;

@@ -24,7 +24,7 @@ struct ScaledCounts {
   std::size_t frames = 0;
   std::size_t misleading = 0;  // frames with a value that is valid under the scale and wrong as in judge()
   std::size_t beyond = 0;      // frames with an error of value or raw beyond the scaled level
-  std::size_t angles = 0, valid_angles = 0;        // values with a truth
+  std::size_t angles = 0, valid_angles = 0;        // values with a truth, not of the way in
   std::size_t distances = 0, valid_distances = 0;  // the same
 
   void add(const FrameRecord& frame, double scale, const AlertLimits& limits);

@@ -39,7 +39,7 @@ std::string settings_text(const LoadedConfig& loaded) {
 std::string runs_text(const std::vector<Run>& runs) {
   std::string text;
   for (const Run& run : runs) {
-    text += fmt::format("{} {} {} {} {}\n", run.scene, run.sensor, run.draw, run.seed, run.frames);
+    text += fmt::format("{} {} {} {} {} {}\n", run.scene, run.sensor, run.draw, run.seed, run.frames, run.drive_in_m);
   }
   return fmt::format("{}, {}, {}", counted(runs.size(), "run"), counted(frames_of(runs), "frame"),
                      fingerprint_text(fingerprint(text)));
@@ -63,7 +63,8 @@ Json plan_page(const PlanRequest& plan) {
           {"draws", number_page(plan.draws)},
           {"first_draw", plan.first_draw},
           {"frames", number_page(plan.frames)},
-          {"seed", plan.seed}};
+          {"seed", plan.seed},
+          {"drive_in_m", plan.drive_in_m}};
 }
 
 PlanRequest plan_from(const Json& page) {
@@ -77,6 +78,7 @@ PlanRequest plan_from(const Json& page) {
   plan.first_draw = page.at("first_draw");
   plan.frames = number_from(page.at("frames"));
   plan.seed = page.at("seed");
+  plan.drive_in_m = page.value("drive_in_m", 0.0);
   return plan;
 }
 

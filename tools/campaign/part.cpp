@@ -52,7 +52,7 @@ std::vector<Run> runs_of_part(const std::vector<Run>& runs, const Part& part) {
   }
   std::vector<std::size_t> by_cost(runs.size());
   std::iota(by_cost.begin(), by_cost.end(), std::size_t{0});
-  const auto cost = [&runs](std::size_t i) { return runs[i].frames * points_of(runs[i].sensor); };
+  const auto cost = [&runs](std::size_t i) { return frames_of(runs[i]) * points_of(runs[i].sensor); };
   std::stable_sort(by_cost.begin(), by_cost.end(), [&](std::size_t a, std::size_t b) { return cost(a) > cost(b); });
   std::vector<std::size_t> mine;
   std::vector<double> dealt(part.of, 0.0);

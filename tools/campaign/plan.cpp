@@ -12,6 +12,7 @@
 
 #include "campaign/event.hpp"
 #include "campaign/fingerprint.hpp"
+#include "sim/pose.hpp"
 #include "sim/scenes.hpp"
 #include "terminal/did_you_mean.hpp"
 
@@ -67,8 +68,15 @@ std::vector<std::string> scenes_of(const PlanRequest& request) {
 
 Run make_run(const PlanRequest& request, const Size& size, const std::string& scene, const std::string& sensor,
              std::uint32_t draw) {
-  Run run{scene, sensor, draw, run_seed(request.seed, scene, sensor, draw), request.frames.value_or(size.frames)};
-  const std::uint32_t watched = frames_to_watch(sim::make_setup(scene, sensor, true, run.seed));
+  Run run{scene,
+          sensor,
+          draw,
+          run_seed(request.seed, scene, sensor, draw),
+          request.frames.value_or(size.frames),
+          request.drive_in_m};
+  const sim::Setup setup = setup_of(run);
+  run.drive_in_frames = sim::drive_in_frames(setup);
+  const std::uint32_t watched = frames_to_watch(setup);
   if (watched > 0 && !request.frames) run.frames = std::min(watched, size.sequence_frames_max);
   return run;
 }
@@ -86,6 +94,16 @@ std::uint32_t draws_of(const PlanRequest& request, const Size& size, const std::
 }
 
 }  // namespace
+
+// Rock that repeats could look the same at two places of the way.
+sim::Setup setup_of(const Run& run) {
+  sim::Setup setup = sim::make_setup(run.scene, run.sensor, true, run.seed);
+  if (run.drive_in_m > 0.0) {
+    setup.machine.drive_in_m = run.drive_in_m;
+    setup.rock.rock_repeats = 0.0;
+  }
+  return setup;
+}
 
 std::vector<std::string> size_names() {
   std::vector<std::string> names;
@@ -113,9 +131,13 @@ std::vector<Run> make_plan(const PlanRequest& request) {
   return runs;
 }
 
+std::uint32_t frames_of(const Run& run) {
+  return run.drive_in_frames + run.frames;
+}
+
 std::size_t frames_of(const std::vector<Run>& runs) {
   std::size_t frames = 0;
-  for (const Run& run : runs) frames += run.frames;
+  for (const Run& run : runs) frames += frames_of(run);
   return frames;
 }
 

@@ -11,15 +11,22 @@
 #include <string>
 #include <vector>
 
+#include "sim/setup.hpp"
+
 namespace pose_wall::tools::campaign {
 
 struct Run {
   std::string scene;
   std::string sensor;
   std::uint32_t draw = 0;
-  std::uint64_t seed = 0;  // of `pose_wall sim --random`: gives the same frames
-  std::uint32_t frames = 0;
+  std::uint64_t seed = 0;             // of `pose_wall sim --random`: gives the same frames
+  std::uint32_t frames = 0;           // of the scene
+  double drive_in_m = 0.0;            // driven before the scene begins
+  std::uint32_t drive_in_frames = 0;  // on this way
 };
+
+// The scene as this run draws it.
+sim::Setup setup_of(const Run& run);
 
 struct PlanRequest {
   bool motion = false;               // of the motion library, its classes for scenes: see motion_plan
@@ -31,6 +38,7 @@ struct PlanRequest {
   std::optional<std::uint32_t> frames;  // per draw; none: those of the size, or what the scene's event asks for
   std::uint32_t first_draw = 0;
   std::uint64_t seed = 1;
+  double drive_in_m = 0.0;  // driven before each scene begins
 };
 
 std::vector<std::string> size_names();
@@ -43,6 +51,8 @@ std::vector<Run> make_plan(const PlanRequest& request);
 std::uint64_t run_seed(std::uint64_t campaign_seed, const std::string& scene, const std::string& sensor,
                        std::uint32_t draw);
 
+// Of the scenes and of the way in.
+std::uint32_t frames_of(const Run& run);
 std::size_t frames_of(const std::vector<Run>& runs);
 
 }  // namespace pose_wall::tools::campaign

@@ -18,15 +18,19 @@ std::string by_files(const WorstEvent& event, const Manifest& manifest) {
 }  // namespace
 
 std::string run_recipe(const Run& run, std::uint32_t frames, const Manifest& manifest) {
-  return fmt::format("{} --seed {} --scenes {} --sensors {} --first-draw {} --draws 1 --frames {}{} --output DIR",
-                     verb_words(manifest.plan), manifest.plan.seed, run.scene, run.sensor, run.draw, frames,
+  const std::string driven = run.drive_in_m > 0.0 ? fmt::format(" --drive-in {}", run.drive_in_m) : "";
+  return fmt::format("{} --seed {} --scenes {} --sensors {} --first-draw {} --draws 1 --frames {}{}{} --output DIR",
+                     verb_words(manifest.plan), manifest.plan.seed, run.scene, run.sensor, run.draw, frames, driven,
                      engine_words(manifest.engine));
 }
 
 std::string recipe(const WorstEvent& event, const Manifest& manifest) {
   // `run` takes one file of settings, and that is the scene's.
-  const bool files_do = event.stamps_are_steady && manifest.engine.config_file.empty();
-  return files_do ? by_files(event, manifest) : run_recipe(event.run, event.frame + 1, manifest);
+  const std::uint32_t driven = event.run.drive_in_frames;
+  const bool files_do = event.stamps_are_steady && manifest.engine.config_file.empty() && driven == 0;
+  if (files_do) return by_files(event, manifest);
+  // A campaign has at least one frame of the scene, so it shows an event of the way in as well.
+  return run_recipe(event.run, event.frame < driven ? 1 : event.frame + 1 - driven, manifest);
 }
 
 }  // namespace pose_wall::tools::campaign

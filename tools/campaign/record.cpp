@@ -16,7 +16,7 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-constexpr std::array<const char*, 4> kPhases = {"", "before", "event", "after"};
+constexpr std::array<const char*, 5> kPhases = {"", "before", "event", "after", "drive_in"};
 
 std::uint32_t bit_of(const std::string& reason) {
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
@@ -43,7 +43,7 @@ Phase phase_of(const std::string& name) {
   for (std::size_t i = 0; i < kPhases.size(); ++i) {
     if (name == kPhases[i]) return static_cast<Phase>(i);
   }
-  throw CsvError(fmt::format("'{}' is no phase of an event", name));
+  throw CsvError(fmt::format("'{}' is no phase of a run", name));
 }
 
 constexpr std::size_t kFirstQuantity = 7;  // columns before it
@@ -70,8 +70,11 @@ RunRecord record_of(const CsvTable& table) {
   if (table.rows() == 0) throw CsvError("no frame in it");
   RunRecord record;
   record.run = {table.cell(0, 0), table.cell(0, 1), whole_number<std::uint32_t>(table.cell(0, 2)),
-                whole_number<std::uint64_t>(table.cell(0, 3)), static_cast<std::uint32_t>(table.rows())};
-  for (std::size_t row = 0; row < table.rows(); ++row) record.frames.push_back(frame_of(table, row));
+                whole_number<std::uint64_t>(table.cell(0, 3))};
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    record.frames.push_back(frame_of(table, row));
+    ++(record.frames.back().phase == Phase::kDriveIn ? record.run.drive_in_frames : record.run.frames);
+  }
   return record;
 }
 

@@ -18,8 +18,8 @@
 
 namespace pose_wall::tools::campaign {
 
-// Where a frame stands to its run's event.
-enum class Phase { kNone, kBefore, kEvent, kAfter };
+// Where a frame stands to its run's event; kDriveIn: on the way to where the scene begins.
+enum class Phase { kNone, kBefore, kEvent, kAfter, kDriveIn };
 
 struct QuantityRecord {
   double truth;

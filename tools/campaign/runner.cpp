@@ -20,10 +20,12 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-Phase phase_of(std::uint32_t frame, const std::optional<Event>& event) {
+Phase phase_of(std::uint32_t frame, const Run& run, const std::optional<Event>& event) {
+  if (frame < run.drive_in_frames) return Phase::kDriveIn;
   if (!event) return Phase::kNone;
-  if (frame < event->first) return Phase::kBefore;
-  return frame < event->after ? Phase::kEvent : Phase::kAfter;
+  const std::uint32_t of_scene = frame - run.drive_in_frames;
+  if (of_scene < event->first) return Phase::kBefore;
+  return of_scene < event->after ? Phase::kEvent : Phase::kAfter;
 }
 
 void demand_ok(std::int32_t status, const Run& run) {
@@ -53,12 +55,12 @@ LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice) {
 
 RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& instrument,
                   const std::function<void()>& on_frame) {
-  const sim::Simulator simulator(sim::make_setup(run.scene, run.sensor, true, run.seed), run.seed);
+  const sim::Simulator simulator(setup_of(run), run.seed);
   const std::optional<Event> event = event_of(simulator.setup());
   const LoadedConfig loaded = config_for(simulator.setup(), choice);
   demand_ok(instrument.open(loaded), run);
   RunRecord record{run, {}};
-  for (std::uint32_t i = 0; i < run.frames; ++i) {
+  for (std::uint32_t i = 0; i < frames_of(run); ++i) {
     const sim::Frame rendered = simulator.render(i);
     Frame frame = motion_frame(rendered, simulator.setup().sequence.scan_s > 0.0);
     frame.cloud.stamp_ns = rendered.stamp_ns;
@@ -66,7 +68,7 @@ RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& 
     demand_ok(instrument.process(frame.cloud, result), run);
     record.frames.push_back(record_of(result, simulator.truth(i)));
     record.frames.back().frame = i;
-    record.frames.back().phase = phase_of(i, event);
+    record.frames.back().phase = phase_of(i, run, event);
     on_frame();
   }
   return record;

@@ -46,10 +46,13 @@ def classes_of(folders):
 
 
 def main(folders):
+    campaigns = [json.loads((folder / "campaign.json").read_text()) for folder in folders]
+    for folder, one in zip(folders, campaigns):
+        if one["request"].get("drive_in_m", 0.0) > 0.0:
+            sys.exit(f"{folder}: measured with --drive-in; floors are of engines that begin with the scene")
     classes = classes_of(folders)
     kinds = {(one["scene"], one["sensor"]): one["kind"]
              for folder in folders for one in json.loads((folder / "card.json").read_text())["classes"]}
-    campaigns = [json.loads((folder / "campaign.json").read_text()) for folder in folders]
     print("// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n")
     print("// Valid share and its spread between runs, in percent: roll, pitch, yaw, distances. The floors of the\n"
           "// gate follow from them (valid_floors.hpp). Made by valid_shares.py; measured by:")

@@ -76,6 +76,10 @@ const Setup& checked(const Setup& setup) {
   demand(setup.floor.muck_side == static_cast<double>(kSideNone) || setup.floor.muck_width_m < 0.5 * r.width_m,
          "muck_width_m must be below half of width_m");
   demand(r.roof == 0.0 || m.base_height_m < r.height_m, "base_height_m must be below height_m");
+  const double first_along_m = pose_at(setup, frame_time_s(setup, 0)).along_m;
+  demand(
+      r.rear_distance_m == 0.0 || -first_along_m < r.rear_distance_m,
+      "the machine drives in from behind the road's end: drive_in_m, in whole frames, must be below rear_distance_m");
   demand(std::abs(start_lateral_m(setup)) < 0.5 * r.width_m,
          "lateral_m, or near_distance_m, must leave the machine between the walls");
   demand_room_for_the_machine(setup);

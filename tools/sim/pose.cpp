@@ -3,6 +3,7 @@
 
 #include "sim/pose.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/section.hpp"
@@ -57,18 +58,28 @@ double start_lateral_m(const Setup& setup) {
   return m.near_side == static_cast<double>(kSideLeft) ? from_centre : -from_centre;
 }
 
+std::uint32_t drive_in_frames(const Setup& setup) {
+  const Machine& m = setup.machine;
+  return static_cast<std::uint32_t>(std::ceil(m.drive_in_m / m.drive_in_mps * setup.sequence.rate_hz));
+}
+
+double frame_time_s(const Setup& setup, std::uint32_t sensor_frame) {
+  return (static_cast<double>(sensor_frame) - drive_in_frames(setup)) / setup.sequence.rate_hz;
+}
+
 MachinePose pose_at(const Setup& setup, double time_s) {
   const Machine& m = setup.machine;
   const double phase = 2.0 * M_PI * time_s / m.sway_period_s;
   const double step_deg = time_s >= m.turn_step_at_s ? m.turn_step_deg : 0.0;
+  const double begun_s = std::max(time_s, 0.0);  // it drives in as it stands at the start
   MachinePose pose;
   pose.time_s = time_s;
   const bool changed = m.speed_change_at_s > 0.0 && time_s > m.speed_change_at_s;
-  pose.along_m = m.speed_mps * time_s;
+  pose.along_m = (time_s < 0.0 ? m.drive_in_mps : m.speed_mps) * time_s;
   if (changed) pose.along_m += (m.speed_after_mps - m.speed_mps) * (time_s - m.speed_change_at_s);
-  pose.lateral_m = start_lateral_m(setup) + m.drift_mps * time_s;
+  pose.lateral_m = start_lateral_m(setup) + m.drift_mps * begun_s;
   pose.base_height_m = m.base_height_m;
-  pose.turned_left_rad = (m.turned_left_deg + m.turn_rate_dps * time_s + step_deg) * kRadPerDeg;
+  pose.turned_left_rad = (m.turned_left_deg + m.turn_rate_dps * begun_s + step_deg) * kRadPerDeg;
   pose.roll_rad = (m.roll_deg + m.sway_roll_deg * std::sin(phase)) * kRadPerDeg;
   pose.pitch_rad = (m.pitch_deg + m.sway_pitch_deg * std::cos(phase)) * kRadPerDeg;
   return pose;

@@ -29,6 +29,10 @@ struct Placement {
 
 // To the left of the centre line, at the start.
 double start_lateral_m(const Setup& setup);
+// Frames before the scene begins, in which the machine drives in.
+std::uint32_t drive_in_frames(const Setup& setup);
+// Time of one of the sensor's frames. 0: the scene begins. Before, the machine drives in.
+double frame_time_s(const Setup& setup, std::uint32_t sensor_frame);
 MachinePose pose_at(const Setup& setup, double time_s);
 Placement place(const Setup& setup, const MachinePose& pose);
 

@@ -138,6 +138,8 @@ struct Machine {
   double speed_mps = 0.0;
   double speed_change_at_s = 0.0;  // 0: never
   double speed_after_mps = 0.0;    // from speed_change_at_s on
+  double drive_in_m = 0.0;         // driven before the scene begins, along the road to where it starts
+  double drive_in_mps = 0.8;       // judgement, 2026-11-27: a slow walk, 8 cm a frame at 10 Hz
   double drift_mps = 0.0;
   double turn_rate_dps = 0.0;
   double sway_roll_deg = 0.0;

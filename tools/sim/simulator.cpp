@@ -36,20 +36,25 @@ void sort_by_step(std::vector<Beam>* beams) {
   std::stable_sort(beams->begin(), beams->end(), [](const Beam& a, const Beam& b) { return a.step < b.step; });
 }
 
-// Which of the sensor's frames is delivered at this place, after what was dropped and sent twice.
-std::uint32_t sensor_frame(const Sequence& sequence, std::uint32_t frame_index) {
-  std::uint32_t i = frame_index;
+// Which of the sensor's frames is delivered at this place, after what was dropped and sent twice in the scene. While
+// the machine drives in, nothing is.
+std::uint32_t sensor_frame(const Setup& setup, std::uint32_t frame_index) {
+  const Sequence& sequence = setup.sequence;
+  const std::uint32_t driven = drive_in_frames(setup);
+  if (frame_index < driven) return frame_index;
+  std::uint32_t i = frame_index - driven;
   const auto every = [](double count) { return static_cast<std::uint32_t>(count); };
   if (sequence.duplicate_every >= 1.0) i -= (i + 1u) / (every(sequence.duplicate_every) + 1u);
   if (sequence.drop_every >= 1.0) i += every(sequence.drop_length) * (i / every(sequence.drop_every));
-  return i;
+  return driven + i;
 }
 
 // A frozen sensor repeats the frame at which it froze.
-std::uint32_t seen_frame(const Sequence& sequence, std::uint32_t frame_index) {
-  const double time_s = frame_index / sequence.rate_hz;
+std::uint32_t seen_frame(const Setup& setup, std::uint32_t frame_index) {
+  const Sequence& sequence = setup.sequence;
+  const double time_s = frame_time_s(setup, frame_index);
   if (time_s < sequence.freeze_from_s || time_s >= sequence.freeze_to_s) return frame_index;
-  return static_cast<std::uint32_t>(std::ceil(sequence.freeze_from_s * sequence.rate_hz));
+  return drive_in_frames(setup) + static_cast<std::uint32_t>(std::ceil(sequence.freeze_from_s * sequence.rate_hz));
 }
 
 }  // namespace
@@ -64,11 +69,11 @@ Simulator::Simulator(const Setup& setup, std::uint64_t seed)
 }
 
 MachinePose Simulator::pose(std::uint32_t frame_index) const {
-  return pose_at(setup_, sensor_frame(setup_.sequence, frame_index) / setup_.sequence.rate_hz);
+  return pose_at(setup_, frame_time_s(setup_, sensor_frame(setup_, frame_index)));
 }
 
 Frame Simulator::render(std::uint32_t frame_index) const {
-  const std::uint32_t seen = seen_frame(setup_.sequence, sensor_frame(setup_.sequence, frame_index));
+  const std::uint32_t seen = seen_frame(setup_, sensor_frame(setup_, frame_index));
   const Sequence& sequence = setup_.sequence;
   const bool repeats = setup_.sensor.rings > 0.0;
   std::vector<Beam> own_beams;
@@ -79,7 +84,7 @@ Frame Simulator::render(std::uint32_t frame_index) const {
   frame.stamp_ns = stamp_ns(frame_index);
   frame.xyz_intensity.reserve(4 * beams.size());
   frame.labels.reserve(beams.size());
-  const double begin_s = seen / sequence.rate_hz, step_s = sequence.scan_s / scan_steps(setup_.sensor);
+  const double begin_s = frame_time_s(setup_, seen), step_s = sequence.scan_s / scan_steps(setup_.sensor);
   BeamCaster caster(setup_, world_, pose_at(setup_, begin_s), mix(seed_) ^ mix(seen + 1u));
   std::uint32_t step = 0;
   for (const Beam& beam : beams) {
@@ -107,15 +112,16 @@ TruthRow Simulator::truth(std::uint32_t frame_index, StepRule rule) const {
 
 std::int64_t Simulator::stamp_ns(std::uint32_t frame_index) const {
   const Sequence& q = setup_.sequence;
-  const std::uint32_t delivered = sensor_frame(q, frame_index);
-  double time_s = delivered / q.rate_hz;
+  const std::uint32_t delivered = sensor_frame(setup_, frame_index);
+  const double begin_s = kFirstStamp_s + drive_in_frames(setup_) / q.rate_hz;
+  double time_s = frame_time_s(setup_, delivered);
   const bool jumped = q.stamp_jump_s != 0.0 && time_s >= q.stamp_jump_at_s;
   if (time_s >= q.stamp_still_from_s && time_s < q.stamp_still_to_s) {
     time_s = q.stamp_still_from_s;
   } else if (q.stamp_jitter_s > 0.0) {
     time_s += q.stamp_jitter_s * Random(seed_, delivered + 1u).gaussian();
   }
-  return std::llround((kFirstStamp_s + time_s + (jumped ? q.stamp_jump_s : 0.0)) * 1e9);
+  return std::llround((begin_s + time_s + (jumped ? q.stamp_jump_s : 0.0)) * 1e9);
 }
 
 }  // namespace pose_wall::tools::sim

@@ -30,6 +30,7 @@
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
 #include "campaign/sweep.hpp"
+#include "config_file/config_place.hpp"
 #include "config_file/load_config.hpp"
 #include "terminal/counted.hpp"
 #include "verbs/complaint.hpp"
@@ -62,10 +63,11 @@ struct CampaignOptions {
 // Before any work: in the midst of thousands of runs a mistyped key would come late. Throws ConfigError.
 void check_settings(const campaign::EngineChoice& engine) {
   std::error_code ignored;
-  const std::string& file = engine.config_file;
-  if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
+  for (const ConfigPlace& place : find_configs(engine.config_file)) {
+    if (!std::filesystem::exists(place.file, ignored) || std::filesystem::is_regular_file(place.file, ignored))
+      continue;
     throw std::invalid_argument(fmt::format(
-        "--config {}: not a regular file; every run reads it again, and a pipe can be read only once", file));
+        "--config {}: not a regular file; every run reads it again, and a pipe can be read only once", place.file));
   }
   load_config(engine.config_file, engine.settings);
 }
@@ -240,6 +242,10 @@ void demand_words_go_together(const CLI::App& verb, const CampaignOptions& optio
   if (options.plan.motion && verb.get_option("--kind")->count() > 0) {
     throw std::invalid_argument("--kind applies to scenes; --motion has classes: name them by --scenes");
   }
+  if (options.plan.motion && verb.get_option("--drive-in")->count() > 0) {
+    throw std::invalid_argument(
+        "--drive-in applies to scenes; in the classes of --motion the machine drives by itself");
+  }
   if (options.list && !options.plan.motion) {
     throw std::invalid_argument("--list needs --motion; `pose_wall sim --list` has the scenes");
   }
@@ -263,6 +269,8 @@ std::string trimmed(std::string name) {
   return name;
 }
 
+constexpr double kDriveInMost_m = 100.0;  // judgement, 2026-11-27: 1250 frames a run, a minute or more
+
 void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
   verb.add_option("--size", plan.size,
                   "small (each scene once, seconds), medium (minutes) or large (more than 30,000 frames)")
@@ -283,6 +291,10 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
       ->check(whole_number());
   verb.add_option("-n,--frames", plan.frames, "Frames per draw; overrides size and scene")
       ->check(whole_number_within(1, 1000000));
+  verb.add_option("--drive-in", plan.drive_in_m,
+                  "Metres that the machine drives before each scene begins, so that the engine knows the road")
+      ->type_name("METRES")
+      ->check(number_within(0.0, kDriveInMost_m));
   verb.add_option("--seed", plan.seed, "The same seed gives the same draws")
       ->capture_default_str()
       ->check(whole_number());
@@ -310,6 +322,7 @@ void add_footer(CLI::App& verb) {
       "Examples:\n"
       "  pose_wall campaign --size small --gate --output /tmp/card\n"
       "  pose_wall campaign --scenes rough,props --sensors os1-64 --draws 50 --output /tmp/two\n"
+      "  pose_wall campaign --drive-in 5 --scenes rough,props --sensors os1-64 --draws 20 --output /tmp/driven\n"
       "  pose_wall campaign --motion --size small --gate --output /tmp/motion\n"
       "  pose_wall campaign --size large --part 3/16 --output /tmp/parts/3\n"
       "  pose_wall campaign --merge /tmp/parts/* --gate --output /tmp/card\n"
