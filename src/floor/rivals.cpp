@@ -175,7 +175,8 @@ void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const
   const Plane fitted = floor->fit.plane;
   const bool may_exclude =
       floor->fit.found && same_floor(fitted, best.plane) && !(best.evidence.area_m2 < kSmallArea_m2);
-  const double least = std::fmin(limit_of<gate::FLOOR_RIVAL>(s), limit_of<gate::FLOOR_RIVAL_STEEP>(s));
+  const double flat = limit_of<gate::FLOOR_RIVAL>(s), steep = limit_of<gate::FLOOR_RIVAL_STEEP>(s);
+  const double least = flat < steep ? flat : steep;
   double roll = 0.0, pitch = 0.0;
   for (const FloorCandidate& rival : candidates.all()) {
     if (&rival == &best || (rival.ghost && best.evidence.area_m2 >= kSureArea_m2)) continue;
