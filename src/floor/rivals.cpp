@@ -40,8 +40,9 @@ constexpr std::uint32_t kPointsMin = 20;  // judgement, 2026-11-23: fewer left-o
 constexpr double kStretch = 1.25;
 constexpr double kMargin_rad = 0.026;
 
-// Of ground_roi_radius: 4.5 m, half the length of a machine and the slope that its tracks span. Judgement, 2026-11-26.
-constexpr double kNearInRadii = 1.5;
+// Half the length of a machine and the slope that its tracks span. No key of the search: a wider one must not hide
+// ramps. Judgement, 2026-11-26.
+constexpr double kNear_m = 4.5;
 
 // Points on all sides: the machine stands on them. Judgement, 2026-11-23: its body hides a quarter of a turn.
 constexpr std::uint32_t kGapOfBody = 2;
@@ -58,7 +59,7 @@ constexpr double kUnseenRamp_rad = 0.17;
 // Number of points in each eighth of a turn around the machine.
 struct Eighths {
   std::uint32_t count[8] = {}, total = 0;
-  std::uint32_t near = 0;  // within kNearInRadii
+  std::uint32_t near = 0;  // within kNear_m
 
   // parts: at least one of so many of all points.
   bool hold(std::uint32_t eighth, std::uint32_t parts) const { return total > 0 && count[eighth] * parts >= total; }
@@ -70,8 +71,7 @@ Eighths eighths_of(const PointSet& points, const Plane& plane, const Settings& s
   constexpr std::uint8_t kEighth[] = {0, 1, 7, 6, 3, 2, 4, 5};  // by signs of x and y and which of them is larger
   const FourDistances heights(plane);
   const FourFloats reach = all_four(static_cast<float>(s.ground_ransac_thresh)), none{};
-  const double near_m = kNearInRadii * s.ground_roi_radius;
-  const FourFloats near2 = all_four(static_cast<float>(near_m * near_m));
+  const FourFloats near2 = all_four(static_cast<float>(kNear_m * kNear_m));
   const auto highest = static_cast<float>(sensor_z_base_m);
   Eighths out;
   for_each_four_points(points, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {

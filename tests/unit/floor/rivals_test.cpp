@@ -225,9 +225,12 @@ TEST(FloorUnseen, AFloorNearTheMachineCarriesIt) {
   expect_carries_the_machine(reached_on({{2.5, 12.0, -2.0, 2.0}}));
 }
 
-TEST(FloorUnseen, NearIsByTheConfiguredRadius) {
-  expect_carries_the_machine(reached_on({{5.0, 12.0, -2.0, 2.0}}, "5"));
-  expect_may_be_a_ramp(reached_on({{2.5, 12.0, -2.0, 2.0}}, "1.5"));
+// A ramp is no nearer because the floor is searched further out.
+TEST(FloorUnseen, NearIsTheSameWhateverTheSearch) {
+  for (const char* const roi_radius_m : {"1.5", "3", "8"}) {
+    expect_may_be_a_ramp(reached_on({{5.0, 12.0, -2.0, 2.0}}, roi_radius_m));
+    expect_carries_the_machine(reached_on({{2.5, 12.0, -2.0, 2.0}}, roi_radius_m));
+  }
 }
 
 TEST(FloorUnseen, AFloorOnBothSidesCarriesTheMachineFromFarAsWell) {
