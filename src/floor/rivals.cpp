@@ -172,9 +172,8 @@ void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const
   const FloorCandidate& best = *candidates.best();
   const RollPitch a = roll_pitch_of_up(best.plane.n);
   // A fit that failed, or wandered off to the rival, tells nothing about it.
-  const Plane fitted = floor->fit.plane;
-  const bool may_exclude =
-      floor->fit.found && same_floor(fitted, best.plane) && !(best.evidence.area_m2 < kSmallArea_m2);
+  const Plane& fitted = floor->fit.plane;
+  const bool may_exclude = floor->fit.found && same_floor(fitted, best.plane) && best.evidence.area_m2 >= kSmallArea_m2;
   const double flat = limit_of<gate::FLOOR_RIVAL>(s), steep = limit_of<gate::FLOOR_RIVAL_STEEP>(s);
   const double least = flat < steep ? flat : steep;
   double roll = 0.0, pitch = 0.0;

@@ -19,7 +19,7 @@ namespace pose_wall::test {
 namespace {
 
 constexpr double kAngle_deg = 0.5;  // the recorders' poses are good to 0.2 degrees
-constexpr double kShare = 0.6;
+constexpr double kShare = 0.6;      // what the project asks of recorded halls; 0.98 was measured, 2026-11-27
 
 struct Frames {
   const char* folder;

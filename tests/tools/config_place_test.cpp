@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: --config takes the name of a config that comes with pose_wall; a file of that name wins and a line says so;
-// of several the later one wins; a mistyped name is answered with the one that was meant and the list.
+// Proves: --config takes the name of a config that comes with pose_wall. A file of that name wins, and a line says so.
+// Of several configs the later one wins. A mistyped name is answered with the one that was meant and the list.
 
 #include <gtest/gtest.h>
 

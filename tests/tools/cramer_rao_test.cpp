@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kNoise_m = 0.01;
 constexpr double kHeight_m = 1.5;
-constexpr double kToWall_m = 4.0;
+constexpr double kToWall_m = 4.0;  // from the middle of a wide road
 const std::array<double, kTruthQuantities> kStraight = {0, 0, 0, 4, 4, 4, 4};
 const View kWide = {kHeight_m, 100.0, {{{-100.0, 100.0}, {-100.0, 100.0}}}};
 

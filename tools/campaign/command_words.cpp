@@ -41,6 +41,10 @@ std::string verb_words(const PlanRequest& request) {
   return request.motion ? "pose_wall campaign --motion" : "pose_wall campaign";
 }
 
+std::string drive_in_words(double drive_in_m) {
+  return drive_in_m > 0.0 ? fmt::format(" --drive-in {}", drive_in_m) : "";
+}
+
 std::string campaign_command(const PlanRequest& request, const EngineChoice& choice) {
   std::string words = fmt::format("{} --size {} --seed {}", verb_words(request), request.size, request.seed);
   if (request.kind != "all") words += " --kind " + request.kind;
@@ -48,7 +52,7 @@ std::string campaign_command(const PlanRequest& request, const EngineChoice& cho
   if (!request.sensors.empty()) words += fmt::format(" --sensors {}", fmt::join(request.sensors, ","));
   if (request.draws) words += fmt::format(" --draws {}", *request.draws);
   if (request.frames) words += fmt::format(" --frames {}", *request.frames);
-  if (request.drive_in_m > 0.0) words += fmt::format(" --drive-in {}", request.drive_in_m);
+  words += drive_in_words(request.drive_in_m);
   if (request.first_draw != 0) words += fmt::format(" --first-draw {}", request.first_draw);
   return words + engine_words(choice);
 }

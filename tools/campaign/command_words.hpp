@@ -28,6 +28,9 @@ std::string engine_words(const EngineChoice& choice);
 // "pose_wall campaign", and whose.
 std::string verb_words(const PlanRequest& request);
 
+// " --drive-in METRES"; nothing where the machine does not drive in.
+std::string drive_in_words(double drive_in_m);
+
 // Makes the campaign again, but for its folder.
 std::string campaign_command(const PlanRequest& request, const EngineChoice& choice);
 

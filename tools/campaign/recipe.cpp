@@ -18,14 +18,13 @@ std::string by_files(const WorstEvent& event, const Manifest& manifest) {
 }  // namespace
 
 std::string run_recipe(const Run& run, std::uint32_t frames, const Manifest& manifest) {
-  const std::string driven = run.drive_in_m > 0.0 ? fmt::format(" --drive-in {}", run.drive_in_m) : "";
   return fmt::format("{} --seed {} --scenes {} --sensors {} --first-draw {} --draws 1 --frames {}{}{} --output DIR",
-                     verb_words(manifest.plan), manifest.plan.seed, run.scene, run.sensor, run.draw, frames, driven,
-                     engine_words(manifest.engine));
+                     verb_words(manifest.plan), manifest.plan.seed, run.scene, run.sensor, run.draw, frames,
+                     drive_in_words(run.drive_in_m), engine_words(manifest.engine));
 }
 
 std::string recipe(const WorstEvent& event, const Manifest& manifest) {
-  // `run` takes one file of settings, and that is the scene's.
+  // The command of files gives `run` the scene's settings alone.
   const std::uint32_t driven = event.run.drive_in_frames;
   const bool files_do = event.stamps_are_steady && manifest.engine.config_file.empty() && driven == 0;
   if (files_do) return by_files(event, manifest);

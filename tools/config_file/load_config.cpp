@@ -147,11 +147,11 @@ class ConfigLoader {
 
   // The unit is part of the question where the name leaves it out or has another one.
   static std::string suggestion(const std::string& key, const std::string& value) {
-    if (key == "protection_factor") {                // until 0.2: the levels' factor itself, 5.0 unless set
-      constexpr double kLeast = 1e-9, kMost = 1e-2;  // of integrity_risk
+    if (key == "protection_factor") {  // until 0.2: the levels' factor itself, 5.0 unless set
       const double sigmas = std::strtod(value.c_str(), nullptr), risk = std::erfc(sigmas / std::sqrt(2.0));
+      const pose_wall_key_info allowed = find_config_key("integrity_risk").value();
       return say("; integrity_risk replaced it: leave it out, or write integrity_risk: {:.3g}",
-                 std::clamp(risk, kLeast, kMost));
+                 std::clamp(risk, allowed.minimum, allowed.maximum));
     }
     if (find_config_key(key + "_deg")) return did_you_mean(key + "_deg_", {key + "_deg"});
     std::string question = did_you_mean(key, all_key_names());

@@ -18,7 +18,7 @@ inline constexpr const char* kGateMeasures[] = {
     translatable("planes that may be the floor"),
     translatable("its points spread far enough for a fit"),
     translatable("tilt by its bend; a fifth of the alert limit is let pass"),
-    translatable("another plane's open area, of the chosen one's"),
+    translatable("another plane's open area, of the chosen one's; none without ground of its own"),
     translatable("another plane's open area, of the chosen one's, which lies steeper than 10 degrees"),
     translatable("open area of a plane that lies otherwise, of the small chosen one's"),
     translatable("tilt of the floor against base"),

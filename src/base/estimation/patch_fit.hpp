@@ -31,7 +31,7 @@ struct PatchErrors {
   LinearErrors layer[kLayersMax];
   std::uint32_t layers = 0;
 
-  // Of at.dot(errors of offset, slope along u, slope along v).
+  // Of at.dot(errors of offset, slope along u, slope along v). sigmas: as in spread_of_mixture().
   Spread spread_of(const Eigen::Vector3d& at, double sigmas) const;
   Eigen::Matrix3d covariance() const;
 };

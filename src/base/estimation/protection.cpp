@@ -6,7 +6,7 @@
 namespace pose_wall {
 
 double sigmas_at_risk(double risk) {
-  constexpr int kHalvings = 56;  // as many as a double has bits, and from 8 down to 1
+  constexpr int kHalvings = 56;  // 8 / 2^56 is less than a double resolves at 1
   double low = 0.0, high = 8.0;  // 1.2e-15 is left beyond
   for (int step = 0; step < kHalvings; ++step) {
     const double middle = 0.5 * (low + high);

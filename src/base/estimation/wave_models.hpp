@@ -55,7 +55,7 @@ struct LinearErrors {
   void set(std::uint32_t model, double log_likelihood, const Eigen::Matrix3d& covariance);
   // Once more with the evidence of other rock.
   void weigh(const WaveEvidence& elsewhere);
-  // Of at.dot(errors of offset, slope along u, slope along v).
+  // Of at.dot(errors of offset, slope along u, slope along v). sigmas: as in spread_of_mixture().
   Spread spread_of(const Eigen::Vector3d& at, double sigmas) const;
   Eigen::Matrix3d mean_covariance() const;
 };

@@ -151,13 +151,14 @@ bool stops_before(const WallCandidate& rival, const WallCandidate& chosen) {
 // Share of a plane's solid area that does not belong to the chosen wall, which runs elsewhere. What does is no evidence
 // for another wall: a plane through the machine's end of a wall, turned by two degrees, holds most of the same points.
 double own_share(const WallCandidate& rival, const WallCandidate& chosen, const Settings& s) {
+  const double near_m = on_wall_m(s);
   double all = 0.0, own = 0.0;
   for (std::uint32_t column = 0; column < kWallColumns; ++column) {
     const double rows = rival.evidence.solid_rows[column];
-    const double along_m = (static_cast<double>(column) + 0.5 - 0.5 * kWallColumns) * kWallColumn_m;
-    const Eigen::Vector3d place_m = along_m * rival.along_level - rival.plane.d * rival.plane.n;
+    const double middle_m = wall_column_from_m(column) + 0.5 * kWallColumn_m;
+    const Eigen::Vector3d place_m = middle_m * rival.along_level - rival.plane.d * rival.plane.n;
     all += rows;
-    own += std::fabs(chosen.plane.signed_distance(place_m)) > on_wall_m(s) ? rows : 0.0;
+    own += std::fabs(chosen.plane.signed_distance(place_m)) > near_m ? rows : 0.0;
   }
   return all > 0.0 ? own / all : 1.0;
 }

@@ -134,7 +134,7 @@ WallEvidence WallGrid::evidence() const {
     solid_cells += solid_rows;
     own_open_cells += open_rows;
     if (solid_rows < open_rows) continue;
-    const double along = (static_cast<double>(column) - kColumns / 2) * kColumn_m;
+    const double along = wall_column_from_m(column);
     // A single column may be a stray or a stump.
     const bool goes_on = columns > 0 && !(out.along_max_m < along);
     const double away_m = larger(larger(along - kColumn_m, -along - kColumn_m), 0.0);
@@ -160,7 +160,7 @@ double WallGrid::gap_to_solid_m(double along_m) const {
   double nearest = kNone_m;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
     if (!column_is_solid(column)) continue;
-    const double low = (static_cast<double>(column) - kColumns / 2) * kColumn_m;
+    const double low = wall_column_from_m(column);
     double gap = 0.0;
     if (along_m < low) gap = low - along_m;
     if (along_m > low + kColumn_m) gap = along_m - low - kColumn_m;

@@ -19,6 +19,11 @@ namespace pose_wall {
 constexpr std::uint32_t kWallColumns = 128;  // 64 m: 32 m to both sides
 constexpr double kWallColumn_m = 0.5;        // judgement, 2026-11-21: a door or a niche fills one or more
 
+// Where a column begins along the wall.
+inline double wall_column_from_m(std::uint32_t column) {
+  return (static_cast<double>(column) - kWallColumns / 2) * kWallColumn_m;
+}
+
 struct WallEvidence {
   double score_m2 = 0.0;      // solid area, reduced by the share that is seen through
   double area_m2 = 0.0;       // solid area

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: a machine that drives in comes along the road at its speed, stands at the scene's start as the scene begins,
-// and from there on the scene and its faults come as they would have come without.
+// Proves: a machine that drives in comes along the road at its speed and stands at the scene's start as the scene
+// begins. From there on the scene and its faults come as they would have come without.
 
 #include <gtest/gtest.h>
 

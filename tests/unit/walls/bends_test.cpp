@@ -14,32 +14,27 @@
 
 #include "support/ray_scene.hpp"
 #include "support/rock.hpp"
+#include "support/wall_profiles.hpp"
 #include "walls/fit/surface.hpp"
 
 namespace pose_wall {
 namespace {
 
+using test::arched_wall;
 using test::BandFixture;
 using test::kFloorZ_m;
 using test::Lidar;
 using test::Noise;
+using test::plain_wall;
 using test::RayScene;
 using test::Rock;
+using test::WallProfile;
 
 constexpr double kWall_m = 2.0;
 constexpr std::uint32_t kRuns = 10;
 // Looks down past the foot of the wall, and up by 7 degrees: at 2 m it ends a quarter of a metre above itself.
 const Lidar kLooksDown{-50.0, 7.0, 1.0, 0.35};
 
-// How far the surface stands out of the wall, by height above the sensor.
-using Profile = double (*)(double z_m);
-
-double plain(double) {
-  return 0.0;
-}
-double arch(double z_m) {
-  return z_m > 0.2 ? 0.35 * (z_m - 0.2) * (z_m - 0.2) : 0.0;
-}
 double heap(double z_m) {
   return z_m < -0.5 ? -0.4 * (z_m + 0.5) : 0.0;
 }
@@ -57,7 +52,7 @@ struct Fitted {
   Heights heights{0.0, 0.0}, band{0.0, 0.0};
 };
 
-Fitted fitted(Profile profile, const Lidar& lidar, std::uint32_t seed) {
+Fitted fitted(WallProfile profile, const Lidar& lidar, std::uint32_t seed) {
   Noise noise(seed);
   const Rock rock(0.05, 0.3, &noise);
   RayScene scene;
@@ -86,7 +81,7 @@ struct Summary {
   double worst_lean_rad = 0.0, worst_offset_m = 0.0, highest_m = -1e3;
 };
 
-Summary summary(Profile profile, const Lidar& lidar) {
+Summary summary(WallProfile profile, const Lidar& lidar) {
   Summary out;
   for (std::uint32_t seed = 1; seed <= kRuns; ++seed) {
     const Fitted f = fitted(profile, lidar, seed);
@@ -104,7 +99,7 @@ constexpr double kDegree = M_PI / 180.0;
 
 TEST(WallBends, AWallThatIsOnePlaneIsLeftWhole) {
   for (const Lidar& lidar : {test::kOs0, kLooksDown}) {
-    const Summary s = summary(plain, lidar);
+    const Summary s = summary(plain_wall, lidar);
     EXPECT_EQ(s.top_cut, 0);
     EXPECT_EQ(s.foot_cut, 0);
     EXPECT_LE(s.worst_lean_rad, 1.5 * kDegree);
@@ -112,7 +107,7 @@ TEST(WallBends, AWallThatIsOnePlaneIsLeftWhole) {
 }
 
 TEST(WallBends, AnArchLosesItsTop) {
-  const Summary s = summary(arch, test::kOs0);
+  const Summary s = summary(arched_wall, test::kOs0);
   EXPECT_EQ(s.top_cut, static_cast<int>(kRuns));
   EXPECT_EQ(s.foot_cut, 0);
   EXPECT_LE(s.worst_lean_rad, 2.0 * kDegree);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the standard deviations of yaw and the distances are those of the surface's errors at the sampling points,
-// and the pivot is where offset and slope are uncorrelated; of two accepted walls a straight one takes in what the
-// other shows of the rock, one that may bend does not, and a refused one lends nothing. Does not prove that the errors
-// of a surface are true: wave_models_test and patch_fit_test do.
+// Proves: the standard deviations of yaw and the distances are those of the surface's errors at the sampling points.
+// The pivot is where offset and slope are uncorrelated. Of two accepted walls a straight one takes in what the other
+// shows of the rock; one that may bend does not, and a refused one lends nothing. Does not prove that the errors of a
+// surface are true: wave_models_test and patch_fit_test do.
 
 #include "walls/sample/sigmas.hpp"
 
