@@ -191,5 +191,19 @@ TEST(GateList, TellsEveryGateWithItsLimitAndNeedsNoFrame) {
   EXPECT_FALSE(contains(ran.printed, "s.wall_length_min"));
 }
 
+TEST(GateList, RefusesWhatItWouldPassOver) {
+  const std::pair<std::vector<std::string>, const char*> usage[] = {
+      {{"explain", "--gates", "-c", "vlp16", "--set", "range_min=1", "a.pcd"}, "leave out INPUT, --config, --set"},
+      {{"explain", "--json", "--gates"}, "leave out --json"},
+      {{"explain", "--gates", "--jsno"}, "unknown option --jsno"}};
+  for (const auto& [words, answer] : usage) {
+    const Ran ran = command(words);
+    EXPECT_EQ(ran.exit_status, 2);
+    EXPECT_EQ(ran.printed, "");
+    EXPECT_TRUE(contains(ran.errors, answer)) << ran.errors;
+  }
+  EXPECT_EQ(command({"explain", "--gates", "--language", "en"}).exit_status, 0);
+}
+
 }  // namespace
 }  // namespace pose_wall::tools

@@ -99,6 +99,22 @@ TEST(Sentences, OfManyRivalsTheStrongestIsToldOnce) {
   }
 }
 
+// By src/floor/rivals.cpp: what such a floor is doubted by, and its tilt, for it may be a heap's flank.
+TEST(Sentences, AFloorThatMayBeARampSaysAllThatItsLevelsGrowBy) {
+  const auto told = [](std::uint32_t gate) {
+    Noted noted;
+    noted.note(POSE_WALL_TRACE_FLOOR, gate, 0.3, 0.2, false);
+    return noted.paragraph(kFloor).sentences.at(0);
+  };
+  EXPECT_TRUE(contains(told(POSE_WALL_TRACE_FLOOR_NEAR),
+                       "the protection levels grow by 9.7°, and of a floor steeper than that by its tilt as well."));
+  EXPECT_TRUE(
+      contains(told(POSE_WALL_TRACE_FLOOR_BESIDE), "Of a floor steeper than 9.7° they grow by its tilt as well."));
+  EXPECT_TRUE(
+      contains(told(POSE_WALL_TRACE_FLOOR_RIVAL_STEEP),
+               "grow by the angle between them, and by the floor's tilt, since a machine stands about upright."));
+}
+
 TEST(Sentences, WhatTwoGatesAskForIsToldOnce) {
   const Explanation explanation{
       {{POSE_WALL_TRACE_FLOOR, Verdict::kRefused, {"No."}, {"a; b c", "d; b c", "a"}}}, {}, {}};

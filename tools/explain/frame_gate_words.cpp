@@ -59,16 +59,18 @@ constexpr GateWords kFloorWords[] = {
                   "(a fifth of {key})."),
      translatable("a smaller ground_roi_radius keeps the floor local")},
     {"floor_rival",
-     translatable("Another plane scores {value} of the chosen one, by open ground and height. From {limit} on either "
-                  "may be the floor, and the protection levels reach to it."),
+     translatable(
+         "Another plane scores {value} of the chosen one, by open ground, which counts twice where the machine "
+         "drives. From {limit} on either may be the floor, and the protection levels reach to it."),
      translatable("look for a bench, a heap or a reflection among the planes below")},
     {"floor_rival_steep",
-     translatable("The chosen floor is steep, and another plane scores {value} of it, by open ground and height. From "
-                  "{limit} on either may be the floor, and the protection levels reach to it."),
+     translatable("The chosen floor is steep, and another plane scores {value} of it, by open ground, which counts "
+                  "twice where the machine drives. From {limit} on either may be the floor. The protection levels grow "
+                  "by the angle between them, and by the floor's tilt, since a machine stands about upright."),
      translatable("look for a heap's flank, a bench or a reflection among the planes below")},
     {"floor_alone",
-     translatable("The chosen floor is small, and a plane that lies otherwise shows {value} of its open ground. From "
-                  "{limit} on neither is taken for the floor."),
+     translatable("The chosen floor is small, and a plane that lies otherwise scores {value} of it, by open ground, "
+                  "which counts twice where the machine drives. From {limit} on neither is taken for the floor."),
      translatable("show more of the floor")},
     {"floor_tilt", translatable("The floor is tilted by {value} against base; {limit} is allowed ({key})."),
      translatable("check extrinsic_roll and extrinsic_pitch; raise {key} where the machine really stands so")},
@@ -85,12 +87,15 @@ constexpr GateWords kFloorWords[] = {
     {"floor_spread", translatable("The visible floor is a strip that spreads by {value} across; {limit} is needed."),
      translatable("show more of the floor to the sides")},
     {"floor_near",
-     translatable("The floor is seen on one side of the machine only, and {value} of it near the machine; {limit} is "
-                  "needed. It may be a ramp ahead, so the protection levels grow by 10 degrees."),
+     translatable(
+         "The floor is seen on one side of the machine only, and {value} of it near the machine; {limit} is "
+         "needed. It may be a ramp ahead, so the protection levels grow by 9.7°, and of a floor steeper than that "
+         "by its tilt as well."),
      translatable("show the ground that the machine stands on; mount the sensor so that it looks further down")},
     {"floor_beside",
      translatable("The floor is seen on one side of the machine only; ground on the other side lies otherwise by "
-                  "{value}. The machine may stand on that, and the protection levels reach to it."),
+                  "{value}. The machine may stand on that, and the protection levels reach to it. Of a floor steeper "
+                  "than 9.7° they grow by its tilt as well."),
      translatable("a ramp, a belt or a table; show more of the floor around the machine")},
     {"floor_by_walls",
      translatable(

@@ -177,6 +177,19 @@ void add_choice(CLI::App* verb, ExplainOptions* options) {
       ->excludes(frame);
 }
 
+// The list is that of the table, whatever the frames and settings.
+void demand_gates_alone(const CLI::App& verb) {
+  std::vector<std::string> others;
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != "--gates" && name != "--language") others.push_back(name);
+  }
+  if (others.empty() && verb.remaining().empty()) return;
+  throw CLI::ValidationError("--gates", say("the list has the limits of the table and the keys that move them, and "
+                                            "needs nothing else; leave out {}",
+                                            fmt::format("{}", fmt::join(others, ", "))));
+}
+
 std::string footer() {
   constexpr const char* kExamples[] = {
       "  pose_wall explain -c road/pose_wall.yaml road/frames",
@@ -207,13 +220,13 @@ void add_explain(CLI::App& app, int& exit_code) {
   verb->add_option("-p,--picture", options->picture, tr("SVG file for a picture of the frame, or of the worst one"))
       ->type_name("FILE");
   verb->add_flag("-j,--json", options->json, tr("Everything as one JSON object instead"));
-  // As --help it needs no frame.
-  const auto print_gates = [] {
+  // As --help it needs no frame: callbacks of options come before the look for those that are missing.
+  const auto print_gates = [verb] {
+    demand_gates_alone(*verb);
     fmt::print("{}", explain::gate_list_text());
     throw CLI::Success();
   };
-  verb->add_flag_callback("--gates", print_gates, tr("Print the list of all gates with their limits, and no frame"))
-      ->trigger_on_parse();
+  verb->add_flag_callback("--gates", print_gates, tr("Print the list of all gates with their limits, and no frame"));
   verb->footer(footer());
   verb->callback(
       [options, &exit_code] { exit_code = done_or_complaint("explain", [&] { return explain_inputs(*options); }); });
