@@ -41,7 +41,11 @@ TEST(PlanarSettings, RulesOverSeveralKeysNameThem) {
   EXPECT_EQ(planar_fault_of({"planar=localise"}), "planar: localise needs planar_map, the file of a saved map");
   EXPECT_EQ(
       planar_fault_of({"planar_x_max=5", "planar_y_max=2"}),
-      "planar_x_min, planar_x_max, planar_y_min, planar_y_max: the rectangle's corners must be within 5 m of base");
+      "planar_x_max 5 m and planar_y_max 2 m: this corner of the machine is 5.39 m from base; allowed: up to 5 m");
+  EXPECT_EQ(
+      planar_fault_of({"planar_x_min=-4.5", "planar_y_min=-2.5"}),
+      "planar_x_min -4.5 m and planar_y_min -2.5 m: this corner of the machine is 5.15 m from base; allowed: up to "
+      "5 m");
   EXPECT_EQ(planar_fault_of({"planar_tf=base", "planar_map_frame="}),
             "planar_tf: base needs names in planar_map_frame and planar_odom_frame");
   EXPECT_EQ(planar_fault_of({"planar_tf=off", "planar_map_frame="}), "");

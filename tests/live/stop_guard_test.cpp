@@ -311,6 +311,17 @@ TEST(StopGuardOf, FramesThatComeFasterThanTheyAreAnsweredAreLostAndCounted) {
   EXPECT_EQ(frame.use_count(), 2) << "only the newest is kept";
 }
 
+TEST(StopGuardOf, RefusedSettingsAreNamedWithWhatIsAllowed) {
+  LoadedConfig loaded = load_config("", hall_settings());
+  loaded.planar.floor_z_m = 99.0;
+  try {
+    const StopGuard guard(loaded, nullptr);
+    FAIL() << "floor_z_m is 99";
+  } catch (const std::runtime_error& refusal) {
+    EXPECT_STREQ(refusal.what(), "planar stop: floor_z_m must be from -10 to 10");
+  }
+}
+
 // Without a motion every motion is assumed.
 TEST(StopGuardOf, MeasuredMotionIsUsedOnlyWhereAskedForAndFresh) {
   for (const std::string mode : {"assumed", "measured"}) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <variant>
 
@@ -147,6 +148,20 @@ std::string broken_time_rule(const PlanarSettings& settings) {
   return "";
 }
 
+// What the stop refuses of all keys together. The range of a key keeps every other setting within the stop's own.
+std::string broken_stop_rule(const PlanarSettings& settings) {
+  const pose_wall_planar_stop_settings stop = stop_settings_of(settings);
+  pose_wall_planar_fault fault{};
+  if (pose_wall_planar_stop_settings_check(&stop, &fault) == POSE_WALL_OK) return "";
+  if (std::string(fault.member) != "corner_m") return say("planar stop: {}", fault.rule);
+  const bool is_behind = -settings.x_min_m > settings.x_max_m, is_right = -settings.y_min_m > settings.y_max_m;
+  const double x_m = is_behind ? settings.x_min_m : settings.x_max_m;
+  const double y_m = is_right ? settings.y_min_m : settings.y_max_m;
+  return say("{} {:g} m and {} {:g} m: this corner of the machine is {:.2f} m from base; allowed: up to 5 m",
+             is_behind ? "planar_x_min" : "planar_x_max", x_m, is_right ? "planar_y_min" : "planar_y_max", y_m,
+             std::hypot(x_m, y_m));
+}
+
 }  // namespace
 
 const std::vector<OutsideKey>& planar_keys() {
@@ -224,16 +239,12 @@ std::string broken_planar_rule(const PlanarSettings& settings) {
   if (settings.is_on()) {
     if (std::string rule = broken_time_rule(settings); !rule.empty()) return rule;
   }
-  const pose_wall_planar_stop_settings stop = stop_settings_of(settings);
-  if (pose_wall_planar_stop_settings_check(&stop, nullptr) != POSE_WALL_OK) {
-    return say(
-        "planar_x_min, planar_x_max, planar_y_min, planar_y_max: the rectangle's corners must be within 5 m of "
-        "base");
-  }
+  if (std::string rule = broken_stop_rule(settings); !rule.empty()) return rule;
   pose_wall_planar_fault fault{};
   const pose_wall_planar_scanner_settings scanner = scanner_settings_of(settings);
   if (pose_wall_planar_scanner_settings_check(&scanner, &fault) == POSE_WALL_OK) return "";
-  return say("planar_height, planar_clearance are refused: {}", fault.rule);
+  return say("planar_height {:g} m, planar_clearance {:g} m are refused: {}", settings.height_m, settings.clearance_m,
+             fault.rule);
 }
 
 }  // namespace pose_wall::tools

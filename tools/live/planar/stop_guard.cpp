@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "config_file/key_table.hpp"
+#include "language/language.hpp"
 #include "live/clocks.hpp"
 #include "planar/stop_reasons.hpp"
 
@@ -34,6 +35,13 @@ double along_forward(const pose_wall_config& config, const double* step_m) {
   return axis.front() == '-' ? -along_m : along_m;
 }
 
+// load_config has named the keys of what people can set wrongly.
+std::string refusal_of(const pose_wall_planar_stop_settings& settings) {
+  pose_wall_planar_fault fault{};
+  static_cast<void>(pose_wall_planar_stop_settings_check(&settings, &fault));
+  return say("planar stop: {}", fault.rule != nullptr ? fault.rule : tr("it cannot be opened"));
+}
+
 }  // namespace
 
 std::string stop_reasons_text(std::uint32_t reasons) {
@@ -50,7 +58,7 @@ StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell)
     settings_.turn_error_rad_s = kTurnError_rad_s;
   }
   open(*loaded.config.get());
-  if (stop_ == nullptr) throw std::runtime_error("planar stop: the settings are refused");
+  if (stop_ == nullptr) throw std::runtime_error(refusal_of(settings_));
   newest_.result.struct_size = sizeof newest_.result;
   refuse(&newest_, POSE_WALL_PLANAR_STOP_R_STALE);
 }
