@@ -187,6 +187,9 @@ TEST(CampaignDriveIn, RecordsHaveThePhaseAndProgressCountsTheWay) {
   EXPECT_EQ(phases, (std::map<std::string, int>{{"drive_in", 28}, {"", 4}, {"before", 4}}));
   const campaign::Manifest manifest = campaign::read_manifest(folder.path());
   EXPECT_EQ(manifest.plan.drive_in_m, 0.5);
+  const std::string card = test::text_of(folder.file("card.md"));
+  EXPECT_TRUE(contains(card, "count the frames of the scenes alone: none from before the drive-in ended.")) << card;
+  EXPECT_TRUE(contains(card, "worst events count all frames")) << card;
   for (const RunRecord& record : campaign::read_records(folder.path(), manifest)) {
     EXPECT_EQ(record.run.frames, 2U);
     EXPECT_EQ(record.run.drive_in_frames, 7U);

@@ -24,8 +24,10 @@ std::string head_of(const Card& card) {
                       amount(true, card.manifest.limits.angle_rad), amount(false, card.manifest.limits.distance_m));
   if (card.manifest.plan.drive_in_m > 0.0) {
     text += fmt::format(
-        "The machine drove {} m before each scene began. Shares, levels, mean z² and the table of quantities leave "
-        "these frames out. Counts of frames, diagrams and worst events have them.\n\n",
+        "The machine drove {} m before each scene began. States, valid shares, levels, reasons, mean z², the table of "
+        "quantities, *noticed* and *recovered* count the frames of the scenes alone: none from before the drive-in "
+        "ended. Numbers of frames, *to alert*, diagrams and worst events count all frames, since a value that is wrong "
+        "on the way is wrong, too.\n\n",
         card.manifest.plan.drive_in_m);
   }
   return text + origin_text(card.manifest);
