@@ -63,6 +63,12 @@ TEST_F(CommandInChinese, FaultsOfTheCommandLine) {
   for (const auto& [words, part] : cases) expect_fault(words, 2, part);
 }
 
+TEST_F(CommandInChinese, HelpTellsAFolderFromAFile) {
+  for (const char* verb : {"drive", "map", "localise", "run", "sim", "campaign"}) {
+    EXPECT_TRUE(contains(command({verb, "--help"}).printed, " FOLDER ")) << verb;
+  }
+}
+
 TEST_F(CommandInChinese, FaultsOfSettings) {
   const std::pair<std::vector<std::string>, const char*> settings[] = {
       {{"voxel_leaf=99"}, "超出允许范围或不是有限数"},

@@ -9,11 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "drive/story.hpp"
 #include "drive/story_files.hpp"
+#include "english_left.hpp"
 #include "planar/plane_pose.hpp"
 #include "ran_command.hpp"
 #include "sim/network_kinds.hpp"
@@ -79,6 +81,24 @@ TEST(DriveStory, ReachesItsGoalWithoutAContact) {
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), story.frames().size() + 1);
   EXPECT_TRUE(contains(story_table(story, end, road.roads), "reached"));
   EXPECT_TRUE(contains(story_picture(story, end, road.roads, "t"), "<polyline"));
+}
+
+TEST(DriveStory, WhatWasLostIsToldInWords) {
+  const TaughtRoad& road = corridor();
+  const DriveStory story(road.network, road.model, road.roads, road.way(30, 60));
+  const test::EnglishAfterwards afterwards;
+  for (const auto& [loss, english, chinese] :
+       {std::tuple("dark_wall", "those of a wall, 2.0 s", "某处墙面的回波，2.0 s"),
+        std::tuple("dropout", "most of them, 2.0 s", "大部分回波，2.0 s"),
+        std::tuple("blind", "all of them, 2.0 s", "全部回波，2.0 s")}) {
+    StoryEnd end;
+    end.loss = loss;
+    end.loss_s = 2.0;
+    choose_language(Language::kEnglish);
+    EXPECT_TRUE(contains(story_table(story, end, road.roads), english)) << story_table(story, end, road.roads);
+    choose_language(Language::kChinese);
+    EXPECT_TRUE(contains(story_table(story, end, road.roads), chinese)) << story_table(story, end, road.roads);
+  }
 }
 
 TEST(DriveStory, ReachesWhereTheMapBeganThoughItCannotTurnRoundThere) {

@@ -165,7 +165,9 @@ void name_values(CLI::App& app) {
       } else if (const Meaning* meaning = meaning_of(*option)) {
         option->type_name(meaning->value);
       } else {
-        option->type_name(option->get_description().rfind("Folder", 0) == 0 ? "FOLDER" : "FILE");
+        const std::string help = option->get_description();  // some verbs speak English alone
+        const bool is_folder = help.rfind("Folder", 0) == 0 || help.find(tr("Folder")) != std::string::npos;
+        option->type_name(is_folder ? "FOLDER" : "FILE");
       }
     }
   }

@@ -149,7 +149,7 @@ void DrivePilot::remember(const pose_wall_planar_pose& base) {
 Motion DrivePilot::creep(const Look& look) {
   if (crept_m_ > kCreepMost_m) {
     give_up(say("after {:.0f} m of creeping its place is still {}", kCreepMost_m,
-                pose_wall_planar_localise_state_name(look.where->state)));
+                tr(pose_wall_planar_localise_state_name(look.where->state))));
     return {};
   }
   if (is_held()) {

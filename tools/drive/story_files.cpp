@@ -73,6 +73,12 @@ std::string people_text(const DriveStory& story) {
                                   : std::to_string(story.people().size());
 }
 
+// By sim::loss_name.
+std::string loss_words(const std::string& name) {
+  if (name == "dark_wall") return tr("those of a wall");
+  return name == "dropout" ? tr("most of them") : tr("all of them");
+}
+
 }  // namespace
 
 std::string story_as_csv(const std::vector<StoryFrame>& frames) {
@@ -151,7 +157,8 @@ std::string story_table(const DriveStory& story, const StoryEnd& end, const Taug
   table.add_row({tr("off the route, worst"), fmt::format("{:.3f} m", end.off_route_worst_m)});
   table.add_row({tr("floors that the engine did not measure"), say("{} of {}", end.own_planes, end.floors)});
   table.add_row({tr("people"), people_text(story)});
-  table.add_row({tr("returns lost"), end.loss.empty() ? tr("none") : say("{}, {:.1f} s", end.loss, end.loss_s)});
+  table.add_row(
+      {tr("returns lost"), end.loss.empty() ? tr("none") : say("{}, {:.1f} s", loss_words(end.loss), end.loss_s)});
   add_stops(story.frames(), &table);
   table.add_row({tr("contacts"), std::to_string(end.contacts)});
   table.add_row({tr("goal"), end.has_arrived ? tr("reached") : tr("not reached")});

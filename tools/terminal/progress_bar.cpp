@@ -56,8 +56,8 @@ void ProgressBar::draw(const std::string& note) {
   const std::size_t filled = total_ > 0 ? kBarCells * done_ / total_ : kBarCells;
   std::string bar;
   for (std::size_t i = 0; i < kBarCells; ++i) bar += i < filled ? "█" : "░";
-  fmt::print(stderr, "\r\x1b[K{} {}/{}  {:.1f} {}/s  {} left  {}", bar, done_, total_, per_second, unit_,
-             duration_text(left_s), note.substr(0, kNoteMax));
+  fmt::print(stderr, "\r\x1b[K{} {}/{}  {}  {}", bar, done_, total_,
+             say("{:.1f} {}/s  {} left", per_second, tr(unit_), duration_text(left_s)), note.substr(0, kNoteMax));
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <string>
 
+#include "language/language.hpp"
+
 namespace pose_wall::tools {
 
 // True when the stream number (1: stdout, 2: stderr) is a terminal that a person looks at.
@@ -20,8 +22,8 @@ std::string duration_text(double seconds);
 // Writes to stderr, and nothing at all unless enabled.
 class ProgressBar {
  public:
-  // `unit`: what is counted, for the rate.
-  ProgressBar(std::size_t total, bool enabled, const char* unit = "frames");
+  // `unit`: what is counted, for the rate; a translatable text.
+  ProgressBar(std::size_t total, bool enabled, const char* unit = translatable("frames"));
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   ~ProgressBar();  // takes the line away

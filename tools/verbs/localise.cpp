@@ -139,7 +139,7 @@ class PlaceRecorder {
 
 // Ctrl-C ends it after the scan at work.
 void follow_scans(const LocaliseOptions& options, ScanSource& source, PlaceRecorder follower, LocaliseWork* work) {
-  ProgressBar bar(source.scans(), !options.frames.quiet && is_terminal(2), "scans");
+  ProgressBar bar(source.scans(), !options.frames.quiet && is_terminal(2), translatable("scans"));
   for (std::size_t number = 0; !InterruptWatch::is_interrupted(); ++number) {
     std::optional<SourcedScan> scan = source.next();
     if (!scan) break;

@@ -61,7 +61,7 @@ pose_wall_planar_slam_settings settings_for(pose_wall_planar_slam_settings setti
 
 // Ctrl-C ends it after the scan at work.
 void add_scans(const MapOptions& options, ScanSource& source, MapWork* work) {
-  ProgressBar bar(source.scans(), !options.frames.quiet && is_terminal(2), "scans");
+  ProgressBar bar(source.scans(), !options.frames.quiet && is_terminal(2), translatable("scans"));
   while (!InterruptWatch::is_interrupted()) {
     std::optional<SourcedScan> scan = source.next();
     if (!scan) break;

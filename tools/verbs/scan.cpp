@@ -159,7 +159,7 @@ std::string write_scans(const ScanOptions& options, ScanSource& source, RowOutpu
                         ScanCounts* counts) {
   const auto* clouds = dynamic_cast<const CloudScans*>(&source);
   const bool bar_shown = !options.frames.quiet && is_terminal(2) && !(rows->is_stdout() && is_terminal(1));
-  ProgressBar bar(source.scans(), bar_shown, "scans");
+  ProgressBar bar(source.scans(), bar_shown, translatable("scans"));
   for (std::size_t number = 0; !InterruptWatch::is_interrupted(); ++number) {
     const std::optional<SourcedScan> scan = source.next();
     if (!scan) break;
