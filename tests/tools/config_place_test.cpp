@@ -73,8 +73,40 @@ TEST_F(ConfigPlaceTest, SeveralStandOverEachOtherInTheirOrder) {
   EXPECT_EQ(both.file, "own.yaml," + folder.file("shipped/mine.yaml"));
   folder.write("here/a,b.yaml", "range_max: 6\n");
   EXPECT_EQ(range_max("a,b.yaml"), 6.0) << "a name with a comma";
-  for (const char* words : {"mine,", ",mine", "mine,,own", "mine,nothing"}) {
-    EXPECT_THROW(load_config(words, {}), ConfigError) << words;
+  for (const char* words : {"mine, own", " mine ,own", "mine,\town "}) EXPECT_EQ(range_max(words), 8.0) << words;
+  EXPECT_THROW(load_config("mine,nothing", {}), ConfigError);
+  for (const std::string words : {"mine,", ",mine", "mine,,own", "mine, ,own", " "}) {
+    try {
+      load_config(words, {});
+      ADD_FAILURE() << words;
+    } catch (const ConfigError& refusal) {
+      EXPECT_EQ(refusal.what(), "'" + words +
+                                    "': a config is missing beside a comma; allowed: names and files with one comma "
+                                    "between, as vlp16,hand_held");
+    }
+  }
+}
+
+TEST_F(ConfigPlaceTest, ALaterFileSaysWhatItChangesAndOnlyThat) {
+  folder.write("here/own.yaml", "# mine\nforward_axis: -Y\nrange_noise: 0.0150\nrange_min: 0.4\n");
+  const std::string changed =
+      "own.yaml:2: forward_axis: '-Y' instead of '+X' (" + folder.file("shipped/vlp16.yaml") + ":1)";
+  EXPECT_EQ(load_config("vlp16,own", {"range_min=0.5"}).notes, changed)
+      << "the same number, a key of one file and --set are no surprise";
+  EXPECT_EQ(load_config("own", {}).notes, "");
+  folder.write("here/last.yaml", "forward_axis: +Y\nplanar_cell: 0.1\n");
+  EXPECT_EQ(load_config("vlp16,own,last", {}).notes,
+            changed + "\nlast.yaml:1: forward_axis: '+Y' instead of '-Y' (own.yaml:2)");
+  folder.write("here/more.yaml", "planar_cell: 0.2\n");
+  EXPECT_EQ(load_config("last,more", {}).notes, "more.yaml:1: planar_cell: '0.2' instead of '0.1' (last.yaml:2)");
+  const test::Ran shown = command({"check-config", "vlp16,own"});
+  EXPECT_EQ(shown.errors, changed + "\n");
+  EXPECT_FALSE(contains(shown.printed, "instead of"));
+}
+
+TEST_F(ConfigPlaceTest, HelpSaysWhereNamesAreLookedFor) {
+  for (const char* verb : {"run", "map", "explain", "doctor", "campaign", "eval", "demo", "check-config"}) {
+    EXPECT_TRUE(contains(command({verb, "--help"}).printed, "POSE_WALL_CONFIG_DIR")) << verb;
   }
 }
 

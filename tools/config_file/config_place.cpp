@@ -43,6 +43,12 @@ bool is_name(const std::string& word) {
   return !word.empty() && word.find('/') == std::string::npos && word != "-" && word.front() != '.';
 }
 
+std::string without_blanks_around(const std::string& word) {
+  constexpr const char* kBlanks = " \t";
+  const std::size_t from = word.find_first_not_of(kBlanks);
+  return from == std::string::npos ? "" : word.substr(from, word.find_last_not_of(kBlanks) - from + 1);
+}
+
 std::string with_ending(const std::string& word) {
   return fs::path(word).extension() == kConfigEnding ? word : word + kConfigEnding;
 }
@@ -121,12 +127,20 @@ std::vector<ConfigPlace> find_configs(const std::string& words) {
   std::vector<ConfigPlace> places;
   for (std::size_t from = 0; from <= words.size();) {
     const std::size_t comma = std::min(words.find(',', from), words.size());
-    const std::string word = words.substr(from, comma - from);
-    places.push_back(word.empty() ? ConfigPlace{words, "", say("{}: no such file{}", words, what_is_there(words))}
+    const std::string word = without_blanks_around(words.substr(from, comma - from));
+    places.push_back(word.empty() ? ConfigPlace{words, "",
+                                                say("'{}': a config is missing beside a comma; allowed: names and "
+                                                    "files with one comma between, as vlp16,hand_held",
+                                                    words)}
                                   : find_config(word));
     from = comma + 1;
   }
   return places;
+}
+
+std::string config_help(const std::string& settings) {
+  return say("{}. Names are looked for in this folder, in that of POSE_WALL_CONFIG_DIR, and among those installed",
+             settings);
 }
 
 std::string shipped_config_name(const ConfigPlace& place) {

@@ -20,13 +20,16 @@ struct ConfigPlace {
 // A file of that path wins, then WORD.yaml in this folder, then the configs of the folders below, in their order.
 ConfigPlace find_config(const std::string& word);
 
-// One word, or several with commas between them, as vlp16,hand_held: a later file stands over the ones before it. A
-// file whose name has a comma is found, too. Empty for no word.
+// One word, or several with commas between them, as vlp16,hand_held: a later file stands over the ones before it.
+// Blanks beside commas do not count. A file whose name has a comma is found, too. Empty for no word.
 std::vector<ConfigPlace> find_configs(const std::string& words);
 
 // Where configs lie that are found by name: POSE_WALL_CONFIG_DIR, share/pose_wall/config of the prefix that this
 // program is installed in, and config/ of the source tree that it was built in. Only those that are there.
 std::vector<std::filesystem::path> config_folders();
+
+// Help of an option that takes such words: `settings`, and where names are looked for.
+std::string config_help(const std::string& settings);
 
 // The name of a config that was found in one of those folders; empty for a file of one's own.
 std::string shipped_config_name(const ConfigPlace& place);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -34,13 +35,13 @@ class ConfigLoader {
     if (!place.error.empty()) return fault(place.error);
     const std::string& file = place.file;
     loaded_.file += (loaded_.file.empty() ? "" : ",") + file;
-    if (!place.note.empty()) loaded_.notes += (loaded_.notes.empty() ? "" : "\n") + place.note;
+    note(place.note);
     std::map<std::string, std::size_t> lines;
     for (const YamlEntry& entry : entries_of(file)) {
       const std::string where = fmt::format("{}:{}", file, entry.line);
       const auto [first, is_new] = lines.emplace(entry.key, entry.line);
       if (is_new) {
-        apply(where, entry.key, entry.value, entry.is_sequence);
+        apply_entry(where, entry);
       } else {
         fault(say("{}: {}: set a second time; the first is at line {}", where, entry.key, first->second));
       }
@@ -77,6 +78,26 @@ class ConfigLoader {
   }
 
  private:
+  // A file that stands over others says what it changes: the order of files is easily mistaken.
+  void apply_entry(const std::string& where, const YamlEntry& entry) {
+    const std::string before = loaded_.origin(entry.key);
+    apply(where, entry.key, entry.value, entry.is_sequence);
+    const auto [set, is_first] = written_.emplace(entry.key, entry.value);
+    if (is_first) return;
+    if (!is_same_value(set->second, entry.value)) {
+      note(say("{}: {}: '{}' instead of '{}' ({})", where, entry.key, entry.value, set->second, before));
+    }
+    set->second = entry.value;
+  }
+
+  // As a config file writes it: "2.0" is "2".
+  static bool is_same_value(const std::string& a, const std::string& b) {
+    char *end_of_a = nullptr, *end_of_b = nullptr;
+    const double number_a = std::strtod(a.c_str(), &end_of_a), number_b = std::strtod(b.c_str(), &end_of_b);
+    const bool are_numbers = !a.empty() && !b.empty() && *end_of_a == '\0' && *end_of_b == '\0';
+    return are_numbers ? number_a == number_b : a == b;
+  }
+
   std::vector<YamlEntry> entries_of(const std::string& file) {
     std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored)) {
@@ -107,13 +128,15 @@ class ConfigLoader {
 
   void apply(const std::string& where, const std::string& key, const std::string& value, bool is_sequence) {
     if (const OutsideKey* live_key = find_live_key(key)) {
-      return note(where, *live_key, value, !is_sequence && set_live_value(&loaded_.live, *live_key, value));
+      return take_outside(where, *live_key, value, !is_sequence && set_live_value(&loaded_.live, *live_key, value));
     }
     if (const OutsideKey* planar_key = find_planar_key(key)) {
-      return note(where, *planar_key, value, !is_sequence && set_planar_value(&loaded_.planar, *planar_key, value));
+      return take_outside(where, *planar_key, value,
+                          !is_sequence && set_planar_value(&loaded_.planar, *planar_key, value));
     }
     if (const OutsideKey* motion_key = find_motion_key(key)) {
-      return note(where, *motion_key, value, !is_sequence && set_motion_value(&loaded_.motion, *motion_key, value));
+      return take_outside(where, *motion_key, value,
+                          !is_sequence && set_motion_value(&loaded_.motion, *motion_key, value));
     }
     const std::optional<pose_wall_key_info> known = find_config_key(key);
     if (!known) {
@@ -136,7 +159,7 @@ class ConfigLoader {
   }
 
   // Of keys that the engine does not read.
-  void note(const std::string& where, const OutsideKey& key, const std::string& value, bool is_taken) {
+  void take_outside(const std::string& where, const OutsideKey& key, const std::string& value, bool is_taken) {
     if (is_taken) {
       loaded_.origins[key.name] = where;
     } else {
@@ -173,12 +196,16 @@ class ConfigLoader {
     return names;
   }
 
-  void fault(const std::string& text) {
-    if (!faults_.empty()) faults_ += '\n';
-    faults_ += text;
+  void fault(const std::string& text) { add_line(text, &faults_); }
+  void note(const std::string& text) { add_line(text, &loaded_.notes); }
+
+  static void add_line(const std::string& text, std::string* lines) {
+    if (!lines->empty() && !text.empty()) *lines += '\n';
+    *lines += text;
   }
 
   LoadedConfig loaded_;
+  std::map<std::string, std::string> written_;  // values of the files, by key
   std::string faults_;
 };
 
@@ -195,6 +222,10 @@ LoadedConfig load_config(const std::string& files, const std::vector<std::string
   for (const std::string& setting : settings) loader.apply_setting(setting);
   loader.check_rules();
   return loader.take();
+}
+
+void tell_notes(const LoadedConfig& loaded, bool quiet) {
+  if (!quiet && !loaded.notes.empty()) fmt::print(stderr, "{}\n", loaded.notes);
 }
 
 }  // namespace pose_wall::tools

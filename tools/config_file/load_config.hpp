@@ -21,7 +21,7 @@ namespace pose_wall::tools {
 struct LoadedConfig {
   api::Config config;
   std::string file;       // that was read, or files with commas between them; empty: none
-  std::string notes;      // what a person should know of their choice, a line each; empty: nothing
+  std::string notes;      // what a person should know of their choice and order, a line each; empty: nothing
   LiveSettings live;      // of pose_walld; the engine does not read them
   PlanarSettings planar;  // likewise
   pose_wall_motion_settings motion = default_motion_settings();
@@ -40,5 +40,8 @@ class ConfigError : public std::runtime_error {
 // Defaults, then each file or config of that name in turn (find_configs; "": none), then each KEY=VALUE in turn; then
 // the rules over several keys. All faults are collected before anything is thrown. Throws ConfigError.
 LoadedConfig load_config(const std::string& files, const std::vector<std::string>& settings);
+
+// The notes, on stderr.
+void tell_notes(const LoadedConfig& loaded, bool quiet);
 
 }  // namespace pose_wall::tools

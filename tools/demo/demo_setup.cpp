@@ -66,10 +66,10 @@ sim::Setup demo_setup(const DemoOptions& options) {
   return setup;
 }
 
-api::Config demo_config(const DemoOptions& options, const sim::Setup& setup) {
+LoadedConfig demo_config(const DemoOptions& options, const sim::Setup& setup) {
   std::vector<std::string> settings = settings_as_simulated(setup);
   settings.insert(settings.end(), options.settings.begin(), options.settings.end());
-  return load_config(options.config_file, settings).config;
+  return load_config(options.config_file, settings);
 }
 
 }  // namespace pose_wall::tools

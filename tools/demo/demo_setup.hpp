@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "pose_wall.hpp"
+#include "config_file/load_config.hpp"
 #include "sim/setup.hpp"
 
 namespace pose_wall::tools {
@@ -28,6 +28,6 @@ sim::Setup demo_setup(const DemoOptions& options);
 
 // Defaults, then axes, sampling points and extrinsic as simulated and a box around the simulated machine's body, then
 // the config file and settings of the options. Throws ConfigError.
-api::Config demo_config(const DemoOptions& options, const sim::Setup& setup);
+LoadedConfig demo_config(const DemoOptions& options, const sim::Setup& setup);
 
 }  // namespace pose_wall::tools

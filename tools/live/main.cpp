@@ -18,6 +18,8 @@
 #include "command_line/help_format.hpp"
 #include "command_line/language_option.hpp"
 #include "command_line/parse_fault.hpp"
+#include "config_file/config_place.hpp"
+#include "config_file/load_config.hpp"
 #include "language/language.hpp"
 #include "live/daemon.hpp"
 #include "verbs/one_of.hpp"
@@ -84,6 +86,7 @@ int run(Words words) {
   if (!words.http.empty()) words.settings.push_back("http=" + words.http);
   if (!words.modbus.empty()) words.settings.push_back("modbus=" + words.modbus);
   const LoadedConfig loaded = load_config(words.config_file, words.settings);
+  tell_notes(loaded, false);
   std::optional<ReplayPlan> replay;
   if (!words.replay.inputs.empty()) replay = words.replay;
   StopSignals signals;
@@ -107,7 +110,8 @@ std::string footer() {
 
 void add_options(CLI::App* app, Words* words) {
   use_help_format(*app);
-  app->add_option("-c,--config", words->config_file, tr("Settings, as config/pose_wall.yaml; default: the defaults"));
+  app->add_option("-c,--config", words->config_file,
+                  config_help(tr("Settings, as config/pose_wall.yaml; default: the defaults")));
   app->add_option("-s,--set", words->settings, tr("KEY=VALUE over the file; may be repeated"))->allow_extra_args(false);
   app->add_option("--http", words->http, tr("Serve the page at HOST:PORT; short for --set http="));
   app->add_option("--modbus", words->modbus, tr("Serve the process image at HOST:PORT; short for --set modbus="));

@@ -105,7 +105,9 @@ int tell(SoakVerdict verdict) {
 }
 
 int run(SoakOptions* options) {
-  options->plan.config = *load_config(options->config_file, options->settings).config.get();
+  const LoadedConfig loaded = load_config(options->config_file, options->settings);
+  tell_notes(loaded, false);
+  options->plan.config = *loaded.config.get();
   for (const std::filesystem::path& path : collect_inputs(options->inputs).files) {
     options->plan.frames.push_back(points_of(load_frame(path).cloud, options->points));
   }

@@ -61,7 +61,7 @@ struct CampaignOptions {
 };
 
 // Before any work: in the midst of thousands of runs a mistyped key would come late. Throws ConfigError.
-void check_settings(const campaign::EngineChoice& engine) {
+void check_settings(const campaign::EngineChoice& engine, bool quiet) {
   std::error_code ignored;
   for (const ConfigPlace& place : find_configs(engine.config_file)) {
     if (!std::filesystem::exists(place.file, ignored) || std::filesystem::is_regular_file(place.file, ignored))
@@ -69,7 +69,7 @@ void check_settings(const campaign::EngineChoice& engine) {
     throw std::invalid_argument(fmt::format(
         "--config {}: not a regular file; every run reads it again, and a pipe can be read only once", place.file));
   }
-  load_config(engine.config_file, engine.settings);
+  tell_notes(load_config(engine.config_file, engine.settings), quiet);
 }
 
 std::vector<campaign::Run> plan_of(const campaign::PlanRequest& request) {
@@ -91,7 +91,7 @@ campaign::Manifest manifest_of(const CampaignOptions& options, const std::vector
 }
 
 campaign::Manifest run_campaign(const CampaignOptions& options) {
-  check_settings(options.engine);
+  check_settings(options.engine, options.quiet);
   const std::vector<campaign::Run> runs = runs_of(options);
   campaign::Manifest manifest = manifest_of(options, runs);
   make_output_folder(options.output);
@@ -154,7 +154,7 @@ int tell_interrupted(const CampaignOptions& options) {
 
 // Nothing is kept: the table is all there is of it.
 int run_sweep(const CampaignOptions& options) {
-  check_settings(options.engine);
+  check_settings(options.engine, options.quiet);
   const campaign::SweepRequest request = campaign::parse_sweep(options.sweep);
   const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
   const campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
@@ -344,7 +344,8 @@ void add_campaign(CLI::App& app, int& exit_code) {
   verb->add_option("-j,--jobs", options->jobs, "Runs at a time")
       ->capture_default_str()
       ->check(whole_number_within(1, 1024));
-  verb->add_option("-c,--config", options->engine.config_file, "Settings; those of scene and sensor override them");
+  verb->add_option("-c,--config", options->engine.config_file,
+                   config_help("Settings; those of scene and sensor override them"));
   verb->add_option("-s,--set", options->engine.settings, "KEY=VALUE, overrides all settings; may be repeated")
       ->allow_extra_args(false);
   verb->add_option("--events", options->events, "Number of worst events on the card")

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "angles.hpp"
+#include "config_file/config_place.hpp"
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
 #include "config_file/resolved_frames.hpp"
@@ -224,6 +225,7 @@ int check_config(const CheckConfigOptions& options) {
     return kExitDone;
   }
   const LoadedConfig loaded = load_config(options.file, options.settings);
+  tell_notes(loaded, false);
   const ResolvedFrames frames = resolve_frames(loaded.config);
   print_unit_doubts(loaded.config);
   print_axes(frames);
@@ -240,7 +242,8 @@ void add_check_config(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<CheckConfigOptions>();
   CLI::App* verb =
       app.add_subcommand("check-config", tr("Check settings; show axes, signs, sampling points and every value"));
-  verb->add_option("FILE", options->file, tr("Settings, as config/pose_wall.yaml; without it the defaults"));
+  verb->add_option("FILE", options->file,
+                   config_help(tr("Settings, as config/pose_wall.yaml; without it the defaults")));
   verb->add_option("-s,--set", options->settings, tr("KEY=VALUE over the file; may be repeated"))
       ->allow_extra_args(false);
   verb->add_flag("-k,--keys", options->keys, tr("Print the manual of all keys instead"));

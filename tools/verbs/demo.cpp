@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "config_file/config_place.hpp"
 #include "demo/demo_run.hpp"
 #include "demo/demo_setup.hpp"
 #include "demo/live_table.hpp"
@@ -71,7 +72,9 @@ void print_end(const DemoRun& run, const std::filesystem::path& folder) {
 
 int demo(const DemoVerb& verb) {
   const sim::Setup setup = demo_setup(verb.demo);
-  DemoRun run(setup, demo_config(verb.demo, setup), verb.demo.seed);
+  const LoadedConfig loaded = demo_config(verb.demo, setup);
+  tell_notes(loaded, verb.quiet);
+  DemoRun run(setup, loaded.config, verb.demo.seed);
   make_output_folder(verb.output);
   const std::filesystem::path folder = verb.output;
   ResultOutput output((folder / "demo.csv").string(), {});
@@ -105,7 +108,8 @@ void add_demo(CLI::App& app, int& exit_code) {
   verb->add_option("--seed", options->demo.seed, "Seed of rock and noise")
       ->capture_default_str()
       ->check(whole_number());
-  verb->add_option("-c,--config", options->demo.config_file, "Settings of the engine, as config/pose_wall.yaml");
+  verb->add_option("-c,--config", options->demo.config_file,
+                   config_help("Settings of the engine, as config/pose_wall.yaml"));
   verb->add_option("-s,--set", options->demo.settings, "Setting of the engine, KEY=VALUE; may be repeated")
       ->allow_extra_args(false);
   verb->add_option("--simulate", options->demo.simulation, "Number of the simulator, KEY=VALUE; may be repeated")

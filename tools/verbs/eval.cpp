@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "angles.hpp"
+#include "config_file/config_place.hpp"
 #include "config_file/load_config.hpp"
 #include "csv/csv_file.hpp"
 #include "csv/csv_table.hpp"
@@ -223,6 +224,7 @@ int eval_motion(const EvalOptions& options, const CsvTable& results, const CsvTa
 int eval(const EvalOptions& options) {
   demand_settings_for_bound(options);
   const LoadedConfig loaded = load_config(options.config_file, options.settings);
+  tell_notes(loaded, false);
   const AlertLimits limits = alert_limits_of(loaded.config);
   const CsvTable results = read_csv_file(options.results);
   const CsvTable truth = read_csv_file(options.truth);
@@ -253,7 +255,7 @@ void add_eval(CLI::App& app, int& exit_code) {
                       "motion: x, y, z (m) and qx, qy, qz, qw, or r00 to r22 and tx, ty, tz"))
       ->required();
   verb->add_option("-c,--config", options->config_file,
-                   tr("Settings that RESULT was measured with; they hold the alert limits"));
+                   config_help(tr("Settings that RESULT was measured with; they hold the alert limits")));
   verb->add_option("-s,--set", options->settings, tr("KEY=VALUE over the config; may be repeated"))
       ->allow_extra_args(false);
   CLI::Option* frames =

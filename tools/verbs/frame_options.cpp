@@ -52,7 +52,7 @@ void append(std::string* words, const char* option, const std::string& value) {
 
 LoadedConfig FrameOptions::load() const {
   LoadedConfig loaded = load_config(config_file, settings);
-  if (!quiet && !loaded.notes.empty()) fmt::print(stderr, "{}\n", loaded.notes);
+  tell_notes(loaded, quiet);
   return loaded;
 }
 
@@ -110,8 +110,9 @@ void add_frame_options(CLI::App* verb, FrameOptions* options, const char* input_
   verb->add_option("INPUT", options->inputs, tr(input_help))->required();
   add_input_options(verb, &options->input);
   verb->add_option("-c,--config", options->config_file,
-                   tr("Settings: a file, or the name of a config that comes with pose_wall, as vlp16; several with "
-                      "commas between, as vlp16,hand_held, each over the ones before; default: the defaults"));
+                   config_help(tr("Settings: a file, or the name of a config that comes with pose_wall, as vlp16; "
+                                  "several with commas between, as vlp16,hand_held, each over the ones before; "
+                                  "default: the defaults")));
   verb->add_option("-s,--set", options->settings, tr("KEY=VALUE over the config; may be repeated"))
       ->allow_extra_args(false);
   verb->add_option("-r,--rate", options->rate_hz, tr("Frames per second, for frames without stamps"))
