@@ -115,6 +115,31 @@ TEST(Sentences, AFloorThatMayBeARampSaysAllThatItsLevelsGrowBy) {
                "grow by the angle between them, and by the floor's tilt, since a machine stands about upright."));
 }
 
+// The engine counts the frames for which it keeps a doubt, and the results of earlier frames tell which one began it.
+TEST(Sentences, ADoubtThatIsKeptNamesTheFrameThatShowedTheRival) {
+  pose_wall_result both = api::make_result(), left_refused = api::make_result();
+  for (pose_wall_value& value : both.quantity) value.raw = 1.0;
+  for (pose_wall_value& value : left_refused.quantity) value.raw = NAN;
+  left_refused.quantity[POSE_WALL_YAW].raw = left_refused.quantity[POSE_WALL_D_RF].raw = 1.0;
+  both.left.reasons = left_refused.left.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
+  RivalsSeen rivals;
+  rivals.add(both, 7);
+  rivals.add(left_refused, 8);
+  both.left.reasons = 0;
+  rivals.add(both, 9);
+  Noted noted;
+  for (pose_wall_value& value : noted.result.quantity) value.raw = 1.0;
+  for (const std::uint32_t quantity : {POSE_WALL_YAW, POSE_WALL_D_LB, POSE_WALL_D_RB}) {
+    noted.note(POSE_WALL_TRACE_QUANTITY + quantity, POSE_WALL_TRACE_DOUBTED, 2.0, 0.0, false);
+  }
+  const std::vector<std::string> told = explain_frame(*noted.config.get(), noted.result, noted.trace, rivals).outcome;
+  const char* const says = "Frames left, this one included: 2. It was last seen in frame 7.";
+  EXPECT_TRUE(contains(told[POSE_WALL_YAW], says)) << told[POSE_WALL_YAW];
+  EXPECT_TRUE(contains(told[POSE_WALL_D_LB], says)) << told[POSE_WALL_D_LB];
+  EXPECT_FALSE(contains(told[POSE_WALL_D_RB], "last seen")) << told[POSE_WALL_D_RB];
+  EXPECT_FALSE(contains(told[POSE_WALL_D_LF], "last seen")) << "no doubt is kept";
+}
+
 TEST(Sentences, WhatTwoGatesAskForIsToldOnce) {
   const Explanation explanation{
       {{POSE_WALL_TRACE_FLOOR, Verdict::kRefused, {"No."}, {"a; b c", "d; b c", "a"}}}, {}, {}};

@@ -29,11 +29,11 @@ std::string picture_of(const RecordingRun& run, const pose_wall_points& points, 
                                  tr("pose_wall: why this frame came out as it did"), in_a_row(parts)});
 }
 
-Explained explained_of(const RecordingRun& run, TracedFrame traced, const pose_wall_points& points,
-                       std::uint64_t frame) {
+Explained explained_of(const RecordingRun& run, TracedFrame traced, const RivalsSeen& rivals,
+                       const pose_wall_points& points, std::uint64_t frame) {
   Explained out;
   out.traced = std::move(traced);
-  out.explanation = explain_frame(*run.loaded.config.get(), out.traced->result, *out.traced->trace);
+  out.explanation = explain_frame(*run.loaded.config.get(), out.traced->result, *out.traced->trace, rivals);
   if (run.wants_picture) out.picture = picture_of(run, points, out, frame);
   return out;
 }
@@ -54,6 +54,7 @@ std::optional<Explained> explain_one(const RecordingRun& run, FrameSequence& inp
   FrameRunner runner(run.loaded.config, run.rate_hz, run.loaded.motion);
   const InterruptWatch watch;
   ProgressBar bar(static_cast<std::size_t>(frame) + 1, run.shows_progress);
+  RivalsSeen rivals;
   for (std::uint64_t i = 0; !InterruptWatch::is_interrupted(); ++i) {
     std::optional<SourcedFrame> sourced = inputs.next();
     if (!sourced) throw std::runtime_error(say("the input ended before frame {}", frame));
@@ -61,13 +62,14 @@ std::optional<Explained> explain_one(const RecordingRun& run, FrameSequence& inp
       const Memento before = memento_of(runner.engine());
       Explained out;
       FrameOutcome outcome = runner.run(std::move(*sourced), [&](const auto& cloud, const auto& points, const auto&) {
-        out = explained_of(run, trace_frame(run.loaded.config, before, cloud), points, frame);
+        out = explained_of(run, trace_frame(run.loaded.config, before, cloud), rivals, points, frame);
       });
       out.outcome = std::move(outcome);
       expect_same_bits(out);
       return out;
     }
     const FrameOutcome outcome = runner.run(std::move(*sourced));
+    if (outcome.result) rivals.add(*outcome.result, i);
     tell_unreadable(bar, outcome);
     bar.advance(outcome.source);
   }
@@ -79,6 +81,7 @@ ExplainedRecording explain_all(const RecordingRun& run, FrameSequence& inputs) {
   FrameRunner runner(run.loaded.config, run.rate_hz, run.loaded.motion);
   const InterruptWatch watch;
   ProgressBar bar(inputs.frames(), run.shows_progress);
+  RivalsSeen rivals;
   for (std::uint64_t i = 0; !(all.interrupted = InterruptWatch::is_interrupted()); ++i) {
     std::optional<SourcedFrame> sourced = inputs.next();
     if (!sourced) break;
@@ -90,8 +93,9 @@ ExplainedRecording explain_all(const RecordingRun& run, FrameSequence& inputs) {
           if (!is_worst && !all.digest.is_new(result)) return;
           TracedFrame traced = trace_frame(run.loaded.config, before, cloud);
           all.digest.add_notes(result, *traced.trace);
-          if (is_worst) worst = explained_of(run, std::move(traced), points, i);
+          if (is_worst) worst = explained_of(run, std::move(traced), rivals, points, i);
         });
+    if (outcome.result) rivals.add(*outcome.result, i);
     tell_unreadable(bar, outcome);
     bar.advance(outcome.source);
     all.digest.add(outcome);

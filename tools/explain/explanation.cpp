@@ -201,8 +201,8 @@ std::string verdict_words(Verdict verdict) {
   }
 }
 
-Explanation explain_frame(const pose_wall_config& config, const pose_wall_result& result,
-                          const pose_wall_trace& trace) {
+Explanation explain_frame(const pose_wall_config& config, const pose_wall_result& result, const pose_wall_trace& trace,
+                          const RivalsSeen& rivals) {
   const Notes notes(trace);
   Explanation out;
   out.paragraphs.push_back(frame_paragraph(config, result, notes));
@@ -210,7 +210,7 @@ Explanation explain_frame(const pose_wall_config& config, const pose_wall_result
     out.paragraphs.push_back(plane_paragraph(config, result, notes, subject));
   }
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    out.outcome.push_back(outcome_sentence(result, notes, q));
+    out.outcome.push_back(outcome_sentence(result, notes, q, rivals));
     for (const std::string& help : outcome_helps(result, notes, q)) add_once(out.outcome_helps, help);
   }
   return out;

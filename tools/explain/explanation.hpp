@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "explain/notes.hpp"
+#include "explain/rivals_seen.hpp"
 
 namespace pose_wall::tools::explain {
 
@@ -30,6 +31,8 @@ struct Explanation {
   std::vector<std::string> outcome_helps;
 };
 
-Explanation explain_frame(const pose_wall_config& config, const pose_wall_result& result, const pose_wall_trace& trace);
+// `rivals`: of the frames before it.
+Explanation explain_frame(const pose_wall_config& config, const pose_wall_result& result, const pose_wall_trace& trace,
+                          const RivalsSeen& rivals = {});
 
 }  // namespace pose_wall::tools::explain

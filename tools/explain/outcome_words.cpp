@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "explain/amounts.hpp"
@@ -113,7 +114,8 @@ std::vector<Note> failed_notes(const Notes& notes, std::uint32_t quantity, bool 
 
 }  // namespace
 
-std::string outcome_sentence(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity) {
+std::string outcome_sentence(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity,
+                             const RivalsSeen& rivals) {
   const pose_wall_value& v = result.quantity[quantity];
   const bool measured = std::isfinite(v.raw);
   const std::string sum = level_sum(v, quantity);
@@ -127,7 +129,12 @@ std::string outcome_sentence(const pose_wall_result& result, const Notes& notes,
       told.emplace_back(tr("Degraded: see the frame."));
     }
   }
-  for (const Note& note : failed_notes(notes, quantity, measured)) told.push_back(sentence_of(note));
+  const std::optional<std::uint64_t> rival_frame = rivals.last(quantity);
+  for (const Note& note : failed_notes(notes, quantity, measured)) {
+    told.push_back(sentence_of(note));
+    if (note.is(POSE_WALL_TRACE_DOUBTED) && rival_frame)
+      told.push_back(say("It was last seen in frame {}.", *rival_frame));
+  }
   return paragraph(told);
 }
 

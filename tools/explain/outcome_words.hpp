@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "explain/notes.hpp"
+#include "explain/rivals_seen.hpp"
 
 namespace pose_wall::tools::explain {
 
-// "d_rf: held, 1.92 m ± 0.08 m, 0.30 s old. Not measured: right wall refused."
-std::string outcome_sentence(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity);
+// "d_rf: held, 1.92 m ± 0.08 m, 0.30 s old. Not measured: right wall refused." `rivals`: of the frames before it.
+std::string outcome_sentence(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity,
+                             const RivalsSeen& rivals = {});
 
 // Remedies by the gates of the quantity itself; some may be empty.
 std::vector<std::string> outcome_helps(const pose_wall_result& result, const Notes& notes, std::uint32_t quantity);
