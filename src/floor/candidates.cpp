@@ -20,7 +20,6 @@ constexpr double kTriangleMin_m2 = 0.10;         // judgement, 2026-11-21: twice
 constexpr std::uint32_t kDrawsPerIteration = 8;  // judgement, 2026-11-21: draws for each hypothesis; caps the loop
 constexpr std::uint32_t kQuickPointsMax = 500;   // 1000 points cost 1.0 M of 92.1 M instructions more (bench/README.md)
 constexpr double kGhostShare = 0.4;              // judgement, 2026-11-21: more rays through a floor make a reflection
-constexpr double kBelowShareMax = 0.05;  // judgement, 2026-11-21: only strays and reflections lie below; 0.3 at first
 // A plane scores at most twice its area. Below this score it can neither be the floor nor rival it.
 double tells_nothing_m2(const Settings& s) {
   return 0.5 * limit_of<gate::FLOOR_RIVAL>(s) * limit_of<gate::FLOOR_AREA>(s);
@@ -155,7 +154,8 @@ void weigh(const FloorScene& scene, const PointSet& within, Among among, FloorSh
     POSE_WALL_NOTE(note_refined(refined, 1.0 - (*list)[k].cost, scene));
     if (!refined.solved || !may_be_floor(refined.plane, limits, sensor)) continue;
     bool repeats = false;
-    for (const FloorCandidate& c : out->all()) repeats = repeats || same_floor(c.plane, refined.plane);
+    for (const FloorCandidate& c : out->all())
+      repeats = repeats || (c.may_carry() && same_floor(c.plane, refined.plane));
     POSE_WALL_NOTE(if (repeats) trace::fate(refined.plane, POSE_WALL_TRACE_REPEATS));
     if (repeats) continue;
     POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_UNSUPPORTED));
@@ -165,11 +165,9 @@ void weigh(const FloorScene& scene, const PointSet& within, Among among, FloorSh
     const FloorEvidence evidence = scratch->grid.evidence(scene.axes);
     scratch->work.add(steps::kFloorWeighed);
     if (evidence.area_m2 < tells_nothing_m2(s)) continue;
-    POSE_WALL_NOTE(trace::fate(refined.plane, POSE_WALL_TRACE_MUCH_BELOW));
-    if (among == Among::kOpen &&
-        has_much_below(scratch->grid, refined.plane, scene.cloud_base, s.ground_roi_radius_max, sensor, kBelowShareMax))
-      continue;
-    out->item[out->count++] = {refined.plane, evidence, false};
+    const bool much_below = among == Among::kOpen && scratch->grid.more_lies_below(refined.plane, scene.cloud_base,
+                                                                                   s.ground_roi_radius_max, sensor);
+    out->item[out->count++] = {refined.plane, evidence, false, much_below};
   }
 }
 
@@ -182,11 +180,11 @@ bool is_below(const Plane& above, const Plane& below, const Eigen::Vector3d& sen
 void mark_ghosts(const FloorScene& scene, const PointSet& within, FloorScratch* scratch,
                  Span<FloorCandidate> candidates) {
   for (const FloorCandidate& above : candidates) {
-    if (above.evidence.area_m2 < limit_of<gate::FLOOR_AREA>(scene.settings)) continue;
+    if (above.much_below || above.evidence.area_m2 < limit_of<gate::FLOOR_AREA>(scene.settings)) continue;
     bool marked = false;
     for (FloorCandidate& below : candidates) {
       if (scratch->work.is_spent()) return;
-      if (!is_below(above.plane, below.plane, scene.sensor_base_m)) continue;
+      if (below.much_below || !is_below(above.plane, below.plane, scene.sensor_base_m)) continue;
       scratch->work.add(within.count, steps::kPointWeighed);
       if (!marked) scratch->grid.mark(within, above.plane, scene.settings.ground_ransac_thresh);
       marked = true;
@@ -221,14 +219,14 @@ bool same_floor(const Plane& a, const Plane& b) {
 
 std::uint32_t FloorCandidates::plausible() const {
   std::uint32_t plausible = 0;
-  for (const FloorCandidate& c : all()) plausible += c.ghost ? 0U : 1U;
+  for (const FloorCandidate& c : all()) plausible += c.may_carry() ? 1U : 0U;
   return plausible;
 }
 
 const FloorCandidate* FloorCandidates::best() const {
   const FloorCandidate* best = nullptr;
   for (const FloorCandidate& c : all()) {
-    if (c.ghost) continue;
+    if (!c.may_carry()) continue;
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;

@@ -20,7 +20,10 @@ using FloorShortlist = Shortlist<kFloorShortlist>;
 struct FloorCandidate {
   Plane plane;
   FloorEvidence evidence;
-  bool ghost = false;  // seen through the open floor of a plane above it, so a reflection in wet ground
+  bool ghost = false;       // seen through the open floor of a plane above it, so a reflection in wet ground
+  bool much_below = false;  // more lies below it than on it, so a deck, a bench or a cut through walls
+
+  bool may_carry() const { return !ghost && !much_below; }
 };
 
 struct FloorCandidates {
@@ -28,7 +31,7 @@ struct FloorCandidates {
   std::uint32_t count = 0;
 
   Span<const FloorCandidate> all() const { return Span<const FloorCandidate>(item, count); }
-  std::uint32_t plausible() const;     // those that are not ghosts
+  std::uint32_t plausible() const;     // those that may carry the machine
   const FloorCandidate* best() const;  // the best score among these, or nullptr
 };
 

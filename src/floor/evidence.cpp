@@ -78,14 +78,12 @@ class FloorGrid::FourBins {
     const FourFloats bin = (z - lowest_m_) * static_cast<float>(1.0 / kHeightBin_m), none{};
     const FourFloats ix = x * static_cast<float>(1.0 / kCell_m) + 0.5F * kSide;
     const FourFloats iy = y * static_cast<float>(1.0 / kCell_m) + 0.5F * kSide;
-    within = x * x + y * y <= radius2_;
-    const FourTruths inside = within & (bin >= none) & (bin < all_four(kHeightBins)) & (ix >= none) &
-                              (ix < all_four(kSide)) & (iy >= none) & (iy < all_four(kSide));
+    const FourTruths inside = (x * x + y * y <= radius2_) & (bin >= none) & (bin < all_four(kHeightBins)) &
+                              (ix >= none) & (ix < all_four(kSide)) & (iy >= none) & (iy < all_four(kSide));
     const FourInts cell = cut_off(inside ? iy : none) * kSide + cut_off(inside ? ix : none);
     place = inside ? cell * kBins + cut_off(inside ? bin : none) : all_four_ints(kNowhere);
   }
 
-  FourTruths within{};
   FourInts place{};
 
   static constexpr std::int32_t kNowhere = -1;  // outside the grid; no place is negative
@@ -100,12 +98,10 @@ void FloorGrid::find_open(const PointSet& points_base, double radius_m, double s
   eighths_.fill(0);
   lowest_m_ = sensor_z_base_m - kBelowSensor_m;
   FourBins four(radius_m, lowest_m_);
-  FourInts within{};                                                         // true is -1
   constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);  // unsigned, like the listed places
   std::uint32_t last = kNowhere;  // points come roughly in the order of their places
   for_each_four_points(points_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
     four.look_at(x, y, z);
-    within -= four.within & counts;
     const FourInts here = counts ? four.place : all_four_ints(FourBins::kNowhere);
     store_four(here, &places[i]);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
@@ -115,7 +111,6 @@ void FloorGrid::find_open(const PointSet& points_base, double radius_m, double s
       if (place != kNowhere) eighths_[place / FourBins::kBins] |= 1ULL << place % FourBins::kBins;
     }
   });
-  points_within_ = sum_of_lanes(within);
   open->count = 0;
   last = kNowhere;
   bool is_open = false;
@@ -157,10 +152,12 @@ void FloorGrid::clear_marks() {
   marked_.fill(0);
   near_marked_.fill(0);
   bounds_ = Bounds{};
+  marked_cells_ = 0;
 }
 
 void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
-  marked_[index(ix, iy)] = 1;
+  marked_[index(ix, iy)] = kMarked;
+  ++marked_cells_;
   bounds_.x_min = ix < bounds_.x_min ? ix : bounds_.x_min;
   bounds_.x_max = ix > bounds_.x_max ? ix : bounds_.x_max;
   bounds_.y_min = iy < bounds_.y_min ? iy : bounds_.y_min;
@@ -207,7 +204,7 @@ FloorEvidence FloorGrid::evidence(const Axes& axes) const {
   NormalEquations spread;
   for (std::int32_t iy = bounds_.y_min; iy <= bounds_.y_max; ++iy) {
     for (std::int32_t ix = bounds_.x_min; ix <= bounds_.x_max; ++ix) {
-      if (marked_[index(ix, iy)] == 0) continue;
+      if ((marked_[index(ix, iy)] & kMarked) == 0) continue;
       const double x = (static_cast<double>(ix - kSide / 2) + 0.5) * kCell_m;
       const double y = (static_cast<double>(iy - kSide / 2) + 0.5) * kCell_m;
       const double across = axes.left_base.x() * x + axes.left_base.y() * y;
@@ -238,24 +235,27 @@ bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen:
   return false;
 }
 
-bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const BoundedPoints& points_base,
-                    double radius_m, const Eigen::Vector3d& sensor_base_m, double share_max) {
+bool FloorGrid::more_lies_below(const Plane& plane, const BoundedPoints& points_base, double radius_m,
+                                const Eigen::Vector3d& sensor_base_m) {
   constexpr double kBelow_m = 0.2;  // judgement, 2026-11-21: a floor dips so far below its plane; benches lie higher
   constexpr double kFall = 0.03;    // judgement, 2026-11-21: and 3 cm more for each metre away (1.7 degrees)
-  const double limit2 = radius_m * radius_m, sensor_height_m = marked_plane.signed_distance(sensor_base_m);
-  const auto most = static_cast<std::uint32_t>(share_max * marked.points_within());
+  const double limit2 = radius_m * radius_m, sensor_height_m = plane.signed_distance(sensor_base_m);
   std::uint32_t below = 0;
-  const Slab low(marked_plane, kAnyDepth_m, -kBelow_m);
+  const Slab low(plane, kAnyDepth_m, -kBelow_m);
   for_each_in_while(points_base, low, [&](std::uint32_t i, float height_m) {
     const Eigen::Vector3d p = points_base.at(i);
     const double away2 = p.head<2>().squaredNorm(), height = static_cast<double>(height_m);
     if (!(away2 <= limit2) || !(height < -(kBelow_m + kFall * std::sqrt(away2)))) return true;
+    const std::int32_t ix = cell_of(points_base.x[i]), iy = cell_of(points_base.y[i]);
+    if (!inside(ix, iy) || (marked_[index(ix, iy)] & kBelow) != 0) return true;
     const Eigen::Vector3d crossing =
         sensor_base_m + (p - sensor_base_m) * (sensor_height_m / (sensor_height_m - height));
-    if (!marked.marked_behind(sensor_base_m, crossing)) ++below;
-    return below <= most;
+    if (marked_behind(sensor_base_m, crossing)) return true;
+    marked_[index(ix, iy)] |= kBelow;
+    ++below;
+    return below <= marked_cells_;
   });
-  return below > most;
+  return below > marked_cells_;
 }
 
 double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, const Plane& below,

@@ -36,9 +36,6 @@ class FloorGrid {
   void find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m, Span<std::uint32_t> places,
                  PointSet* open);
 
-  // Number of all points within the radius.
-  std::uint32_t points_within() const { return points_within_; }
-
   // Of four open points, keeps those with nothing standing next to them. At the foot of a rough wall or heap its lowest
   // points pass for floor, on one side more than on the other, and tilt the fit. Uses the cloud last given to
   // find_open.
@@ -54,6 +51,12 @@ class FloorGrid {
   [[gnu::noinline]] bool marked_near(double x_base_m, double y_base_m) const;
   // The same, or farther out in the same direction from the sensor. True inside the floor, even over a puddle.
   bool marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const;
+  // True if more area is seen below the marked plane than on it. The rays of reflections do not count, since they pass
+  // through the floor. Nothing lies below a floor, while past the edge of a deck, a bench or a table the floor shows. A
+  // plane that cuts through both walls has their feet below it. Area does not depend on where the sensor looks: one
+  // that looks up has nearly all of its points on the roof. radius_m: that of find_open().
+  bool more_lies_below(const Plane& plane, const BoundedPoints& points_base, double radius_m,
+                       const Eigen::Vector3d& sensor_base_m);
 
  private:
   class FourBins;
@@ -74,7 +77,8 @@ class FloorGrid {
   };
   Bounds bounds_;
 
-  std::uint32_t points_within_ = 0;
+  static constexpr std::uint8_t kMarked = 1, kBelow = 2;  // bits of a cell
+  std::uint32_t marked_cells_ = 0;
   double lowest_m_ = 0.0;  // of the grid's heights
   // Per cell one bit for each eighth of a metre. At first it marks points; after find_open() it marks points with
   // something standing on them.
@@ -82,12 +86,6 @@ class FloorGrid {
   Span<std::uint8_t> marked_;
   Span<std::uint8_t> near_marked_;  // marked or next to a marked cell
 };
-
-// True if more than a share of all points within the radius lie below the marked plane without being reflections in it.
-// Nothing lies below a floor. Below a deck, a bench or a table the floor shows past the edge. The radius is that of
-// find_open, which counted all points within it.
-bool has_much_below(const FloorGrid& marked, const Plane& marked_plane, const BoundedPoints& points_base,
-                    double radius_m, const Eigen::Vector3d& sensor_base_m, double share_max);
 
 // Share of the open points on 'below' whose ray from the sensor passes through open floor of the marked plane. No light
 // comes through a floor, so such a plane is a reflection in wet ground.

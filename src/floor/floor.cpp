@@ -32,8 +32,11 @@ void note_choice(Span<const FloorCandidate> candidates, const FloorCandidate* be
   for (const FloorCandidate& c : candidates) {
     pose_wall_trace_candidate* const noted = trace::noted(c.plane);
     if (noted == nullptr) continue;
-    noted->fate = c.ghost ? POSE_WALL_TRACE_REFLECTION : POSE_WALL_TRACE_WEAKER;
+    noted->fate = c.much_below ? POSE_WALL_TRACE_MUCH_BELOW
+                  : c.ghost    ? POSE_WALL_TRACE_REFLECTION
+                               : POSE_WALL_TRACE_WEAKER;
     if (&c == best) noted->fate = POSE_WALL_TRACE_CHOSEN;
+    if (c.much_below && best == nullptr) continue;  // its area tells something beside a floor only
     noted->score_m2 = c.evidence.score_m2;
     noted->area_m2 = c.evidence.area_m2;
   }

@@ -178,7 +178,7 @@ void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const
   const double least = flat < steep ? flat : steep;
   double roll = 0.0, pitch = 0.0;
   for (const FloorCandidate& rival : candidates.all()) {
-    if (&rival == &best || (rival.ghost && best.evidence.area_m2 >= kSureArea_m2)) continue;
+    if (&rival == &best || (!rival.may_carry() && best.evidence.area_m2 >= kSureArea_m2)) continue;
     if (scratch->work.is_spent()) break;
     double share = rival.evidence.score_m2 / best.evidence.score_m2;
     if (may_exclude && share >= least && lies_in_floors_ground(scene, within_base, rival, fitted, scratch)) share = 0.0;

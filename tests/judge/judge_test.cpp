@@ -115,5 +115,17 @@ TEST(Judge, ARampAheadOfUnseenGroundIsNotTheFloor) {
   }
 }
 
+// A sensor that looks up sees no floor, but the walls' feet far away, which are so sparse that they pass for open
+// ground. A plane through both walls was the floor on these roads: pitch was valid and 4.7 degrees off on the first.
+TEST(Judge, APlaneThroughTheWallsIsNotTheFloor) {
+  for (const std::uint64_t seed : {8200572U, 8300772U, 8200680U, 8200310U}) {
+    Case tried;
+    tried.seed = seed;
+    const Verdict verdict = hear(tried);
+    EXPECT_EQ(expect_within_levels(verdict), 0) << seed;
+    EXPECT_FALSE(verdict.findings.empty()) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall::judge

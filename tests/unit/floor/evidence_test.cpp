@@ -74,11 +74,11 @@ TEST(FloorGrid, AreaIsMeasuredInPlan) {
   EXPECT_EQ(open.grid->evidence(kAhead_x).area_m2, 0.0);
 }
 
-bool more_is_below(test::FloorFixture* g, double height_above_floor, double share) {
+bool more_is_below(test::FloorFixture* g, double height_above_floor) {
   Open open(g);
   const Plane plane = level_at(height_above_floor);
   open.grid->mark(open.set(), plane, 0.03);
-  return has_much_below(*open.grid, plane, g->points().set(), 15.0, Eigen::Vector3d::Zero(), share);
+  return open.grid->more_lies_below(plane, g->points().set(), 15.0, Eigen::Vector3d::Zero());
 }
 
 // Two planes that cross in the middle: ground of the one is marked from where the other is further off.
@@ -104,20 +104,44 @@ TEST(FloorGrid, GroundApartFromAnotherPlaneIsMarkedAlone) {
 TEST(FloorGrid, WhatLiesBelowAPlaneSpeaksAgainstItUnlessItIsAReflection) {
   test::FloorFixture floor;
   floor.add_level({-3, 3, -2.0, 2.0}, 0.0);
-  EXPECT_FALSE(more_is_below(&floor, 0.0, 0.0));
-  EXPECT_TRUE(more_is_below(&floor, 1.0, 0.99)) << "a plane without points of its own";
-  EXPECT_FALSE(more_is_below(&floor, 1.0, 1.0)) << "there is no more than all";
+  EXPECT_FALSE(more_is_below(&floor, 0.0));
+  EXPECT_TRUE(more_is_below(&floor, 1.0)) << "a plane without points of its own";
   test::FloorFixture deck;  // beside floor that is seen past its edge
   deck.add_level({-1, 1, -2.0, 2.0}, 0.8);
   deck.add_level({-8, -2, -2.0, 2.0}, 0.0);
   deck.add_level({2, 8, -2.0, 2.0}, 0.0);
-  EXPECT_TRUE(more_is_below(&deck, 0.8, 0.5));
+  EXPECT_TRUE(more_is_below(&deck, 0.8));
+  EXPECT_FALSE(more_is_below(&deck, 0.0));
   test::FloorFixture wet;
   wet.add_level({-6, 6, -2.0, 2.0}, 0.0, 0.005, 0.15);
   wet.add_level({-4, 4, -1.5, 1.5}, -1.0, 0.005, 0.15);
-  EXPECT_FALSE(more_is_below(&wet, 0.0, 0.05));
+  EXPECT_FALSE(more_is_below(&wet, 0.0));
   test::FloorFixture none;
-  EXPECT_FALSE(more_is_below(&none, 0.0, 0.0));
+  EXPECT_FALSE(more_is_below(&none, 0.0));
+}
+
+// A ditch of half of the floor's area says nothing against it, whatever the number of its points.
+TEST(FloorGrid, AreaBelowCountsAndNotPoints) {
+  test::FloorFixture ditch;
+  ditch.add_level({-6, 2, -2.0, 2.0}, 0.0, 0.005, 0.2);
+  ditch.add_level({8, 11, -2.0, 2.0}, -2.0, 0.005, 0.05);
+  EXPECT_FALSE(more_is_below(&ditch, 0.0));
+}
+
+// A sensor that looks up sees the roof, near walls to a little below itself and farther ones to their feet. A level
+// plane cuts through both walls where they are so sparsely seen that nothing else is in its cells. What lies below it
+// is a small part of all points.
+TEST(FloorGrid, APlaneThroughBothWallsHasTheirFeetBelowItWhereverTheSensorLooks) {
+  test::FloorFixture road;
+  road.add_level({-10, 10, -2.0, 2.0}, 3.0, 0.005, 0.05);
+  for (const double y : {-2.0, 2.0}) {
+    for (double x = -10.0; x <= 10.0; x += 0.1) {
+      if (std::fabs(x) < 3.0) road.add(x, y, 1.0);
+      if (std::fabs(x) > 5.0) road.add(x, y, 0.4);
+    }
+  }
+  EXPECT_TRUE(more_is_below(&road, 1.0));
+  EXPECT_FALSE(more_is_below(&road, 0.4)) << "nothing is seen below the lowest";
 }
 
 TEST(FloorGrid, AReflectionIsSeenThroughTheFloor) {

@@ -271,8 +271,9 @@ struct TwoReadings {
       }
     }
   }
-  // fitted: the floor's fit; level unless it wandered off.
-  FloorResult reached(const Plane* fitted = nullptr) {
+  // fitted: the floor's fit; level unless it wandered off. much_below: what is seen below the rival shows that it is no
+  // floor.
+  FloorResult reached(const Plane* fitted = nullptr, bool much_below = false) {
     const BoundedPoints& points = g.points().set();
     test::Placed<FloorScratch> scratch(points.capacity());
     scratch->grid.find_open(points, 15.0, 0.0, scratch->low, &scratch->open_base);
@@ -283,6 +284,7 @@ struct TwoReadings {
       scratch->grid.mark(scratch->open_base, plane, thresh_m);
       candidates.item[candidates.count++] = {plane, scratch->grid.evidence(axes), false};
     }
+    candidates.item[1].much_below = much_below;
     const double share = candidates.item[1].evidence.score_m2 / candidates.item[0].evidence.score_m2;
     EXPECT_GT(share, 0.5) << "else it is no rival anyway";
     EXPECT_LT(share, 1.0);
@@ -317,6 +319,15 @@ TEST(FloorRivals, OnASmallFloorItIsOne) {
   TwoReadings readings(0.045);
   readings.add_ground(0.06, 100.0, 0.3);
   EXPECT_TRUE(is_ambiguous(readings.reached()));
+}
+
+// What is no floor shows how much open ground a plane gets in this scene without being one.
+TEST(FloorRivals, APlaneThatIsNoFloorSpeaksAgainstASmallOneAlone) {
+  for (const bool is_small : {true, false}) {
+    TwoReadings readings(0.1);
+    readings.add_ground(0.01, 0.7, is_small ? 0.3 : 5.0);
+    EXPECT_EQ(is_ambiguous(readings.reached(nullptr, true)), is_small);
+  }
 }
 
 TEST(FloorRivals, AFitThatWanderedOffToTheRivalExcludesNothing) {
