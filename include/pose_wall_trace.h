@@ -171,7 +171,11 @@ int32_t pose_wall_trace_gate_info(uint32_t gate, pose_wall_trace_info* info);
  * everything pass. FLOOR_PLANES takes 1 or more, because the fit needs a plane. For sweeps: `pose_wall campaign
  * --sweep` sets limits before the frames, none while they run. Fails iff: POSE_WALL_E_INDEX. */
 int32_t pose_wall_trace_set_limit(uint32_t gate, double limit);
-/* Restores the table's limits. */
+/* In all following traced frames, in every thread, the gate judges and notes as before but stops nothing. Where the
+ * engine uses the gate's limit for other purposes, as to bound a search, it still does. For `pose_wall campaign
+ * --ablate`. Fails iff: POSE_WALL_E_INDEX; POSE_WALL_E_VALUE_RANGE for FLOOR_PLANES, because the fit needs a plane. */
+int32_t pose_wall_trace_let_pass(uint32_t gate);
+/* Restores the table's limits, and lets no gate pass any more. */
 void pose_wall_trace_forget_limits(void);
 
 typedef struct pose_wall_trace_gate {
@@ -227,6 +231,7 @@ typedef struct pose_wall_trace {
   double floor_radius_m[POSE_WALL_TRACE_ATTEMPTS_MAX];
   pose_wall_trace_gate gate[POSE_WALL_TRACE_GATES_MAX];
   pose_wall_trace_candidate candidate[POSE_WALL_TRACE_CANDIDATES_MAX];
+  uint64_t failed[2]; /* bit g % 64 of word g / 64: gate g failed at least once, perhaps on a plane without a note */
 } pose_wall_trace;
 
 /* Computes one frame by a fresh engine in block (pose_wall_memory_needed bytes, POSE_WALL_BLOCK_ALIGNMENT), and fills

@@ -21,6 +21,7 @@ thread_local Writer writer = {nullptr, 0, 0, false, false, nullptr};
 // Of all threads: they are set before the frames, as a sweep does.
 struct Limit {
   bool is_set;
+  bool lets_pass;
   double limit;
 };
 Limit limits[POSE_WALL_TRACE_GATES];
@@ -53,7 +54,10 @@ void attempt(std::uint32_t attempt) {
 }
 
 void note_gate(std::uint32_t id, double value, double limit, bool passed) {
-  if (writer.to == nullptr || writer.silent) return;
+  if (writer.to == nullptr) return;
+  static_assert(POSE_WALL_TRACE_GATES <= 128, "failed has a bit for each gate");
+  if (!passed) writer.to->failed[id / 64] |= 1ULL << id % 64;
+  if (writer.silent) return;
   if (writer.to->gates == POSE_WALL_TRACE_GATES_MAX) {
     ++writer.to->dropped;
     return;
@@ -64,11 +68,20 @@ void note_gate(std::uint32_t id, double value, double limit, bool passed) {
 }
 
 void set_limit(std::uint32_t id, double limit) {
-  limits[id] = {true, limit};
+  limits[id].is_set = true;
+  limits[id].limit = limit;
+}
+
+void let_pass(std::uint32_t id) {
+  limits[id].lets_pass = true;
+}
+
+bool lets_pass(std::uint32_t id) {
+  return limits[id].lets_pass;
 }
 
 void forget_limits() {
-  for (Limit& l : limits) l = Limit{false, 0.0};
+  for (Limit& l : limits) l = Limit{false, false, 0.0};
 }
 
 double limit_or(std::uint32_t id, double of_table) {

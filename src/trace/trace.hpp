@@ -44,6 +44,9 @@ void note_gate(std::uint32_t id, double value, double limit, bool passed);
 // The limit of this gate from pose_wall_trace_set_limit, or the table's.
 double limit_or(std::uint32_t id, double of_table);
 void set_limit(std::uint32_t id, double limit);
+// True after let_pass: the gate judges, notes the outcome, and stops nothing.
+bool lets_pass(std::uint32_t id);
+void let_pass(std::uint32_t id);
 void forget_limits();
 // The following notes belong to this attempt; 0 at a frame's start.
 void attempt(std::uint32_t attempt);

@@ -61,6 +61,13 @@ __attribute__((visibility("default"))) int32_t pose_wall_trace_set_limit(uint32_
   return POSE_WALL_OK;
 }
 
+__attribute__((visibility("default"))) int32_t pose_wall_trace_let_pass(uint32_t gate) {
+  if (gate >= POSE_WALL_TRACE_GATES) return POSE_WALL_E_INDEX;
+  if (gate == POSE_WALL_TRACE_FLOOR_PLANES) return POSE_WALL_E_VALUE_RANGE;
+  pose_wall::trace::let_pass(gate);
+  return POSE_WALL_OK;
+}
+
 __attribute__((visibility("default"))) void pose_wall_trace_forget_limits(void) {
   pose_wall::trace::forget_limits();
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 
 #include "support/engine_under_test.hpp"
@@ -136,9 +137,16 @@ std::string feature_names(std::uint32_t features) {
 }  // namespace
 
 Verdict hear(const Case& tried) {
+  return hear(tried, [](const pose_wall_config& config) -> Process {
+    const auto engine = std::make_shared<test::EngineUnderTest>(config);
+    return [engine](const pose_wall_cloud& cloud) { return engine->process(cloud); };
+  });
+}
+
+Verdict hear(const Case& tried, const Open& open) {
   Trial trial(tried);
   const pose_wall_config config = trial.config();
-  test::EngineUnderTest engine(config);
+  const Process process = open(config);
   std::array<double, 2> limit{};
   pose_wall_config_get_number(&config, "alert_limit_angle_deg", limit.data());
   pose_wall_config_get_number(&config, "alert_limit_distance", &limit[1]);
@@ -152,7 +160,7 @@ Verdict hear(const Case& tried) {
     pose_wall_cloud cloud;
     pose_wall_cloud_xyz32(&cloud, points.data(), static_cast<std::uint32_t>(points.size() / 3), 12,
                           (frame + 1) * kPeriod_ns);
-    const pose_wall_result result = engine.process(cloud);
+    const pose_wall_result result = process(cloud);
     for (int q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       verdict.findings.push_back(finding_of(result.quantity[q], q, frame, truth));
       verdict.findings.back().alert_limit = q < POSE_WALL_D_LF ? kRadPerDeg * limit[0] : limit[1];

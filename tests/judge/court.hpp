@@ -6,10 +6,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "judge/scanner.hpp"
+#include "pose_wall.h"
 
 namespace pose_wall::judge {
 
@@ -46,7 +48,13 @@ struct Verdict {
   std::vector<Finding> findings;  // frames x quantities
 };
 
+// What measures the frames of a road, opened with its config.
+using Process = std::function<pose_wall_result(const pose_wall_cloud&)>;
+using Open = std::function<Process(const pose_wall_config&)>;
+
 // Throws std::runtime_error where the engine refuses a call.
+Verdict hear(const Case& tried, const Open& open);
+// The delivered engine.
 Verdict hear(const Case& tried);
 
 // The points of one frame and the settings, to look at a case with other tools: PCD files and a YAML file.

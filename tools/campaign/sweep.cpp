@@ -15,6 +15,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "campaign/ablation.hpp"
 #include "explain/gate_list.hpp"
 #include "explain/notes.hpp"
 #include "explain/traced_frame.hpp"
@@ -118,16 +119,6 @@ RunWork sweep_worker(const EngineChoice& choice, std::uint32_t gate, const std::
                                    }};
     out.record = measure(run, choice, instrument, on_frame);
   };
-}
-
-bool same_outcome(const FrameRecord& a, const FrameRecord& b) {
-  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  for (std::size_t q = 0; q < a.quantity.size(); ++q) {
-    const Measured &m = a.quantity[q].measured, &n = b.quantity[q].measured;
-    if (m.state != n.state || !same(m.value, n.value) || !same(m.raw, n.raw)) return false;
-    if (!same(m.sigma, n.sigma) || !same(m.protection_level, n.protection_level)) return false;
-  }
-  return true;
 }
 
 std::size_t frames_changed(const std::vector<RunRecord>& of_table, const std::vector<RunRecord>& now) {

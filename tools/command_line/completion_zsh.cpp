@@ -49,6 +49,7 @@ std::string action_of(const OptionGrammar& option) {
       return "_pose_wall_assignment $=_pose_wall_simulator_keys";
     case ValueKind::kGate:
       return fmt::format("_pose_wall_assignment {}", fmt::join(value_words(option), " "));
+    case ValueKind::kGateName:
     case ValueKind::kChoice:
     case ValueKind::kScene:
     case ValueKind::kSensor: {

@@ -31,7 +31,7 @@ struct Meaning {
   ValueKind kind;
 };
 
-constexpr std::array<Meaning, 12> kMeanings = {{
+constexpr std::array<Meaning, 13> kMeanings = {{
     {"config", "FILE", ValueKind::kFile},
     {"set", "KEY=VALUE", ValueKind::kEngineKey},
     {"simulate", "KEY=VALUE", ValueKind::kSimulatorKey},
@@ -42,6 +42,7 @@ constexpr std::array<Meaning, 12> kMeanings = {{
     {"truth", "FILE", ValueKind::kFile},
     {"annotate", "FOLDER", ValueKind::kFile},
     {"sweep", "GATE=A,B", ValueKind::kGate},
+    {"ablate", "GATE,...", ValueKind::kGateName},
     {"title", "TEXT", ValueKind::kText},
     {"stamp", "SECONDS", ValueKind::kText},
 }};
@@ -201,6 +202,8 @@ std::vector<std::string> value_words(const OptionGrammar& option) {
                     with_equals(localise_setting_names()));
     case ValueKind::kGate:
       return names_of(explain::gate_list(), "=");
+    case ValueKind::kGateName:
+      return joined({"each"}, names_of(explain::gate_list()));
     case ValueKind::kScene:
       return names_of(sim::scenes());
     case ValueKind::kSensor: {

@@ -25,7 +25,8 @@ enum class ValueKind {
   kScanKey,      // of the engine and of planar scans
   kMapKey,       // these, and of the SLAM
   kLocaliseKey,  // those of kScanKey, and of localisation
-  kGate,
+  kGate,         // of --sweep, with an equals sign
+  kGateName,     // each, or names
   kScene,
   kSensor
 };

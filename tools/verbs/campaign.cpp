@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "campaign/ablation.hpp"
 #include "campaign/card.hpp"
 #include "campaign/card_files.hpp"
 #include "campaign/folder.hpp"
@@ -56,9 +57,15 @@ struct CampaignOptions {
   bool card_only = false;
   bool gate = false;
   bool quiet = false;
-  std::string sweep;  // GATE=A,B,...
+  std::string sweep;   // GATE=A,B,...
+  std::string ablate;  // each, or GATE,GATE,...
   bool json = false;
 };
+
+// Of gates, and leaves no folder.
+bool prints_table(const CampaignOptions& options) {
+  return !options.sweep.empty() || !options.ablate.empty();
+}
 
 // Before any work: in the midst of thousands of runs a mistyped key would come late. Throws ConfigError.
 void check_settings(const campaign::EngineChoice& engine, bool quiet) {
@@ -163,11 +170,23 @@ int run_sweep(const CampaignOptions& options) {
   return kExitDone;
 }
 
-int sweep_verb(const CampaignOptions& options) {
+int run_ablation(const CampaignOptions& options) {
+  check_settings(options.engine, options.quiet);
+  const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
+  const campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  const campaign::Ablation ablation =
+      campaign::run_ablation(options.ablate, manifest, runs, {options.jobs, !options.quiet});
+  fmt::print("{}", options.json ? campaign::ablation_json(ablation) : campaign::ablation_text(ablation));
+  return kExitDone;
+}
+
+// Sweep or ablation.
+int table_verb(const CampaignOptions& options) {
   try {
-    return done_or_complaint("campaign", [&] { return run_sweep(options); });
+    return done_or_complaint("campaign",
+                             [&] { return options.sweep.empty() ? run_ablation(options) : run_sweep(options); });
   } catch (const campaign::Interrupted&) {
-    fmt::print(stderr, "interrupted: a sweep keeps nothing; start it again\n");
+    fmt::print(stderr, "interrupted: --sweep and --ablate keep nothing; start it again\n");
     return kExitInterrupted;
   }
 }
@@ -229,10 +248,10 @@ void demand_only_what_goes_along(const CLI::App& verb, const CampaignOptions& op
     demand_only(verb, {"--merge", "--output", "--events", "--gate", "--fresh", "--quiet"},
                 "takes the records of the parts as they are");
   }
-  if (!options.sweep.empty()) {
+  if (prints_table(options)) {
     demand_only(verb,
-                {"--sweep", "--size", "--scenes", "--kind", "--sensors", "--draws", "--first-draw", "--frames",
-                 "--seed", "--jobs", "--config", "--set", "--json", "--quiet"},
+                {options.sweep.empty() ? "--ablate" : "--sweep", "--size", "--scenes", "--kind", "--sensors", "--draws",
+                 "--first-draw", "--frames", "--seed", "--jobs", "--config", "--set", "--json", "--quiet"},
                 "prints a table and leaves no records");
   }
 }
@@ -254,10 +273,10 @@ void demand_words_go_together(const CLI::App& verb, const CampaignOptions& optio
       throw std::invalid_argument(fmt::format("--part makes no card: {} goes with --merge", of_card));
     }
   }
-  if (options.json && options.sweep.empty()) {
-    throw std::invalid_argument("--json needs --sweep; a campaign writes card.json in its folder");
+  if (options.json && !prints_table(options)) {
+    throw std::invalid_argument("--json needs --sweep or --ablate; a campaign writes card.json in its folder");
   }
-  const bool leaves_records = !options.list && options.sweep.empty();
+  const bool leaves_records = !options.list && !prints_table(options);
   if (leaves_records && options.output.empty()) throw std::invalid_argument("--output is required: a folder");
 }
 
@@ -314,7 +333,11 @@ void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
                   "GATE=A,B,...: print the results of the runs with the table's limit of a gate, and with each of "
                   "these limits; pose_wall explain --gates lists the gates")
       ->check(campaign::sweep_fault, "");
-  verb.add_flag("--json", options.json, "With --sweep: the table as JSON");
+  verb.add_option("--ablate", options.ablate,
+                  "each, or GATE,...: print what becomes valid, and what becomes wrong, without each gate alone, or "
+                  "without these gates together")
+      ->check(campaign::ablation_fault, "");
+  verb.add_flag("--json", options.json, "With --sweep or --ablate: the table as JSON");
 }
 
 void add_footer(CLI::App& verb) {
@@ -327,6 +350,7 @@ void add_footer(CLI::App& verb) {
       "  pose_wall campaign --size large --part 3/16 --output /tmp/parts/3\n"
       "  pose_wall campaign --merge /tmp/parts/* --gate --output /tmp/card\n"
       "  pose_wall campaign --sweep wall_length=1,3,4 --scenes rough,props --sensors os1-64 --draws 20\n"
+      "  pose_wall campaign --ablate each --kind adversarial --draws 3\n"
       "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, records of "
       "another\n"
       "campaign in the folder, or parts that are no whole campaign, 3 the gate failed, 130 interrupted by Ctrl-C (the "
@@ -359,7 +383,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
   add_part_options(*verb, *options);
   add_sweep_options(*verb, *options);
   verb->add_flag("-q,--quiet", options->quiet,
-                 "Nothing on stderr but errors, nothing on stdout but the table of --sweep");
+                 "Nothing on stderr but errors, nothing on stdout but the table of --sweep or --ablate");
   add_footer(*verb);
   verb->callback([options, verb, &exit_code] {
     demand_only_what_goes_along(*verb, *options);
@@ -370,7 +394,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
     }
     sort_names(&options->plan.scenes);
     sort_names(&options->plan.sensors);
-    exit_code = options->sweep.empty() ? run_verb(*options) : sweep_verb(*options);
+    exit_code = prints_table(*options) ? table_verb(*options) : run_verb(*options);
   });
 }
 
