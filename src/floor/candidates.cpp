@@ -165,8 +165,10 @@ void weigh(const FloorScene& scene, const PointSet& within, Among among, FloorSh
     const FloorEvidence evidence = scratch->grid.evidence(scene.axes);
     scratch->work.add(steps::kFloorWeighed);
     if (evidence.area_m2 < tells_nothing_m2(s)) continue;
-    const bool much_below = among == Among::kOpen && scratch->grid.more_lies_below(refined.plane, scene.cloud_base,
-                                                                                   s.ground_roi_radius_max, sensor);
+    // Ground below counts as another floor does.
+    const bool much_below =
+        among == Among::kOpen && scratch->grid.much_lies_below(refined.plane, scene.cloud_base, s.ground_roi_radius_max,
+                                                               sensor, limit_of<gate::FLOOR_RIVAL>(s));
     out->item[out->count++] = {refined.plane, evidence, false, much_below};
   }
 }

@@ -37,17 +37,6 @@ std::uint64_t bins_below(std::uint64_t heights, int bin) {
   return heights & (from > -6 ? kSixBins >> -from : 0);
 }
 
-// All bins on which something stands.
-std::uint64_t stood_on(std::uint64_t heights) {
-  std::uint64_t one = 0, two = 0;
-  for (int bin = kFirstBin; bin <= kSixthBin; ++bin) {
-    const std::uint64_t there = heights >> bin;
-    two |= one & there;
-    one |= there;
-  }
-  return two;
-}
-
 }  // namespace
 
 void FloorGrid::lay_out(Arena& arena) {
@@ -125,25 +114,20 @@ void FloorGrid::find_open(const PointSet& points_base, double radius_m, double s
     if (!is_open) continue;
     open->add(points_base.x[i], points_base.y[i], points_base.z[i], points_base.weight[i]);
   }
-  for (std::uint64_t& heights : eighths_) heights = heights != 0 ? stood_on(heights) : 0;
 }
 
-FourTruths FloorGrid::clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m,
-                                   FourTruths counts) const {
+FourTruths FloorGrid::clear_around(FourFloats x_base_m, FourFloats y_base_m, FourTruths counts) const {
   constexpr float kAround_m = 0.1F;  // judgement, 2026-11-21: keeps clear of a wall's foot; 0.25 m at first
-  const FourFloats place = (z_base_m - static_cast<float>(lowest_m_)) * static_cast<float>(1.0 / kHeightBin_m);
-  const FourTruths looked_at = counts & (place >= FourFloats{}) & (place < all_four(kHeightBins));
-  const FourInts bin = cut_off(looked_at ? place : FourFloats{});
-  const FourFloats none{}, x = looked_at ? x_base_m : none, y = looked_at ? y_base_m : none;
+  const FourFloats none{}, x = counts ? x_base_m : none, y = counts ? y_base_m : none;
   const FourInts x_low = cells_of(x - kAround_m), x_high = cells_of(x + kAround_m);
   const FourInts y_low = cells_of(y - kAround_m) * kSide, y_high = cells_of(y + kAround_m) * kSide;
   static_assert(2.0 * kAround_m <= kCell_m, "two cells at most");
   const FourInts corners[] = {y_low + x_low, y_low + x_high, y_high + x_low, y_high + x_high};
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-    if (looked_at[lane] == 0) continue;
-    std::uint64_t occupied = 0;
-    for (const FourInts& corner : corners) occupied |= eighths_[static_cast<std::uint32_t>(corner[lane])];
-    if ((occupied >> bin[lane] & 1) != 0) counts[lane] = 0;
+    bool rises = false;
+    for (const FourInts& corner : corners)
+      rises = rises || (marked_[static_cast<std::uint32_t>(corner[lane])] & kMarked) != 0;
+    if (rises) counts[lane] = 0;
   }
   return counts;
 }
@@ -189,12 +173,23 @@ void FloorGrid::mark(const PointSet& open_base, const Plane& plane, double thres
              [&](FourFloats x, FourFloats y, FourFloats z) { return magnitude_of(distances.of(x, y, z)) <= most; });
 }
 
-void FloorGrid::mark_apart(const PointSet& open_base, const Plane& plane, double thresh_m, const Plane& other,
-                           double other_m) {
+void FloorGrid::mark_apart(const PointSet& open_base, const Plane& plane, const Plane& other, double thresh_m) {
   const FourDistances distances(plane), from_other(other);
-  const FourFloats most = all_four(static_cast<float>(thresh_m)), off = all_four(static_cast<float>(other_m));
+  const FourFloats most = all_four(static_cast<float>(thresh_m));
   mark_where(open_base, [&](FourFloats x, FourFloats y, FourFloats z) {
-    return (magnitude_of(distances.of(x, y, z)) <= most) & (magnitude_of(from_other.of(x, y, z)) > off);
+    return (magnitude_of(distances.of(x, y, z)) <= most) & (magnitude_of(from_other.of(x, y, z)) > most);
+  });
+}
+
+void FloorGrid::mark_rising(const PointSet& points_base, const Plane& plane, double gate_m) {
+  constexpr float kTall = 1.0F;  // judgement, 2026-11-21: what hangs higher, as the roof, stands on nothing here
+  const FourDistances distances(plane);
+  const FourFloats gate = all_four(static_cast<float>(gate_m));
+  // The grid has no place for what lies farther away.
+  constexpr auto kReach2 = static_cast<float>(0.25 * kSide * kSide * kCell_m * kCell_m);
+  mark_where(points_base, [&](FourFloats x, FourFloats y, FourFloats z) {
+    const FourFloats height = distances.of(x, y, z);
+    return (height > gate) & (height < all_four(kTall)) & (x * x + y * y < all_four(kReach2));
   });
 }
 
@@ -235,11 +230,12 @@ bool FloorGrid::marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen:
   return false;
 }
 
-bool FloorGrid::more_lies_below(const Plane& plane, const BoundedPoints& points_base, double radius_m,
-                                const Eigen::Vector3d& sensor_base_m) {
+bool FloorGrid::much_lies_below(const Plane& plane, const BoundedPoints& points_base, double radius_m,
+                                const Eigen::Vector3d& sensor_base_m, double share_max) {
   constexpr double kBelow_m = 0.2;  // judgement, 2026-11-21: a floor dips so far below its plane; benches lie higher
   constexpr double kFall = 0.03;    // judgement, 2026-11-21: and 3 cm more for each metre away (1.7 degrees)
   const double limit2 = radius_m * radius_m, sensor_height_m = plane.signed_distance(sensor_base_m);
+  const auto most = static_cast<std::uint32_t>(share_max * marked_cells_);
   std::uint32_t below = 0;
   const Slab low(plane, kAnyDepth_m, -kBelow_m);
   for_each_in_while(points_base, low, [&](std::uint32_t i, float height_m) {
@@ -253,9 +249,9 @@ bool FloorGrid::more_lies_below(const Plane& plane, const BoundedPoints& points_
     if (marked_behind(sensor_base_m, crossing)) return true;
     marked_[index(ix, iy)] |= kBelow;
     ++below;
-    return below <= marked_cells_;
+    return below <= most;
   });
-  return below > marked_cells_;
+  return below > most;
 }
 
 double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, const Plane& below,

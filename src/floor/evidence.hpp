@@ -36,27 +36,29 @@ class FloorGrid {
   void find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m, Span<std::uint32_t> places,
                  PointSet* open);
 
-  // Of four open points, keeps those with nothing standing next to them. At the foot of a rough wall or heap its lowest
-  // points pass for floor, on one side more than on the other, and tilt the fit. Uses the cloud last given to
-  // find_open.
-  FourTruths clear_around(FourFloats x_base_m, FourFloats y_base_m, FourFloats z_base_m, FourTruths counts) const;
+  // Marks the cells in which points rise from a plane: they lie more than gate_m and up to a metre above it.
+  // Like every mark...(), takes the place of the marks before it.
+  void mark_rising(const PointSet& points_base, const Plane& plane, double gate_m);
+  // Of four points, keeps those clear of what rises, after mark_rising(). At the foot of a rough wall or heap its
+  // lowest points pass for floor, on one side more than on the other, and tilt the fit.
+  FourTruths clear_around(FourFloats x_base_m, FourFloats y_base_m, FourTruths counts) const;
 
   // Marks the cells in which a plane has points. open_base: from find_open(), all within the grid.
   void mark(const PointSet& open_base, const Plane& plane, double thresh_m);
-  // The same, without the points within other_m of another plane.
-  void mark_apart(const PointSet& open_base, const Plane& plane, double thresh_m, const Plane& other, double other_m);
+  // The same, without the points that another plane has as well.
+  void mark_apart(const PointSet& open_base, const Plane& plane, const Plane& other, double thresh_m);
   // Evidence for the marked plane.
   FloorEvidence evidence(const Axes& axes) const;
   // True if the marked plane has floor at or next to this place.
   [[gnu::noinline]] bool marked_near(double x_base_m, double y_base_m) const;
   // The same, or farther out in the same direction from the sensor. True inside the floor, even over a puddle.
   bool marked_behind(const Eigen::Vector3d& sensor_base_m, const Eigen::Vector3d& place_base_m) const;
-  // True if more area is seen below the marked plane than on it. The rays of reflections do not count, since they pass
-  // through the floor. Nothing lies below a floor, while past the edge of a deck, a bench or a table the floor shows. A
-  // plane that cuts through both walls has their feet below it. Area does not depend on where the sensor looks: one
-  // that looks up has nearly all of its points on the roof. radius_m: that of find_open().
-  bool more_lies_below(const Plane& plane, const BoundedPoints& points_base, double radius_m,
-                       const Eigen::Vector3d& sensor_base_m);
+  // True if below the marked plane more area is seen than this share of the area on it. The rays of reflections do not
+  // count, since they pass through the floor. Nothing lies below a floor, while past the edge of a deck, a bench or a
+  // table the floor shows. A plane that cuts through both walls has their feet below it. Area does not depend on where
+  // the sensor looks: one that looks up has nearly all of its points on the roof. radius_m: that of find_open().
+  bool much_lies_below(const Plane& plane, const BoundedPoints& points_base, double radius_m,
+                       const Eigen::Vector3d& sensor_base_m, double share_max);
 
  private:
   class FourBins;
@@ -80,8 +82,7 @@ class FloorGrid {
   static constexpr std::uint8_t kMarked = 1, kBelow = 2;  // bits of a cell
   std::uint32_t marked_cells_ = 0;
   double lowest_m_ = 0.0;  // of the grid's heights
-  // Per cell one bit for each eighth of a metre. At first it marks points; after find_open() it marks points with
-  // something standing on them.
+  // Per cell one bit for each eighth of a metre that holds points.
   Span<std::uint64_t> eighths_;
   Span<std::uint8_t> marked_;
   Span<std::uint8_t> near_marked_;  // marked or next to a marked cell

@@ -64,10 +64,9 @@ Span<std::uint32_t> select(const FloorLook& look, const FloorGrid& grid, const P
         if (!any_of(counts)) return;
         const FourFloats way = inside / (inside - height);  // to where the ray meets the plane
         const FourFloats x = sensor.x() + (px - sensor.x()) * way, y = sensor.y() + (py - sensor.y()) * way;
-        const FourFloats z = sensor.z() + (pz - sensor.z()) * way;
         counts &= x * x + y * y <= radius2;
         if (!any_of(counts)) return;
-        counts = grid.clear_around(x, y, z, counts);
+        counts = grid.clear_around(x, y, counts);
         for (std::uint32_t lane = 0; lane < kFour; ++lane) {
           if (counts[lane] != 0) out[count++] = k + lane;
         }
@@ -172,6 +171,8 @@ IrlsResult fit_selected(const FloorScene& scene, const FloorLook& look, const Pl
   IrlsResult irls;
   irls.plane = start;
   for (int selection = 0; selection < kSelections; ++selection) {
+    scratch->grid.mark_rising(scene.cloud_base, irls.plane, tukey.gate_m);
+    scratch->work.add(scene.cloud_base.count, steps::kPointMarked);
     // The low points are not needed any more. Their room holds the selection.
     const Span<std::uint32_t> chosen =
         select(look, scratch->grid, irls.plane, tukey.gate_m, scene.sensor_base_m, scratch->low);

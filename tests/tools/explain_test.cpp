@@ -110,9 +110,8 @@ TEST(Sentences, AFloorThatMayBeARampSaysAllThatItsLevelsGrowBy) {
                        "the protection levels grow by 9.7°, and of a floor steeper than that by its tilt as well."));
   EXPECT_TRUE(
       contains(told(POSE_WALL_TRACE_FLOOR_BESIDE), "Of a floor steeper than 9.7° they grow by its tilt as well."));
-  EXPECT_TRUE(
-      contains(told(POSE_WALL_TRACE_FLOOR_RIVAL_STEEP),
-               "grow by the angle between them, and by the floor's tilt, since a machine stands about upright."));
+  EXPECT_TRUE(contains(told(POSE_WALL_TRACE_FLOOR_RIVAL),
+                       "If the floor is steep, they grow by its tilt as well, since a machine stands about upright."));
 }
 
 // The engine counts the frames for which it keeps a doubt, and the results of earlier frames tell which one began it.

@@ -59,15 +59,11 @@ constexpr GateWords kFloorWords[] = {
                   "(a fifth of {key})."),
      translatable("a smaller ground_roi_radius keeps the floor local")},
     {"floor_rival",
-     translatable(
-         "Another plane scores {value} of the chosen one, by open ground, which counts twice where the machine "
-         "drives. From {limit} on either may be the floor, and the protection levels reach to it."),
+     translatable("Where only one of both planes has points, another one scores {value} of the chosen one, by open"
+                  " ground, which counts twice where the machine drives. From {limit} on either may be the floor, "
+                  "and the protection levels reach to it. If the floor is steep, they grow by its tilt as well, "
+                  "since a machine stands about upright."),
      translatable("look for a bench, a heap or a reflection among the planes below")},
-    {"floor_rival_steep",
-     translatable("The chosen floor is steep, and another plane scores {value} of it, by open ground, which counts "
-                  "twice where the machine drives. From {limit} on either may be the floor. The protection levels grow "
-                  "by the angle between them, and by the floor's tilt, since a machine stands about upright."),
-     translatable("look for a heap's flank, a bench or a reflection among the planes below")},
     {"floor_alone",
      translatable("The chosen floor is small, and a plane that lies otherwise scores {value} of it, by open ground, "
                   "which counts twice where the machine drives. From {limit} on neither is taken for the floor."),

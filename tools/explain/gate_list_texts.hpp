@@ -18,10 +18,8 @@ inline constexpr const char* kGateMeasures[] = {
     translatable("planes that may be the floor"),
     translatable("its points spread far enough for a fit"),
     translatable("tilt by its bend; a fifth of the alert limit is let pass"),
-    translatable("another plane's score, of the chosen one's; 0 without ground of its own. A score is open area, twice "
-                 "that where the machine drives"),
-    translatable(
-        "another plane's score, of the chosen one's, which lies steeper than 10 degrees; 0 without ground of its own"),
+    translatable("another plane's score, of the chosen one's, by open ground that only one of them shows; on floors "
+                 "below 5 m2 by all of it. A score is open area, twice that where the machine drives"),
     translatable("score of a plane that lies otherwise, of the small chosen one's"),
     translatable("tilt of the floor against base"),
     translatable("height of the sensor above the floor"),

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -74,16 +73,16 @@ TEST(FloorGrid, AreaIsMeasuredInPlan) {
   EXPECT_EQ(open.grid->evidence(kAhead_x).area_m2, 0.0);
 }
 
-bool more_is_below(test::FloorFixture* g, double height_above_floor) {
+bool much_is_below(test::FloorFixture* g, double height_above_floor, double share_max = 0.4) {
   Open open(g);
   const Plane plane = level_at(height_above_floor);
   open.grid->mark(open.set(), plane, 0.03);
-  return open.grid->more_lies_below(plane, g->points().set(), 15.0, Eigen::Vector3d::Zero());
+  return open.grid->much_lies_below(plane, g->points().set(), 15.0, Eigen::Vector3d::Zero(), share_max);
 }
 
-// Two planes that cross in the middle: ground of the one is marked from where the other is further off.
-TEST(FloorGrid, GroundApartFromAnotherPlaneIsMarkedAlone) {
-  constexpr double kSlope = 0.1, kOff_m = 0.09;  // so far off from 0.9 m on
+// Two planes that cross in the middle: the threshold apart from a third of a metre on.
+TEST(FloorGrid, GroundThatAnotherPlaneHasAsWellIsNotMarkedApart) {
+  constexpr double kSlope = 0.1, kThresh_m = 0.03;
   test::FloorFixture g;
   for (double x = -4.0; x <= 4.0; x += 0.05) {
     for (double y = -2.0; y <= 2.0; y += 0.05) g.add(x, y, kSlope * x);
@@ -91,41 +90,50 @@ TEST(FloorGrid, GroundApartFromAnotherPlaneIsMarkedAlone) {
   const Open open(&g);
   const Eigen::Vector3d n = Eigen::Vector3d(-kSlope, 0.0, 1.0).normalized();
   const Plane tilted{n, n.z() * test::kFloorBelow_m}, level = level_at(0.0);
-  open.grid->mark(open.set(), tilted, 0.03);
+  open.grid->mark(open.set(), tilted, kThresh_m);
   const double whole_m2 = open.grid_of().evidence(kAhead_x).area_m2;
-  open.grid->mark_apart(open.set(), tilted, 0.03, level, kOff_m);
-  EXPECT_FALSE(open.grid_of().marked_near(0.0, 0.0));
-  EXPECT_TRUE(open.grid_of().marked_near(2.0, 0.0));
-  EXPECT_NEAR(open.grid_of().evidence(kAhead_x).area_m2, whole_m2 * (1.0 - kOff_m / kSlope / 4.0), 0.1 * whole_m2);
-  open.grid->mark_apart(open.set(), tilted, 0.03, tilted, kOff_m);
-  EXPECT_EQ(open.grid_of().evidence(kAhead_x).area_m2, 0.0) << "from itself";
+  open.grid->mark_apart(open.set(), tilted, level, kThresh_m);
+  EXPECT_NEAR(open.grid_of().evidence(kAhead_x).area_m2, whole_m2 * (1.0 - kThresh_m / kSlope / 4.0), 0.05 * whole_m2);
+  EXPECT_LT(open.grid_of().evidence(kAhead_x).area_m2, 0.97 * whole_m2) << "the middle is left out";
+  open.grid->mark_apart(open.set(), level, tilted, kThresh_m);
+  EXPECT_EQ(open.grid_of().evidence(kAhead_x).area_m2, 0.0) << "all points lie on the other one";
 }
 
 TEST(FloorGrid, WhatLiesBelowAPlaneSpeaksAgainstItUnlessItIsAReflection) {
   test::FloorFixture floor;
   floor.add_level({-3, 3, -2.0, 2.0}, 0.0);
-  EXPECT_FALSE(more_is_below(&floor, 0.0));
-  EXPECT_TRUE(more_is_below(&floor, 1.0)) << "a plane without points of its own";
+  EXPECT_FALSE(much_is_below(&floor, 0.0));
+  EXPECT_TRUE(much_is_below(&floor, 1.0)) << "a plane without points of its own";
   test::FloorFixture deck;  // beside floor that is seen past its edge
   deck.add_level({-1, 1, -2.0, 2.0}, 0.8);
   deck.add_level({-8, -2, -2.0, 2.0}, 0.0);
   deck.add_level({2, 8, -2.0, 2.0}, 0.0);
-  EXPECT_TRUE(more_is_below(&deck, 0.8));
-  EXPECT_FALSE(more_is_below(&deck, 0.0));
+  EXPECT_TRUE(much_is_below(&deck, 0.8));
+  EXPECT_FALSE(much_is_below(&deck, 0.0));
   test::FloorFixture wet;
   wet.add_level({-6, 6, -2.0, 2.0}, 0.0, 0.005, 0.15);
   wet.add_level({-4, 4, -1.5, 1.5}, -1.0, 0.005, 0.15);
-  EXPECT_FALSE(more_is_below(&wet, 0.0));
+  EXPECT_FALSE(much_is_below(&wet, 0.0));
   test::FloorFixture none;
-  EXPECT_FALSE(more_is_below(&none, 0.0));
+  EXPECT_FALSE(much_is_below(&none, 0.0));
 }
 
-// A ditch of half of the floor's area says nothing against it, whatever the number of its points.
+// The ditch has three eighths of the floor's area, and five times its points.
 TEST(FloorGrid, AreaBelowCountsAndNotPoints) {
   test::FloorFixture ditch;
   ditch.add_level({-6, 2, -2.0, 2.0}, 0.0, 0.005, 0.2);
   ditch.add_level({8, 11, -2.0, 2.0}, -2.0, 0.005, 0.05);
-  EXPECT_FALSE(more_is_below(&ditch, 0.0));
+  EXPECT_FALSE(much_is_below(&ditch, 0.0, 0.45));
+  EXPECT_TRUE(much_is_below(&ditch, 0.0, 0.3));
+}
+
+// The bench shows twice as much as the floor beside it.
+TEST(FloorGrid, AFloorOfHalfItsAreaSpeaksAgainstABench) {
+  test::FloorFixture bench;
+  bench.add_level({-6, 6, 0.0, 2.0}, 0.8);
+  bench.add_level({-6, 0, -4.0, -2.0}, 0.0);
+  EXPECT_TRUE(much_is_below(&bench, 0.8));
+  EXPECT_FALSE(much_is_below(&bench, 0.0));
 }
 
 // A sensor that looks up sees the roof, near walls to a little below itself and farther ones to their feet. A level
@@ -140,8 +148,8 @@ TEST(FloorGrid, APlaneThroughBothWallsHasTheirFeetBelowItWhereverTheSensorLooks)
       if (std::fabs(x) > 5.0) road.add(x, y, 0.4);
     }
   }
-  EXPECT_TRUE(more_is_below(&road, 1.0));
-  EXPECT_FALSE(more_is_below(&road, 0.4)) << "nothing is seen below the lowest";
+  EXPECT_TRUE(much_is_below(&road, 1.0));
+  EXPECT_FALSE(much_is_below(&road, 0.4)) << "nothing is seen below the lowest";
 }
 
 TEST(FloorGrid, AReflectionIsSeenThroughTheFloor) {
@@ -157,56 +165,50 @@ TEST(FloorGrid, AReflectionIsSeenThroughTheFloor) {
   EXPECT_LT(share_seen_through(*open.grid, level_at(-1.0), level_at(0.0), open.set(), sensor, 0.03), 0.1);
 }
 
-// As FloorGrid::clear_around(), one cell and one height at a time.
+// As FloorGrid::clear_around(), one cell and one point at a time.
 class SlowClear {
  public:
-  explicit SlowClear(const PointSet& points) {
+  SlowClear(const PointSet& points, const Plane& plane, double gate_m) {
     for (std::uint32_t i = 0; i < points.count; ++i) {
-      const int bin = bin_of(points.z[i]);
-      if (points.x[i] * points.x[i] + points.y[i] * points.y[i] > 15.0F * 15.0F || bin < 0 || bin > 63) continue;
-      bins_[{cell_of(points.x[i]), cell_of(points.y[i])}].insert(bin);
+      const double height_m = plane.signed_distance(points.at(i));
+      if (height_m > gate_m && height_m < 1.0) rising_.insert({cell_of(points.x[i]), cell_of(points.y[i])});
     }
   }
 
-  bool around(float x, float y, float z) const {
-    const int bin = bin_of(z);
-    if (bin < 0 || bin > 63) return true;
+  bool around(float x, float y) const {
     for (const int ix : {cell_of(x - 0.1F), cell_of(x + 0.1F)}) {
       for (const int iy : {cell_of(y - 0.1F), cell_of(y + 0.1F)}) {
-        const auto cell = bins_.find({ix, iy});
-        if (cell == bins_.end()) continue;
-        int standing = 0;
-        for (int above = bin + 2; above <= bin + 7; ++above) standing += cell->second.count(above) > 0 ? 1 : 0;
-        if (standing >= 2) return false;
+        if (rising_.count({ix, iy}) > 0) return false;
       }
     }
     return true;
   }
 
  private:
-  static int bin_of(float z) { return static_cast<int>(std::floor((z + 5.5F) * 8.0F)); }
   static int cell_of(float coordinate) { return static_cast<int>(std::floor(coordinate * 4.0F + 80.0F)); }
-  std::map<std::pair<int, int>, std::set<int>> bins_;
+  std::set<std::pair<int, int>> rising_;
 };
 
 TEST(FloorGrid, ClearAroundIsWhatALookAtEachCellSays) {
   test::FloorFixture g;
   test::Noise noise(5);
-  for (int k = 0; k < 60000; ++k) {
+  for (int k = 0; k < 8000; ++k) {
     g.points().add(noise.uniform(-10.0, 10.0), noise.uniform(-15.5, 15.5), noise.uniform(-6.0, 3.0));
   }
   const Open open(&g);
-  const SlowClear slow(g.points().set());
+  const Eigen::Vector3d n = Eigen::Vector3d(-0.1, 0.05, 1.0).normalized();
+  const Plane plane{n, test::kFloorBelow_m};
+  open.grid->mark_rising(g.points().set(), plane, 0.09);
+  const SlowClear slow(g.points().set(), plane, 0.09);
   std::uint32_t clear = 0, looked_at = 0;
   for (int k = 0; k < 5000; ++k) {
-    FourFloats x{}, y{}, z{};
+    FourFloats x{}, y{};
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       x[lane] = static_cast<float>(noise.uniform(-10.5, 10.5));
-      y[lane] = static_cast<float>(noise.uniform(-19.95, 19.95));
-      z[lane] = static_cast<float>(noise.uniform(-6.5, 4.0));
+      y[lane] = static_cast<float>(noise.uniform(-19.85, 19.85));
     }
     const FourTruths counts = FourInts{k & 1, k & 2, k & 4, k & 8} != 0;
-    const FourTruths fast = open.grid_of().clear_around(x, y, z, counts);
+    const FourTruths fast = open.grid_of().clear_around(x, y, counts);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       if (counts[lane] == 0) {
         EXPECT_EQ(fast[lane], 0) << "not asked for";
@@ -214,11 +216,26 @@ TEST(FloorGrid, ClearAroundIsWhatALookAtEachCellSays) {
       }
       ++looked_at;
       clear += fast[lane] != 0 ? 1U : 0U;
-      EXPECT_EQ(fast[lane] != 0, slow.around(x[lane], y[lane], z[lane])) << x[lane] << " " << y[lane] << " " << z[lane];
+      EXPECT_EQ(fast[lane] != 0, slow.around(x[lane], y[lane])) << x[lane] << " " << y[lane];
     }
   }
   EXPECT_GT(clear, looked_at / 10);
   EXPECT_LT(clear, looked_at * 9 / 10) << "or nothing was tested";
+}
+
+// What hangs under the roof, or lies below the floor, leaves the floor under it in the fit.
+TEST(FloorGrid, OnlyWhatRisesFromThePlaneIsKeptClearOf) {
+  test::FloorFixture g;
+  g.add(0.0, 0.0, 0.2);
+  g.add(3.0, 0.0, 0.05);
+  g.add(6.0, 0.0, 2.5);
+  g.add(9.0, 0.0, -0.3);
+  Open open(&g);
+  open.grid->mark_rising(g.points().set(), level_at(0.0), 0.09);
+  const FourTruths all = FourInts{1, 1, 1, 1} != 0;
+  const FourTruths clear = open.grid_of().clear_around(FourFloats{0.0F, 3.0F, 6.0F, 9.0F}, FourFloats{}, all);
+  EXPECT_EQ(clear[0], 0) << "a heap";
+  for (std::uint32_t lane = 1; lane < kFour; ++lane) EXPECT_NE(clear[lane], 0) << lane;
 }
 
 TEST(FloorGrid, AnyCountOfPointsIsMarked) {

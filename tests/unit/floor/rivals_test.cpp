@@ -298,7 +298,7 @@ struct TwoReadings {
 
 TEST(FloorRivals, ATiltedPlaneThroughTheFloorsOwnRoughGroundIsNone) {
   TwoReadings readings(0.045);
-  readings.add_ground(0.06, 100.0);
+  readings.add_ground(0.035, 100.0);
   const FloorResult f = readings.reached();
   EXPECT_FALSE(is_ambiguous(f));
   EXPECT_EQ(f.roll_bound_rad.sum(), 0.0);
@@ -317,7 +317,7 @@ TEST(FloorRivals, APlaneThatShowsGroundTheFloorLeavesOutIsOne) {
 // On a small floor a few centimetres are many degrees.
 TEST(FloorRivals, OnASmallFloorItIsOne) {
   TwoReadings readings(0.045);
-  readings.add_ground(0.06, 100.0, 0.3);
+  readings.add_ground(0.035, 100.0, 0.3);
   EXPECT_TRUE(is_ambiguous(readings.reached()));
 }
 
@@ -325,7 +325,7 @@ TEST(FloorRivals, OnASmallFloorItIsOne) {
 TEST(FloorRivals, APlaneThatIsNoFloorSpeaksAgainstASmallOneAlone) {
   for (const bool is_small : {true, false}) {
     TwoReadings readings(0.1);
-    readings.add_ground(0.01, 0.7, is_small ? 0.3 : 5.0);
+    readings.add_ground(0.01, 0.7, is_small ? 0.6 : 5.0);
     EXPECT_EQ(is_ambiguous(readings.reached(nullptr, true)), is_small);
   }
 }
@@ -336,10 +336,17 @@ TEST(FloorRivals, AFitThatWanderedOffToTheRivalExcludesNothing) {
   EXPECT_TRUE(is_ambiguous(readings.reached(&readings.rival)));
 }
 
+// A break of two degrees with ground on both sides: the planes share what lies about the line where they meet.
+TEST(FloorRivals, GroundBeyondABreakIsOneThoughBothPlanesShareTheMiddle) {
+  TwoReadings readings(0.035);
+  readings.add_ground(0.01, 0.5);
+  EXPECT_TRUE(is_ambiguous(readings.reached()));
+}
+
 // A few stray points of a wall's foot on it do not make it a floor.
 TEST(FloorRivals, StraysFurtherOffAreNoGround) {
   TwoReadings readings(0.045);
-  readings.add_ground(0.06, 100.0);
+  readings.add_ground(0.035, 100.0);
   for (double x = -5.0; x <= 5.0; x += 2.5) readings.g.add(x, 4.0, readings.rise_at(4.0));
   EXPECT_FALSE(is_ambiguous(readings.reached()));
 }
