@@ -41,10 +41,11 @@ constexpr double kNear_m = 4.5;
 // Points on all sides: the machine stands on them. Judgement, 2026-11-23: its body hides a quarter of a turn.
 constexpr std::uint32_t kGapOfBody = 2;
 constexpr std::uint32_t kAnyPart = 100;  // judgement, 2026-11-23: one point in a hundred is there
-// Ground is most of what is open and low. A plane that is prolonged past its ground meets strays and walls among other
-// things. Of a ramp's plane these were 22 % behind the machine at most (judge, 8300745), of floors that a VLP-16 sees
-// to both sides on working days 43 % at least. Judgement, 2026-11-27: a third.
-constexpr std::uint32_t kGroundPart = 3;
+// Ground is most of what lies about its plane. A plane that is prolonged past its ground meets strays among other
+// things. Of a ramp's plane these were 46 % behind the machine at most (judge, 8300745), of floors that a VLP-16 sees
+// to both sides on working days 53 % at least, in a recorded corridor 84 %. Judgement, 2026-11-27: half.
+constexpr std::uint32_t kGroundPart = 2;
+constexpr double kAbout_m = 0.35;        // judgement, 2026-11-27: ruts and waves lie so far off a floor's plane
 constexpr std::uint32_t kRealPart = 20;  // judgement, 2026-11-26: strays alone are no ground either
 // Half a turn: the machine stands at the edge of what is seen. Beyond, all of it lies ahead, behind or to one side.
 constexpr std::uint32_t kGapOfHalf = 4;
@@ -55,12 +56,12 @@ constexpr double kUnseenRamp_rad = 0.17;
 // Number of points in each eighth of a turn around the machine.
 struct Eighths {
   std::uint32_t count[8] = {}, total = 0;  // on the floor
-  std::uint32_t low[8] = {};               // below the sensor, on the floor or off it
+  std::uint32_t about[8] = {};             // within kAbout_m of its plane
   std::uint32_t near = 0;                  // on the floor, within kNear_m
 
   bool has_any(std::uint32_t eighth) const { return total > 0 && count[eighth] * kAnyPart >= total; }
   bool has_ground(std::uint32_t eighth) const {
-    return total > 0 && count[eighth] * kRealPart >= total && count[eighth] * kGroundPart >= low[eighth];
+    return total > 0 && count[eighth] * kRealPart >= total && count[eighth] * kGroundPart >= about[eighth];
   }
   double near_share() const { return total > 0 ? static_cast<double>(near) / total : 0.0; }
 };
@@ -71,16 +72,18 @@ Eighths eighths_of(const PointSet& points, const Plane& plane, const Settings& s
   const FourDistances heights(plane);
   const FourFloats reach = all_four(static_cast<float>(s.ground_ransac_thresh)), none{};
   const FourFloats near2 = all_four(static_cast<float>(kNear_m * kNear_m));
+  const FourFloats far = all_four(static_cast<float>(kAbout_m));
   const auto highest = static_cast<float>(sensor_z_base_m);
   Eighths out;
   for_each_four_points(points, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    const FourTruths low = counts & (z < highest);
-    if (!any_of(low)) return;
-    const FourTruths on_floor = low & (magnitude_of(heights.of(x, y, z)) <= reach);
+    const FourFloats off = magnitude_of(heights.of(x, y, z));
+    const FourTruths about = counts & (z < highest) & (off <= far);
+    if (!any_of(about)) return;
+    const FourTruths on_floor = about & (off <= reach);
     const FourInts which = ((x < none) & 4) | ((y < none) & 2) | ((magnitude_of(x) < magnitude_of(y)) & 1);
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       const std::uint8_t eighth = kEighth[static_cast<std::uint32_t>(which[lane])];
-      out.low[eighth] += low[lane] != 0 ? 1 : 0;
+      out.about[eighth] += about[lane] != 0 ? 1 : 0;
       out.count[eighth] += on_floor[lane] != 0 ? 1 : 0;
     }
     out.total += sum_of_lanes(-on_floor);
