@@ -104,8 +104,6 @@ inline constexpr const char* kOriginParts[] = {translatable("key"),
                                                translatable("all nominal scenes"),
                                                translatable("recorded corridor"),
                                                translatable("after a review"),
-                                               translatable("and what both may err by"),
-                                               translatable("scenes ghosts"),
-                                               translatable("humps and wet floors")};
+                                               translatable("and what both may err by")};
 
 }  // namespace pose_wall::tools::explain
