@@ -88,6 +88,34 @@ TEST(FloorFit, TheFootOfAWallDoesNotTiltTheFloor) {
   EXPECT_LT(std::fabs(roll_pitch_of_up(f.fit.plane.n).roll_rad), 0.0005);
 }
 
+// Muck along one wall, too low to count as something that stands on the floor: its foot lies within the fit's gate.
+TEST(FloorFit, TheFootOfALowHeapDoesNotTiltTheFloor) {
+  for (const double height_m : {0.15, 0.22, 0.3}) {
+    test::FloorFixture g;
+    test::Noise noise(4);
+    for (int i = 0; i < 6000; ++i) {
+      const double x = noise.uniform(-3, 3), y = noise.uniform(-2.0, 2.6);
+      const double heap_m = y > 1.9 ? (y - 1.9) / 0.7 * height_m : 0.0;
+      g.add(x, y, heap_m + noise.normal(0.005));
+    }
+    const FloorResult f = fit(&g, near_floor());
+    ASSERT_TRUE(f.fit.found) << height_m;
+    EXPECT_LT(std::fabs(roll_pitch_of_up(f.fit.plane.n).roll_rad), 0.002) << height_m;
+  }
+}
+
+// Dust hangs over the floor in few places and hides little of it from the fit.
+TEST(FloorFit, SpecksOverTheFloorLeaveItToTheFit) {
+  test::FloorFixture g;
+  test::Noise noise(5);
+  for (int i = 0; i < 6000; ++i) g.add(noise.uniform(-3, 3), noise.uniform(-2, 2), noise.normal(0.005));
+  for (int i = 0; i < 20; ++i) g.add(noise.uniform(-3, 3), noise.uniform(-2, 2), noise.uniform(0.1, 0.9));
+  const FloorResult f = fit(&g, near_floor());
+  ASSERT_TRUE(f.fit.found);
+  EXPECT_LT(std::fabs(roll_pitch_of_up(f.fit.plane.n).roll_rad), 0.0005);
+  EXPECT_LT(f.roll_sigma_rad, 0.0005);
+}
+
 // Waves of 6 cm over 2 m: the plane through what is seen is off by up to a degree, and says so.
 TEST(FloorFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
   int outside = 0;
