@@ -42,8 +42,8 @@ constexpr double kNear_m = 4.5;
 constexpr std::uint32_t kGapOfBody = 2;
 constexpr std::uint32_t kAnyPart = 100;  // judgement, 2026-11-23: one point in a hundred is there
 // Ground is most of what lies about its plane. A plane that is prolonged past its ground meets strays among other
-// things. Of a ramp's plane these were 46 % behind the machine at most (judge, 8300745), of floors that a VLP-16 sees
-// to both sides on working days 53 % at least, in a recorded corridor 84 %. Judgement, 2026-11-27: half.
+// things. Behind the machine a ramp's plane had 46 % at most (judge, 8300745). Floors that a VLP-16 sees to both sides
+// have 53 % at least on working days, and 84 % in a recorded corridor. Judgement, 2026-11-27: half.
 constexpr std::uint32_t kGroundPart = 2;
 constexpr double kAbout_m = 0.35;        // judgement, 2026-11-27: ruts and waves lie so far off a floor's plane
 constexpr std::uint32_t kRealPart = 20;  // judgement, 2026-11-26: strays alone are no ground either

@@ -76,8 +76,8 @@ Verdict hear_traced(const Case& tried, FailedGates* failed) {
       pose_wall_result result = api::make_result();
       const std::int32_t status = engine->process(cloud, result);
       if (status != POSE_WALL_OK) throw std::runtime_error(pose_wall_status_text(status));
-      for (std::size_t g = 0; g < failed->size(); ++g) {
-        (*failed)[g] = (*failed)[g] || (engine->trace().failed[g / 64] >> g % 64 & 1U) != 0;
+      for (std::uint32_t gate = 0; gate < failed->size(); ++gate) {
+        (*failed)[gate] = (*failed)[gate] || tools::has_failed(engine->trace(), gate);
       }
       return result;
     };

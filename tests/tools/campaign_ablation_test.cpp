@@ -61,7 +61,7 @@ TEST(GateWorth, CountsWhatBecomesWrongAndWhatBecomesRight) {
   campaign::GateWorth none;
   none.add(right_frame(), right_frame(), limits);
   EXPECT_EQ(none.frames_changed, 0U);
-  EXPECT_FALSE(none.is_needed());
+  EXPECT_EQ(none.wrong_more(), 0U);
 
   campaign::GateWorth needed;
   needed.add(right_frame(), wrong, limits);
@@ -70,7 +70,7 @@ TEST(GateWorth, CountsWhatBecomesWrongAndWhatBecomesRight) {
   EXPECT_EQ(needed.misleading_more, 1U);
   EXPECT_EQ(needed.misleading_fewer, 1U);
   EXPECT_EQ(needed.beyond_more, 1U);
-  EXPECT_TRUE(needed.is_needed());
+  EXPECT_EQ(needed.wrong_more(), 2U);
 
   campaign::GateWorth dear;
   dear.add(held, right_frame(), limits);
@@ -78,7 +78,7 @@ TEST(GateWorth, CountsWhatBecomesWrongAndWhatBecomesRight) {
   dear.add(held, right_frame(), limits);
   EXPECT_EQ(dear.valid_gained, 2U);
   EXPECT_EQ(dear.valid_lost, 1U);
-  EXPECT_FALSE(dear.is_needed());
+  EXPECT_EQ(dear.wrong_more(), 0U);
 }
 
 TEST(Ablation, WithoutTheGatesOfARepeatedCloudOldValuesAreValid) {

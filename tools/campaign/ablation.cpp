@@ -7,16 +7,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
-#include "campaign/runner.hpp"
+#include "campaign/traced_runs.hpp"
 #include "explain/gate_list.hpp"
-#include "explain/traced_frame.hpp"
 #include "results/json_words.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/did_you_mean.hpp"
@@ -25,47 +22,19 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
+// Frames in which each gate failed.
 using FailedFrames = std::array<std::size_t, POSE_WALL_TRACE_GATES>;
-
-struct TracedRun {
-  RunRecord record;
-  FailedFrames failed{};  // frames in which each gate failed
-};
+using AblatedRun = TracedRun<FailedFrames>;
 
 void count_failed(const pose_wall_trace& trace, FailedFrames* failed) {
-  for (std::size_t gate = 0; gate < failed->size(); ++gate) {
-    if ((trace.failed[gate / 64] >> gate % 64 & 1U) != 0) ++failed->at(gate);
+  for (std::uint32_t gate = 0; gate < failed->size(); ++gate) {
+    if (has_failed(trace, gate)) ++failed->at(gate);
   }
 }
 
-std::vector<TracedRun> traced(const EngineChoice& choice, const std::vector<Run>& runs, const Crew& crew) {
-  std::vector<TracedRun> done(runs.size());
-  work_on(runs, crew, [&]() -> RunWork {
-    const auto engine = std::make_shared<TracedEngine>();
-    return [&, engine](const Run& run, const std::function<void()>& on_frame) {
-      TracedRun& out = done.at(static_cast<std::size_t>(&run - runs.data()));
-      const Instrument instrument = {[&](const LoadedConfig& loaded) { return engine->open(loaded.config); },
-                                     [&](const pose_wall_cloud& cloud, pose_wall_result& result) {
-                                       const std::int32_t status = engine->process(cloud, result);
-                                       if (status == POSE_WALL_OK) count_failed(engine->trace(), &out.failed);
-                                       return status;
-                                     }};
-      out.record = measure(run, choice, instrument, on_frame);
-    };
-  });
-  return done;
+std::vector<AblatedRun> traced(const EngineChoice& choice, const std::vector<Run>& runs, const Crew& crew) {
+  return traced_runs<FailedFrames>(choice, runs, crew, count_failed);
 }
-
-// The gates stop nothing for its lifetime, whatever ends that.
-class WithoutGates {
- public:
-  explicit WithoutGates(const Gates& gates) {
-    for (const std::uint32_t gate : gates) pose_wall_trace_let_pass(gate);
-  }
-  ~WithoutGates() { pose_wall_trace_forget_limits(); }
-  WithoutGates(const WithoutGates&) = delete;
-  WithoutGates& operator=(const WithoutGates&) = delete;
-};
 
 // The fit takes a plane as given: without it there is nothing to begin with.
 bool is_indispensable(std::uint32_t gate) {
@@ -125,14 +94,14 @@ std::string worst_of(const std::map<std::string, std::size_t>& wrong_by_class) {
 }
 
 // Measures the runs in which a gate failed; in all others its absence changes nothing.
-AblationRow row_of(const Gates& gates, const std::vector<TracedRun>& with_all, const Manifest& manifest,
+AblationRow row_of(const Gates& gates, const std::vector<AblatedRun>& with_all, const Manifest& manifest,
                    const Crew& crew) {
   AblationRow row{gates, {}, ""};
   std::vector<Run> again;
-  std::vector<const TracedRun*> before;
-  for (const TracedRun& run : with_all) {
+  std::vector<const AblatedRun*> before;
+  for (const AblatedRun& run : with_all) {
     std::size_t failed = 0;
-    for (const std::uint32_t gate : gates) failed = std::max(failed, run.failed.at(gate));
+    for (const std::uint32_t gate : gates) failed = std::max(failed, run.seen.at(gate));
     if (failed == 0) continue;
     row.worth.frames_failed += failed;
     again.push_back(run.record.run);
@@ -140,17 +109,16 @@ AblationRow row_of(const Gates& gates, const std::vector<TracedRun>& with_all, c
   }
   row.worth.runs_failed = again.size();
   if (again.empty()) return row;
-  const WithoutGates without(gates);
-  const std::vector<TracedRun> now = traced(manifest.engine, again, crew);
+  const LimitsRestored afterwards;
+  for (const std::uint32_t gate : gates) pose_wall_trace_let_pass(gate);
+  const std::vector<AblatedRun> now = traced(manifest.engine, again, crew);
   std::map<std::string, std::size_t> wrong_by_class;
   for (std::size_t run = 0; run < now.size(); ++run) {
-    GateWorth of_run;
+    const std::size_t wrong_before = row.worth.wrong_more();
     for (std::size_t i = 0; i < now[run].record.frames.size(); ++i) {
-      const FrameRecord &a = before[run]->record.frames[i], &b = now[run].record.frames[i];
-      row.worth.add(a, b, manifest.limits);
-      of_run.add(a, b, manifest.limits);
+      row.worth.add(before[run]->record.frames[i], now[run].record.frames[i], manifest.limits);
     }
-    wrong_by_class[again[run].scene + ", " + again[run].sensor] += of_run.misleading_more + of_run.beyond_more;
+    wrong_by_class[again[run].scene + ", " + again[run].sensor] += row.worth.wrong_more() - wrong_before;
   }
   row.worst = worst_of(wrong_by_class);
   return row;
@@ -185,16 +153,6 @@ std::string more_and_fewer(std::size_t more, std::size_t fewer) {
 
 }  // namespace
 
-bool same_outcome(const FrameRecord& a, const FrameRecord& b) {
-  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  for (std::size_t q = 0; q < a.quantity.size(); ++q) {
-    const Measured &m = a.quantity[q].measured, &n = b.quantity[q].measured;
-    if (m.state != n.state || !same(m.value, n.value) || !same(m.raw, n.raw)) return false;
-    if (!same(m.sigma, n.sigma) || !same(m.protection_level, n.protection_level)) return false;
-  }
-  return true;
-}
-
 void GateWorth::add(const FrameRecord& with_all, const FrameRecord& without, const AlertLimits& limits) {
   if (same_outcome(with_all, without)) return;
   ++frames_changed;
@@ -222,7 +180,7 @@ Ablation run_ablation(const std::string& words, const Manifest& manifest, const 
   if (!parsed.fault.empty()) throw std::invalid_argument("--ablate: " + parsed.fault);
   Ablation ablation{manifest, words, frames_of(runs), {}};
   if (crew.tell_progress) fmt::print(stderr, "with all gates: {}\n", counted(runs.size(), "run"));
-  const std::vector<TracedRun> with_all = traced(manifest.engine, runs, crew);
+  const std::vector<AblatedRun> with_all = traced(manifest.engine, runs, crew);
   for (const Gates& gates : parsed.rows) {
     if (crew.tell_progress) {
       fmt::print(stderr, "without {} ({} of {})\n", names_of(gates), ablation.rows.size() + 1, parsed.rows.size());

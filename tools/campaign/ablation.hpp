@@ -28,12 +28,9 @@ struct GateWorth {
   std::size_t beyond_more = 0, beyond_fewer = 0;  // values beyond their level, in any state but invalid
 
   void add(const FrameRecord& with_all, const FrameRecord& without, const AlertLimits& limits);
-  // Without the gate a wrong value more passes.
-  bool is_needed() const { return misleading_more + beyond_more > 0; }
+  // Wrong values that pass only without the gate.
+  std::size_t wrong_more() const { return misleading_more + beyond_more; }
 };
-
-// Whether values, levels and states are the same.
-bool same_outcome(const FrameRecord& a, const FrameRecord& b);
 
 using Gates = std::vector<std::uint32_t>;  // pose_wall_trace_gate_id
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -79,6 +80,16 @@ RunRecord record_of(const CsvTable& table) {
 }
 
 }  // namespace
+
+bool same_outcome(const FrameRecord& a, const FrameRecord& b) {
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  for (std::size_t q = 0; q < a.quantity.size(); ++q) {
+    const Measured &m = a.quantity[q].measured, &n = b.quantity[q].measured;
+    if (m.state != n.state || !same(m.value, n.value) || !same(m.raw, n.raw)) return false;
+    if (!same(m.sigma, n.sigma) || !same(m.protection_level, n.protection_level)) return false;
+  }
+  return true;
+}
 
 Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& limits) {
   const QuantityRecord& v = frame.quantity[quantity];

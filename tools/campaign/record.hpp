@@ -34,6 +34,9 @@ struct FrameRecord {
   std::array<QuantityRecord, POSE_WALL_QUANTITIES> quantity{};
 };
 
+// Whether values, levels and states are the same.
+bool same_outcome(const FrameRecord& a, const FrameRecord& b);
+
 Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& limits);
 
 struct RunRecord {

@@ -9,16 +9,14 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 
-#include "campaign/ablation.hpp"
+#include "campaign/traced_runs.hpp"
 #include "explain/gate_list.hpp"
 #include "explain/notes.hpp"
-#include "explain/traced_frame.hpp"
 #include "frames/text_cursor.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/did_you_mean.hpp"
@@ -90,37 +88,6 @@ Parsed parse(const std::string& words) {
   return parsed;
 }
 
-// Limits stay as they were found, whatever ends the sweep.
-class LimitInPlace {
- public:
-  LimitInPlace(std::uint32_t gate, double limit) {
-    if (!std::isnan(limit)) pose_wall_trace_set_limit(gate, limit);
-  }
-  ~LimitInPlace() { pose_wall_trace_forget_limits(); }
-  LimitInPlace(const LimitInPlace&) = delete;
-  LimitInPlace& operator=(const LimitInPlace&) = delete;
-};
-
-struct SweptRun {
-  RunRecord record;
-  GateCounts gate;
-};
-
-RunWork sweep_worker(const EngineChoice& choice, std::uint32_t gate, const std::vector<Run>& runs,
-                     std::vector<SweptRun>& swept) {
-  const auto engine = std::make_shared<TracedEngine>();
-  return [&choice, gate, &runs, &swept, engine](const Run& run, const std::function<void()>& on_frame) {
-    SweptRun& out = swept.at(static_cast<std::size_t>(&run - runs.data()));
-    const Instrument instrument = {[&](const LoadedConfig& loaded) { return engine->open(loaded.config); },
-                                   [&](const pose_wall_cloud& cloud, pose_wall_result& result) {
-                                     const std::int32_t status = engine->process(cloud, result);
-                                     if (status == POSE_WALL_OK) out.gate.add(engine->trace(), gate);
-                                     return status;
-                                   }};
-    out.record = measure(run, choice, instrument, on_frame);
-  };
-}
-
 std::size_t frames_changed(const std::vector<RunRecord>& of_table, const std::vector<RunRecord>& now) {
   std::size_t changed = 0;
   for (std::size_t run = 0; run < now.size(); ++run) {
@@ -134,16 +101,15 @@ std::size_t frames_changed(const std::vector<RunRecord>& of_table, const std::ve
 // `of_table`: the records of the first row, which fills them in.
 SweepRow measure_row(std::uint32_t gate, double limit, const Manifest& manifest, const std::vector<Run>& runs,
                      const Crew& crew, std::vector<RunRecord>* of_table) {
-  std::vector<SweptRun> swept(runs.size());
-  {
-    const LimitInPlace in_place(gate, limit);
-    work_on(runs, crew, [&] { return sweep_worker(manifest.engine, gate, runs, swept); });
-  }
+  const LimitsRestored afterwards;
+  if (!std::isnan(limit)) pose_wall_trace_set_limit(gate, limit);
+  std::vector<TracedRun<GateCounts>> swept = traced_runs<GateCounts>(
+      manifest.engine, runs, crew, [gate](const pose_wall_trace& trace, GateCounts* seen) { seen->add(trace, gate); });
   SweepRow row{std::isnan(limit), limit, {}, {}, 0};
   std::vector<RunRecord> records;
-  for (SweptRun& one : swept) {
+  for (TracedRun<GateCounts>& one : swept) {
     records.push_back(std::move(one.record));
-    row.gate.merge(one.gate);
+    row.gate.merge(one.seen);
   }
   row.judged = make_card(manifest, records, 0).judged;
   if (row.is_of_table) *of_table = records;

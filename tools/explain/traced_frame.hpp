@@ -17,6 +17,11 @@
 
 namespace pose_wall::tools {
 
+// Whether the gate failed in the frame, perhaps on a plane without a note.
+inline bool has_failed(const pose_wall_trace& trace, std::uint32_t gate) {
+  return (trace.failed[gate / 64] >> gate % 64 & 1U) != 0;
+}
+
 // The engine's memory before a frame.
 using Memento = std::vector<std::byte>;
 Memento memento_of(pose_wall_engine* engine);
