@@ -63,7 +63,13 @@ struct Eighths {
   bool has_ground(std::uint32_t eighth) const {
     return total > 0 && count[eighth] * kRealPart >= total && count[eighth] * kGroundPart >= about[eighth];
   }
-  double near_share() const { return total > 0 ? static_cast<double>(near) / total : 0.0; }
+  // Of the floor, near the machine. None speaks for it where other ground is seen, on which the machine may stand: what
+  // lies about the plane in all eighths that do not show the floor.
+  double near_share() const {
+    std::uint32_t elsewhere = 0;
+    for (std::uint32_t eighth = 0; eighth < 8; ++eighth) elsewhere += has_ground(eighth) ? 0 : about[eighth];
+    return total > 0 && elsewhere * kRealPart < total ? static_cast<double>(near) / total : 0.0;
+  }
 };
 
 // Counts points within reach of the plane and below the sensor. Prolonged, a steep plane meets the roof.

@@ -85,8 +85,8 @@ constexpr GateWords kFloorWords[] = {
     {"floor_near",
      translatable(
          "The floor is seen on one side of the machine only, and {value} of it near the machine; {limit} is "
-         "needed. It may be a ramp ahead, so the protection levels grow by 9.7°, and of a floor steeper than that "
-         "by its tilt as well."),
+         "needed. Where other ground is seen too, none counts. It may be a ramp ahead, so the protection levels "
+         "grow by 9.7°, and of a floor steeper than that by its tilt as well."),
      translatable("show the ground that the machine stands on; mount the sensor so that it looks further down")},
     {"floor_beside",
      translatable("The floor is seen on one side of the machine only; ground on the other side lies otherwise by "

@@ -27,7 +27,8 @@ inline constexpr const char* kGateMeasures[] = {
     translatable("measured points on the floor"),
     translatable("open floor that is seen"),
     translatable("spread of the open floor across its longer side"),
-    translatable("where the floor is seen on less than half a turn, share of it within 4.5 m of the machine"),
+    translatable("where the floor is seen on less than half a turn, share of it within 4.5 m of the machine; none "
+                 "where other ground is seen"),
     translatable("how far other ground lies otherwise, on which the machine may stand"),
     translatable("tilt that the lean of both walls speaks of"),
     translatable("there is a floor to level by"),

@@ -155,7 +155,8 @@ TEST(FloorBeside, ARoofThatTheProlongedPlaneMeetsIsNoFloor) {
 TEST(FloorBeside, TheSideOfTheLineTellsOnWhichOfTwoPlanesTheMachineStands) {
   for (const double slope_rad : {-0.12, 0.12}) {  // behind the line that is up, and down
     SCOPED_TRACE(slope_rad);
-    const FloorResult on_other = TwoPlanes{slope_rad, 2.0}.reached(), on_floor = TwoPlanes{slope_rad, -3.0}.reached();
+    const FloorResult on_other = TwoPlanes{slope_rad, 2.0}.reached();
+    const FloorResult on_floor = TwoPlanes{slope_rad, -3.0, 0.0, -12.0, -8.0}.reached();
     EXPECT_TRUE(is_ambiguous(on_other));
     EXPECT_GE(on_other.pitch_bound_rad.sum(), 0.12 + 0.02) << "the other plane, and some for how well it is known";
     EXPECT_LT(on_other.pitch_bound_rad.sum(), 0.25);
@@ -168,7 +169,19 @@ TEST(FloorBeside, TheSideOfTheLineTellsOnWhichOfTwoPlanesTheMachineStands) {
 TEST(FloorBeside, APlaneAllOverBelowMayCarryTheMachineOneAboveMayNot) {
   EXPECT_TRUE(is_ambiguous(TwoPlanes{0.05, 0.0, -0.8}.reached()));
   EXPECT_FALSE(is_ambiguous(TwoPlanes{0.05, 0.0, 0.8}.reached()));
-  EXPECT_FALSE(is_ambiguous(TwoPlanes{0.0, 0.0, -0.2}.reached())) << "a kerb";
+}
+
+// The floor begins 3 m ahead, and as near to its plane lies other ground behind: the machine may stand on either.
+TEST(FloorBeside, NearGroundSpeaksForTheFloorOnlyWhereNothingElseIsSeen) {
+  for (const double height_m : {-0.3, -0.2, 0.2, 0.3}) {
+    const FloorResult floor = TwoPlanes{0.0, 0.0, height_m}.reached();
+    EXPECT_TRUE(is_ambiguous(floor)) << height_m;
+    EXPECT_GT(floor.pitch_bound_rad.sum(), 0.1) << height_m;
+    EXPECT_GT(floor.roll_bound_rad.sum(), 0.1) << height_m;
+  }
+  TwoPlanes alone;
+  alone.other_to_m = alone.other_from_m - 1.0;  // nothing
+  EXPECT_FALSE(is_ambiguous(alone.reached()));
 }
 
 TEST(FloorBeside, OnAFloorThatIsSeenToBothSidesTheMachineStands) {
