@@ -61,24 +61,24 @@ TEST(GateWorth, CountsWhatBecomesWrongAndWhatBecomesRight) {
   campaign::GateWorth none;
   none.add(right_frame(), right_frame(), limits);
   EXPECT_EQ(none.frames_changed, 0U);
-  EXPECT_EQ(none.wrong_more(), 0U);
+  EXPECT_EQ(none.values.wrong_more(), 0U);
 
   campaign::GateWorth needed;
   needed.add(right_frame(), wrong, limits);
   needed.add(wrong, right_frame(), limits);
   EXPECT_EQ(needed.frames_changed, 2U);
-  EXPECT_EQ(needed.misleading_more, 1U);
-  EXPECT_EQ(needed.misleading_fewer, 1U);
-  EXPECT_EQ(needed.beyond_more, 1U);
-  EXPECT_EQ(needed.wrong_more(), 2U);
+  EXPECT_EQ(needed.values.misleading.more, 1U);
+  EXPECT_EQ(needed.values.misleading.fewer, 1U);
+  EXPECT_EQ(needed.values.beyond.more, 1U);
+  EXPECT_EQ(needed.values.wrong_more(), 2U);
 
   campaign::GateWorth dear;
   dear.add(held, right_frame(), limits);
   dear.add(right_frame(), held, limits);
   dear.add(held, right_frame(), limits);
-  EXPECT_EQ(dear.valid_gained, 2U);
-  EXPECT_EQ(dear.valid_lost, 1U);
-  EXPECT_EQ(dear.wrong_more(), 0U);
+  EXPECT_EQ(dear.values.valid.more, 2U);
+  EXPECT_EQ(dear.values.valid.fewer, 1U);
+  EXPECT_EQ(dear.values.wrong_more(), 0U);
 }
 
 TEST(Ablation, WithoutTheGatesOfARepeatedCloudOldValuesAreValid) {

@@ -16,14 +16,6 @@
 
 namespace pose_wall::tools::campaign {
 
-// Limits stay as they were found, whatever ends its life. Limits are of the whole program.
-struct LimitsRestored {
-  LimitsRestored() = default;
-  ~LimitsRestored() { pose_wall_trace_forget_limits(); }
-  LimitsRestored(const LimitsRestored&) = delete;
-  LimitsRestored& operator=(const LimitsRestored&) = delete;
-};
-
 template <typename Seen>
 struct TracedRun {
   RunRecord record;

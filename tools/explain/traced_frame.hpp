@@ -22,6 +22,14 @@ inline bool has_failed(const pose_wall_trace& trace, std::uint32_t gate) {
   return (trace.failed[gate / 64] >> gate % 64 & 1U) != 0;
 }
 
+// The table's limits are back, whatever ends its life. Limits are of the whole program.
+struct LimitsRestored {
+  LimitsRestored() = default;
+  ~LimitsRestored() { pose_wall_trace_forget_limits(); }
+  LimitsRestored(const LimitsRestored&) = delete;
+  LimitsRestored& operator=(const LimitsRestored&) = delete;
+};
+
 // The engine's memory before a frame.
 using Memento = std::vector<std::byte>;
 Memento memento_of(pose_wall_engine* engine);

@@ -336,7 +336,7 @@ void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
   verb.add_option("--ablate", options.ablate,
                   "each, or GATE,...: print what becomes valid, and what becomes wrong, without each gate alone, or "
                   "without these gates together")
-      ->check(campaign::ablation_fault, "");
+      ->check([](const std::string& words) { return campaign::gate_rows(words).fault; }, "");
   verb.add_flag("--json", options.json, "With --sweep or --ablate: the table as JSON");
 }
 
