@@ -9,40 +9,21 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "campaign/ablation.hpp"
+#include "campaign_tables.hpp"
 #include "explain/gate_list.hpp"
-#include "ran_command.hpp"
-#include "test_files.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 using nlohmann::json;
-using test::command;
 using test::contains;
 using test::Ran;
 
 // A sensor that repeats its cloud under new stamps: the true pose moves on.
-const std::vector<std::string> kAblatedRuns = {"--scenes", "frozen,clean", "--sensors", "vlp16",  "--draws",
-                                               "1",        "--frames",     "25",        "--quiet"};
-
-Ran ablated(const std::string& what, std::vector<std::string> more = {}) {
-  std::vector<std::string> words = {"campaign", "--ablate", what};
-  words.insert(words.end(), kAblatedRuns.begin(), kAblatedRuns.end());
-  words.insert(words.end(), more.begin(), more.end());
-  return command(words);
-}
-
-json rows_without(const std::string& what, std::vector<std::string> more = {}) {
-  more.emplace_back("--json");
-  const Ran ran = ablated(what, more);
-  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
-  return json::parse(ran.printed).at("rows");
-}
+const test::CampaignRuns kAblatedRuns({"--scenes", "frozen,clean", "--sensors", "vlp16", "--draws", "1", "--frames",
+                                       "25", "--quiet"});
 
 // One valid value, 0 off the truth.
 campaign::FrameRecord right_frame() {
@@ -82,7 +63,7 @@ TEST(GateWorth, CountsWhatBecomesWrongAndWhatBecomesRight) {
 }
 
 TEST(Ablation, WithoutTheGatesOfARepeatedCloudOldValuesAreValid) {
-  const json row = rows_without("repeated,frozen").at(0);
+  const json row = kAblatedRuns.rows("--ablate", "repeated,frozen").at(0);
   EXPECT_EQ(row.at("without"), "repeated, frozen");
   EXPECT_GT(row.at("frames_failed"), 0U);
   EXPECT_GT(row.at("valid_gained"), 0U);
@@ -90,7 +71,7 @@ TEST(Ablation, WithoutTheGatesOfARepeatedCloudOldValuesAreValid) {
 }
 
 TEST(Ablation, EachGateHasARowAndThoseThatNeverFailChangeNothing) {
-  const json rows = rows_without("each");
+  const json rows = kAblatedRuns.rows("--ablate", "each");
   ASSERT_EQ(rows.size(), explain::gate_list().size() - 1) << "all but floor_planes";
   bool changed = false, idle = false;
   for (const json& row : rows) {
@@ -104,27 +85,23 @@ TEST(Ablation, EachGateHasARowAndThoseThatNeverFailChangeNothing) {
 }
 
 TEST(Ablation, LeavesTheGatesAsTheyWereAndPrintsTheSameWithTwoJobs) {
-  const Ran one = ablated("repeated", {"--jobs", "1"});
+  const Ran one = kAblatedRuns.with({"--ablate", "repeated", "--jobs", "1"});
   EXPECT_TRUE(contains(one.printed, "repeated")) << one.printed << one.errors;
-  EXPECT_EQ(one.printed, ablated("repeated", {"--jobs", "2"}).printed);
+  EXPECT_EQ(one.printed, kAblatedRuns.with({"--ablate", "repeated", "--jobs", "2"}).printed);
 }
 
 TEST(Ablation, WhatCannotBeLeftOutIsRefusedByName) {
-  const std::vector<std::pair<std::string, std::string>> refused = {
-      {"wall_lenght", "'wall_lenght' is no gate; did you mean 'wall_length'?"},
-      {"zzz", "'zzz' is no gate; 'each' and the names of `pose_wall explain --gates` are allowed"},
-      {"wall_low,", "'' is no gate"},
-      {"floor_planes", "floor_planes cannot go: the fit needs a plane"},
-      {",", "'' is no gate"},
-  };
-  for (const auto& [words, said] : refused) {
-    const Ran ran = ablated(words);
-    EXPECT_EQ(ran.exit_status, 2) << words;
-    EXPECT_TRUE(contains(ran.errors, said)) << words << ": " << ran.errors;
-    EXPECT_EQ(ran.printed, "") << words;
-  }
-  EXPECT_EQ(ablated("wall_low", {"--sweep", "wall_low=0"}).exit_status, 2) << "one table at a time";
-  EXPECT_EQ(ablated("wall_low", {"--output", "folder"}).exit_status, 2);
+  kAblatedRuns.expect_refused(
+      "--ablate", {
+                      {"wall_lenght", "'wall_lenght' is no gate; did you mean 'wall_length'?"},
+                      {"zzz", "'zzz' is no gate; 'each' and the names of `pose_wall explain --gates` are allowed"},
+                      {"wall_low,", "'' is no gate"},
+                      {"floor_planes", "floor_planes cannot go: the fit needs a plane"},
+                      {",", "'' is no gate"},
+                  });
+  EXPECT_EQ(kAblatedRuns.with({"--ablate", "wall_low", "--sweep", "wall_low=0"}).exit_status, 2)
+      << "one table at a time";
+  EXPECT_EQ(kAblatedRuns.with({"--ablate", "wall_low", "--output", "folder"}).exit_status, 2);
 }
 
 }  // namespace

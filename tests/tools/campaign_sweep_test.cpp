@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "campaign_tables.hpp"
 #include "explain/gate_list.hpp"
 #include "explain/traced_frame.hpp"
 #include "ran_command.hpp"
@@ -29,21 +30,11 @@ using test::TempFolder;
 using test::text_of;
 
 // Two draws of four frames of two scenes that a sparse sensor sees.
-const std::vector<std::string> kSweptRuns = {"--scenes", "clean,partial", "--sensors", "vlp16",  "--draws",
-                                             "2",        "--frames",      "4",         "--quiet"};
+const test::CampaignRuns kSweptRuns({"--scenes", "clean,partial", "--sensors", "vlp16", "--draws", "2", "--frames", "4",
+                                     "--quiet"});
 
-Ran campaign_with(std::vector<std::string> words, const std::vector<std::string>& runs = kSweptRuns) {
-  words.insert(words.begin(), "campaign");
-  words.insert(words.end(), runs.begin(), runs.end());
-  return command(words);
-}
-
-json swept(const std::string& what, std::vector<std::string> more = {},
-           const std::vector<std::string>& runs = kSweptRuns) {
-  more.insert(more.end(), {"--json", "--sweep", what});
-  const Ran ran = campaign_with(more, runs);
-  EXPECT_EQ(ran.exit_status, 0) << ran.errors;
-  return json::parse(ran.printed).at("rows");
+json swept(const std::string& what, const test::CampaignRuns& runs = kSweptRuns) {
+  return runs.rows("--sweep", what);
 }
 
 class TracedSequence : public ::testing::TestWithParam<const char*> {};
@@ -85,7 +76,7 @@ TEST(TracedSequence, BeginsAnewWhenItIsOpenedAgain) {
 
 TEST(Sweep, TheTablesLimitIsWhatTheCardSays) {
   const TempFolder folder;
-  ASSERT_EQ(campaign_with({"--set", "motion=off", "--output", folder.path()}).exit_status, 0);
+  ASSERT_EQ(kSweptRuns.with({"--set", "motion=off", "--output", folder.path()}).exit_status, 0);
   const json card = json::parse(text_of(folder.file("card.json"))).at("totals").at("both");
   const json row = swept("wall_length=1.5").at(0);
   EXPECT_TRUE(row.at("limit").is_null());
@@ -121,11 +112,11 @@ TEST(Sweep, LeavesTheTableAsItWas) {
 }
 
 TEST(Sweep, TwoJobsPrintTheSameAsOne) {
-  const Ran one = campaign_with({"--sweep", "wall_length=3,100", "--jobs", "1"});
+  const Ran one = kSweptRuns.with({"--sweep", "wall_length=3,100", "--jobs", "1"});
   EXPECT_EQ(one.exit_status, 0) << one.errors;
   EXPECT_TRUE(contains(one.printed, "wall_length: supported along the road")) << one.printed;
   EXPECT_TRUE(contains(one.printed, "table: 2 ")) << one.printed;
-  EXPECT_EQ(one.printed, campaign_with({"--sweep", "wall_length=3,100", "--jobs", "2"}).printed);
+  EXPECT_EQ(one.printed, kSweptRuns.with({"--sweep", "wall_length=3,100", "--jobs", "2"}).printed);
 }
 
 TEST(Sweep, AGateWhoseLimitEachFrameTellsTakesOneForAll) {
@@ -136,9 +127,9 @@ TEST(Sweep, AGateWhoseLimitEachFrameTellsTakesOneForAll) {
 }
 
 TEST(Sweep, ABareYesOrNoLetsEverythingPassWithZero) {
-  const std::vector<std::string> runs = {"--scenes", "stamp_still", "--sensors", "vlp16", "--draws",
-                                         "1",        "--frames",    "14",        "-q"};
-  const json rows = swept("stamp_still=0,1", {}, runs);
+  const test::CampaignRuns runs(
+      {"--scenes", "stamp_still", "--sensors", "vlp16", "--draws", "1", "--frames", "14", "-q"});
+  const json rows = swept("stamp_still=0,1", runs);
   EXPECT_GT(rows.at(0).at("gate").at("not_passed"), 0U);
   EXPECT_EQ(rows.at(1).at("gate").at("not_passed"), 0U);
   json one = rows.at(2);
@@ -147,35 +138,31 @@ TEST(Sweep, ABareYesOrNoLetsEverythingPassWithZero) {
 }
 
 TEST(Sweep, WhatCannotBeSweptIsRefusedByName) {
-  const std::vector<std::pair<std::string, std::string>> refused = {
-      {"wall_lenght=1", "'wall_lenght' is no gate; did you mean 'wall_length'?"},
-      {"=1", "'' is no gate; `pose_wall explain --gates` lists them"},
-      {"wall_length", "has no limits; GATE=A,B,... is asked for: numbers in m"},
-      {"wall_length=", "wall_length: '' is refused; numbers in m, separated by commas, are allowed"},
-      {"wall_length=1,,2", "'' is refused"},
-      {"wall_length=1,two", "'two' is refused; numbers in m"},
-      {"wall_length=nan", "'nan' is refused"},
-      {"wall_length=1e999", "'1e999' is refused"},
-      {"floor_planes=0", "'0' is refused; numbers from 1"},
-      {"wall_low=0.5", "'0.5' is refused; 0 (it lets everything pass) and 1 (as in the table) are allowed"},
-  };
-  for (const auto& [words, said] : refused) {
-    const Ran ran = campaign_with({"--sweep", words});
-    EXPECT_EQ(ran.exit_status, 2) << words;
-    EXPECT_TRUE(contains(ran.errors, said)) << words << ": " << ran.errors;
-    EXPECT_EQ(ran.printed, "") << words;
-  }
+  kSweptRuns.expect_refused(
+      "--sweep",
+      {
+          {"wall_lenght=1", "'wall_lenght' is no gate; did you mean 'wall_length'?"},
+          {"=1", "'' is no gate; `pose_wall explain --gates` lists them"},
+          {"wall_length", "has no limits; GATE=A,B,... is asked for: numbers in m"},
+          {"wall_length=", "wall_length: '' is refused; numbers in m, separated by commas, are allowed"},
+          {"wall_length=1,,2", "'' is refused"},
+          {"wall_length=1,two", "'two' is refused; numbers in m"},
+          {"wall_length=nan", "'nan' is refused"},
+          {"wall_length=1e999", "'1e999' is refused"},
+          {"floor_planes=0", "'0' is refused; numbers from 1"},
+          {"wall_low=0.5", "'0.5' is refused; 0 (it lets everything pass) and 1 (as in the table) are allowed"},
+      });
 }
 
 TEST(Sweep, WhatCannotGoWithItIsRefusedByName) {
   const TempFolder folder;
-  const Ran kept = campaign_with({"--sweep", "wall_length=1", "--output", folder.path(), "--gate"});
+  const Ran kept = kSweptRuns.with({"--sweep", "wall_length=1", "--output", folder.path(), "--gate"});
   EXPECT_EQ(kept.exit_status, 2);
   EXPECT_TRUE(contains(kept.errors, "--output, --gate cannot go with it")) << kept.errors;
-  EXPECT_EQ(campaign_with({"--sweep", "wall_length=1", "--motion"}).exit_status, 2);
-  EXPECT_EQ(campaign_with({"--sweep", "wall_length=1", "--sweep", "wall_lean=1"}).exit_status, 2)
+  EXPECT_EQ(kSweptRuns.with({"--sweep", "wall_length=1", "--motion"}).exit_status, 2);
+  EXPECT_EQ(kSweptRuns.with({"--sweep", "wall_length=1", "--sweep", "wall_lean=1"}).exit_status, 2)
       << "one gate at a time";
-  const Ran json_alone = campaign_with({"--json", "--output", folder.path()});
+  const Ran json_alone = kSweptRuns.with({"--json", "--output", folder.path()});
   EXPECT_EQ(json_alone.exit_status, 2);
   EXPECT_TRUE(contains(json_alone.errors, "--json needs --sweep")) << json_alone.errors;
 }
