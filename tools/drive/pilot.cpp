@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "language/language.hpp"
@@ -50,11 +51,23 @@ double clearance_of(void* planner, double x_m, double y_m) {
   return static_cast<const RoutePlanner*>(planner)->clearance_m(x_m, y_m);
 }
 
+struct PhaseWords {
+  const char *name, *text;
+};
+constexpr PhaseWords kPhases[] = {{"locating", translatable("looks for its place")},
+                                  {"following", translatable("follows its route")},
+                                  {"arrived", translatable("arrived")},
+                                  {"given_up", translatable("given up")}};
+static_assert(std::size(kPhases) == static_cast<std::size_t>(PilotPhase::kGivenUp) + 1);
+
 }  // namespace
 
 const char* pilot_phase_name(PilotPhase phase) {
-  static constexpr const char* kNames[] = {"locating", "following", "arrived", "given_up"};
-  return kNames[static_cast<int>(phase)];
+  return kPhases[static_cast<int>(phase)].name;
+}
+
+std::string pilot_phase_text(PilotPhase phase) {
+  return tr(kPhases[static_cast<int>(phase)].text);
 }
 
 DrivePilot::DrivePilot(const MapFile& map, std::vector<pose_wall_planar_pose> goals, double speed_max_m_s,

@@ -21,6 +21,8 @@ namespace pose_wall::tools {
 enum class PilotPhase { kLocating, kFollowing, kArrived, kGivenUp };
 // "locating"; no language.
 const char* pilot_phase_name(PilotPhase phase);
+// As a person reads it: "looks for its place".
+std::string pilot_phase_text(PilotPhase phase);
 
 class DrivePilot {
  public:

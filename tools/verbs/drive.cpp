@@ -55,13 +55,6 @@ StorySettings settings_of(const DriveOptions& options) {
   return settings;
 }
 
-std::string phase_words(PilotPhase phase) {
-  // Marked here for pilot_phase_name.
-  constexpr const char* kWords[] = {translatable("looks for its place"), translatable("follows its route"),
-                                    translatable("arrived"), translatable("given up")};
-  return tr(kWords[static_cast<int>(phase)]);
-}
-
 // A bar of a hundred steps for a share that grows.
 class ShareBar {
  public:
@@ -82,7 +75,7 @@ StoryEnd run_story(DriveStory* story, bool is_shown) {
   return story->run([&](const StoryFrame& frame) {
     if (whole_m <= 0.0 && !story->first_route().poses.empty()) whole_m = story->first_route().result.length_m;
     const double left_m = std::hypot(frame.truth.x_m - story->goal().x_m, frame.truth.y_m - story->goal().y_m);
-    if (whole_m > 0.0) bar.show(1.0 - left_m / whole_m, phase_words(frame.phase));
+    if (whole_m > 0.0) bar.show(1.0 - left_m / whole_m, pilot_phase_text(frame.phase));
     return !InterruptWatch::is_interrupted();
   });
 }
