@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: the engine that takes notes gives the bits of the one that does not, frame by frame; its notes are complete:
-// every reason of floor, walls, frame and outcome has a note that failed, and no note failed without its reason. Does
-// not prove: that values in the notes are those of the gates; that is what they are written beside.
+// every reason of floor, walls, frame and outcome has a note that failed, and no note failed without its reason. Limits
+// that are set, and gates that let pass, hold until they are forgotten. Does not prove: that values in the notes are
+// those of the gates; that is what they are written beside.
 
 #include <gtest/gtest.h>
 
@@ -147,6 +148,36 @@ TEST(TraceGates, EveryGateIsTold) {
   pose_wall_trace_info info{};
   EXPECT_EQ(pose_wall_trace_gate_info(POSE_WALL_TRACE_GATES, &info), POSE_WALL_E_INDEX);
   EXPECT_EQ(pose_wall_trace_gate_info(0, nullptr), POSE_WALL_E_NULL);
+}
+
+TEST(TraceLimits, ThereAreNoneOfAGateThatIsNoneAndTheFitKeepsItsPlane) {
+  const LimitsRestored afterwards;
+  EXPECT_EQ(pose_wall_trace_let_pass(POSE_WALL_TRACE_GATES), POSE_WALL_E_INDEX);
+  EXPECT_EQ(pose_wall_trace_set_limit(POSE_WALL_TRACE_GATES, 1.0), POSE_WALL_E_INDEX);
+  EXPECT_EQ(pose_wall_trace_let_pass(POSE_WALL_TRACE_FLOOR_PLANES), POSE_WALL_E_VALUE_RANGE);
+}
+
+TEST(TraceLimits, AGateThatLetsPassFailsAsBeforeAndStopsNothingUntilLimitsAreForgotten) {
+  const sim::SceneSetup setup = sim::make_setup("nominal", "vlp16", false, 1);
+  const sim::Frame frame = sim::Simulator(setup, 1).render(0);
+  api::Config config;
+  *config.get() = config_for(setup);
+  const auto traced = [&] { return trace_frame(config, {}, cloud_of(frame)); };
+  const TracedFrame of_table = traced();
+  EXPECT_EQ(of_table.result.quantity[POSE_WALL_D_LF].state, POSE_WALL_VALID);
+  {
+    const LimitsRestored afterwards;
+    ASSERT_EQ(pose_wall_trace_set_limit(POSE_WALL_TRACE_WALL_LENGTH, 100.0), POSE_WALL_OK);  // m; no wall is that long
+    EXPECT_EQ(traced().result.quantity[POSE_WALL_D_LF].state, POSE_WALL_INVALID);
+    ASSERT_EQ(pose_wall_trace_let_pass(POSE_WALL_TRACE_WALL_LENGTH), POSE_WALL_OK);
+    const TracedFrame let_pass = traced();
+    EXPECT_TRUE(has_failed(*let_pass.trace, POSE_WALL_TRACE_WALL_LENGTH));
+    EXPECT_EQ(let_pass.result.quantity[POSE_WALL_D_LF].state, POSE_WALL_VALID);
+  }
+  const TracedFrame afterwards = traced();
+  EXPECT_TRUE(same_bits(afterwards.result, of_table.result));
+  EXPECT_EQ(afterwards.trace->failed[0], of_table.trace->failed[0]);
+  EXPECT_EQ(afterwards.trace->failed[1], of_table.trace->failed[1]);
 }
 
 TEST(TraceFrame, WhatIsRefusedLeavesNoNotes) {
