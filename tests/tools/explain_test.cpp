@@ -107,9 +107,8 @@ TEST(Sentences, AFloorThatMayBeARampSaysAllThatItsLevelsGrowBy) {
     return noted.paragraph(kFloor).sentences.at(0);
   };
   EXPECT_TRUE(contains(told(POSE_WALL_TRACE_FLOOR_NEAR),
-                       "the protection levels grow by 9.7°, and of a floor steeper than that by its tilt as well."));
-  EXPECT_TRUE(
-      contains(told(POSE_WALL_TRACE_FLOOR_BESIDE), "Of a floor steeper than 9.7° they grow by its tilt as well."));
+                       "the protection levels grow by the slope of one, and of a steep floor by its tilt as well."));
+  EXPECT_TRUE(contains(told(POSE_WALL_TRACE_FLOOR_BESIDE), "Of a steep floor they grow by its tilt as well."));
   EXPECT_TRUE(contains(told(POSE_WALL_TRACE_FLOOR_RIVAL),
                        "If the floor is steep, they grow by its tilt as well, since a machine stands about upright."));
 }

@@ -86,12 +86,12 @@ constexpr GateWords kFloorWords[] = {
      translatable(
          "The floor is seen on one side of the machine only, and {value} of it near the machine; {limit} is "
          "needed. Where other ground is seen too, none counts. It may be a ramp ahead, so the protection levels "
-         "grow by 9.7°, and of a floor steeper than that by its tilt as well."),
+         "grow by the slope of one, and of a steep floor by its tilt as well."),
      translatable("show the ground that the machine stands on; mount the sensor so that it looks further down")},
     {"floor_beside",
      translatable("The floor is seen on one side of the machine only; ground on the other side lies otherwise by "
-                  "{value}. The machine may stand on that, and the protection levels reach to it. Of a floor steeper "
-                  "than 9.7° they grow by its tilt as well."),
+                  "{value}. The machine may stand on that, and the protection levels reach to it. Of a steep floor "
+                  "they grow by its tilt as well."),
      translatable("a ramp, a belt or a table; show more of the floor around the machine")},
     {"floor_by_walls",
      translatable(
