@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
 #include "explain/gate_list.hpp"
 #include "explain/traced_frame.hpp"
-#include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -30,19 +30,16 @@ GateRows gate_rows(const std::string& words) {
     }
     return asked;
   }
-  const std::vector<std::string> names = explain::gate_names();
   asked.rows.emplace_back();
   std::istringstream list(words + ",");
   for (std::string name; std::getline(list, name, ',');) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      const std::string hint = did_you_mean(name, names);
-      const char* const allowed = "; 'each' and the names of `pose_wall explain --gates` are allowed";
-      return {{}, fmt::format("'{}' is no gate{}", name, hint.empty() ? allowed : hint)};
+    const std::optional<std::uint32_t> gate = explain::find_gate(name);
+    if (!gate) {
+      constexpr const char* kAllowed = "; 'each' and the names of `pose_wall explain --gates` are allowed";
+      return {{}, explain::no_gate_text(name, kAllowed)};
     }
-    const auto gate = static_cast<std::uint32_t>(found - names.begin());
-    if (is_indispensable(gate)) return {{}, fmt::format("{} cannot go: the fit needs a plane", name)};
-    asked.rows.back().push_back(gate);
+    if (is_indispensable(*gate)) return {{}, fmt::format("{} cannot go: the fit needs a plane", name)};
+    asked.rows.back().push_back(*gate);
   }
   return asked;
 }

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -19,7 +19,6 @@
 #include "explain/notes.hpp"
 #include "frames/text_cursor.hpp"
 #include "terminal/counted.hpp"
-#include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -63,15 +62,9 @@ Parsed parse(const std::string& words) {
   Parsed parsed;
   const std::size_t end = words.find('=');
   const std::string name = words.substr(0, end);
-  const std::vector<std::string> names = explain::gate_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) {
-    const std::string hint = did_you_mean(name, names);
-    parsed.fault =
-        fmt::format("'{}' is no gate{}", name, hint.empty() ? "; `pose_wall explain --gates` lists them" : hint);
-    return parsed;
-  }
-  parsed.request.gate = static_cast<std::uint32_t>(found - names.begin());
+  const std::optional<std::uint32_t> found = explain::find_gate(name);
+  if (!found) return {{}, explain::no_gate_text(name, "; `pose_wall explain --gates` lists them")};
+  parsed.request.gate = *found;
   const pose_wall_trace_info& gate = explain::gate_list()[parsed.request.gate];
   std::istringstream limits(end == std::string::npos ? "" : words.substr(end + 1) + ",");
   for (std::string word; std::getline(limits, word, ',');) {

@@ -8,6 +8,7 @@
 #include "explain/gate_list_texts.hpp"
 #include "explain/prose.hpp"
 #include "language/language.hpp"
+#include "terminal/did_you_mean.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools::explain {
@@ -63,10 +64,18 @@ const std::vector<pose_wall_trace_info>& gate_list() {
   return gates;
 }
 
-std::vector<std::string> gate_names() {
+std::optional<std::uint32_t> find_gate(const std::string& name) {
+  for (std::uint32_t gate = 0; gate < POSE_WALL_TRACE_GATES; ++gate) {
+    if (name == gate_list()[gate].name) return gate;
+  }
+  return std::nullopt;
+}
+
+std::string no_gate_text(const std::string& name, const char* otherwise) {
   std::vector<std::string> names;
   for (const pose_wall_trace_info& gate : gate_list()) names.emplace_back(gate.name);
-  return names;
+  const std::string hint = did_you_mean(name, names);
+  return fmt::format("'{}' is no gate{}", name, hint.empty() ? otherwise : hint);
 }
 
 const char* sense_name(std::uint32_t sense) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,9 @@ namespace pose_wall::tools::explain {
 
 // In the order of the pipeline; a gate's place is its pose_wall_trace_gate_id.
 const std::vector<pose_wall_trace_info>& gate_list();
-std::vector<std::string> gate_names();
+std::optional<std::uint32_t> find_gate(const std::string& name);
+// "'wall_lenght' is no gate; did you mean 'wall_length'?", or with `otherwise` where no name is near.
+std::string no_gate_text(const std::string& name, const char* otherwise);
 
 // "at least", "at most", "below", "is so".
 const char* sense_name(std::uint32_t sense);
