@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "terminal/did_you_mean.hpp"
@@ -15,8 +16,6 @@ namespace pose_wall::tools::campaign {
 namespace {
 
 struct MotionSize {
-  const char* name;
-  std::vector<std::string> sensors;
   std::uint32_t draws;
   std::uint32_t long_draws;  // of classes that go on for minutes
   double way_m;
@@ -24,18 +23,14 @@ struct MotionSize {
   std::uint32_t frames;
 };
 
+// By the names of the plan's sizes.
 const MotionSize& motion_size_named(const std::string& name) {
-  static const std::vector<std::string> all = {"os1-64", "os0-128", "vlp16", "mid360"};
-  static const std::vector<MotionSize> table = {
-      {"small", {"os1-64"}, 1, 1, 6.0, 6.0, 70},
-      {"medium", all, 4, 2, 30.0, 60.0, 120},
-      {"large", all, 20, 4, 50.0, 600.0, 240},
+  static const std::map<std::string, MotionSize> sizes = {
+      {"small", {1, 1, 6.0, 6.0, 70}},
+      {"medium", {4, 2, 30.0, 60.0, 120}},
+      {"large", {20, 4, 50.0, 600.0, 240}},
   };
-  for (const MotionSize& size : table) {
-    if (size.name == name) return size;
-  }
-  throw std::invalid_argument(fmt::format("unknown size '{}'{}; small, medium, large are there", name,
-                                          did_you_mean(name, {"small", "medium", "large"})));
+  return sizes.at(name);
 }
 
 const MotionClass& class_named(const std::string& name) {
@@ -79,8 +74,8 @@ Run motion_run(const PlanRequest& request, const MotionSize& size, const MotionC
 }  // namespace
 
 std::vector<Run> make_motion_plan(const PlanRequest& request) {
+  const std::vector<std::string>& sensors = sensors_of(request);  // refuses sizes that do not exist
   const MotionSize& size = motion_size_named(request.size);
-  const std::vector<std::string>& sensors = request.sensors.empty() ? size.sensors : request.sensors;
   const std::vector<const MotionClass*> classes = classes_of_request(request);
   std::vector<Run> runs;
   for (std::uint32_t i = 0; i < request.draws.value_or(size.draws); ++i) {

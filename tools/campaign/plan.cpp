@@ -111,6 +111,11 @@ std::vector<std::string> size_names() {
   return names;
 }
 
+const std::vector<std::string>& sensors_of(const PlanRequest& request) {
+  const Size& size = size_named(request.size);
+  return request.sensors.empty() ? size.sensors : request.sensors;
+}
+
 std::uint64_t run_seed(std::uint64_t campaign_seed, const std::string& scene, const std::string& sensor,
                        std::uint32_t draw) {
   return fingerprint(fmt::format("{}/{}/{}/{}", campaign_seed, scene, sensor, draw)) % 1000000000U;
@@ -118,10 +123,9 @@ std::uint64_t run_seed(std::uint64_t campaign_seed, const std::string& scene, co
 
 std::vector<Run> make_plan(const PlanRequest& request) {
   const Size& size = size_named(request.size);
-  const std::vector<std::string>& sensors = request.sensors.empty() ? size.sensors : request.sensors;
   std::vector<Run> runs;
   for (const std::string& scene : scenes_of(request)) {
-    for (const std::string& sensor : sensors) {
+    for (const std::string& sensor : sensors_of(request)) {
       const std::uint32_t draws = draws_of(request, size, scene, sensor);
       for (std::uint32_t i = 0; i < draws; ++i) {
         runs.push_back(make_run(request, size, scene, sensor, request.first_draw + i));

@@ -42,6 +42,8 @@ struct PlanRequest {
 };
 
 std::vector<std::string> size_names();
+// Those of the request, else those of its size. Throws std::invalid_argument for a size that does not exist.
+const std::vector<std::string>& sensors_of(const PlanRequest& request);
 
 // Scene by scene, sensor by sensor, draw by draw. The same request gives the same runs. Throws std::invalid_argument
 // for names that do not exist, with the nearest one.
