@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
+#include <initializer_list>
 #include <string>
 
 #include "judge/court.hpp"
@@ -30,12 +32,24 @@ int expect_within_levels(const Verdict& verdict) {
   return others;
 }
 
+void expect_roads_within_levels(std::initializer_list<std::uint64_t> seeds) {
+  for (const std::uint64_t seed : seeds) {
+    Case tried;
+    tried.seed = seed;
+    const Verdict verdict = hear(tried);
+    EXPECT_EQ(expect_within_levels(verdict), 0) << seed;
+    EXPECT_FALSE(verdict.findings.empty()) << seed;
+  }
+}
+
 using Shares = std::array<double, POSE_WALL_QUANTITIES>;
 
+// Prints the tables of roads on which anything was wrong.
 void expect_valid(const Tallies& tallies, const Shares& floors) {
   for (std::size_t q = 0; q < tallies.size(); ++q) {
     EXPECT_GE(tallies[q].share_valid(), floors.at(q)) << pose_wall_quantity_name(static_cast<std::uint32_t>(q));
   }
+  if (::testing::Test::HasFailure()) std::printf("%s\n%s", table(tallies).c_str(), reasons_table(tallies).c_str());
 }
 
 // Smooth rock that tilts and leans, ranges without a constant error: nothing but noise is left. 2 cm of it over the
@@ -80,7 +94,6 @@ TEST(Judge, NoValidValueOfRandomRoadsIsBeyondItsLevelAndEnoughAreValid) {
   }
   EXPECT_EQ(others_beyond, 0);
   expect_valid(tallies, kRandomRoadsFloor);
-  if (HasFailure()) std::printf("%s\n%s", table(tallies).c_str(), reasons_table(tallies).c_str());
 }
 
 // Whole flat walls, and a sensor that sees them well: nothing is there to be seen through. When silence that chance
@@ -100,32 +113,19 @@ TEST(Judge, DirectionsAtRandomSeeWholeFlatWallsAsWhole) {
     EXPECT_EQ(expect_within_levels(verdict), 0);
   }
   expect_valid(tallies, kCleanRoadsFloor);
-  if (HasFailure()) std::printf("%s\n%s", table(tallies).c_str(), reasons_table(tallies).c_str());
 }
 
 // An upright sensor sees no floor but that of a ramp ahead, and none of the ground on which the machine stands. Roll
 // and pitch by the ramp were valid on these roads, and wrong by up to 4.7 degrees. On the last one the ramp begins 2 to
 // 3 m ahead, and ground behind the machine lies otherwise.
 TEST(Judge, ARampAheadOfUnseenGroundIsNotTheFloor) {
-  for (const std::uint64_t seed : {7000122U, 7000963U, 7001187U, 7001456U, 7001696U, 20261142U, 8800361U}) {
-    Case tried;
-    tried.seed = seed;
-    const Verdict verdict = hear(tried);
-    EXPECT_EQ(expect_within_levels(verdict), 0) << seed;
-    EXPECT_FALSE(verdict.findings.empty()) << seed;
-  }
+  expect_roads_within_levels({7000122U, 7000963U, 7001187U, 7001456U, 7001696U, 20261142U, 8800361U});
 }
 
 // A sensor that looks up sees no floor, but the walls' feet far away, which are so sparse that they pass for open
 // ground. A plane through both walls was the floor on these roads: pitch was valid and 4.7 degrees off on the first.
 TEST(Judge, APlaneThroughTheWallsIsNotTheFloor) {
-  for (const std::uint64_t seed : {8200572U, 8300772U, 8200680U, 8200310U}) {
-    Case tried;
-    tried.seed = seed;
-    const Verdict verdict = hear(tried);
-    EXPECT_EQ(expect_within_levels(verdict), 0) << seed;
-    EXPECT_FALSE(verdict.findings.empty()) << seed;
-  }
+  expect_roads_within_levels({8200572U, 8300772U, 8200680U, 8200310U});
 }
 
 }  // namespace

@@ -8,11 +8,8 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "campaign/card_files.hpp"
 #include "campaign/card_words.hpp"
@@ -22,6 +19,7 @@
 #include "campaign/recipe.hpp"
 #include "campaign_records.hpp"
 #include "csv/csv_table.hpp"
+#include "event_command.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 
@@ -225,21 +223,11 @@ TEST(CampaignDriveIn, TheCommandOfAnEventMeasuresItsFrameAgain) {
   for (const std::size_t wrong : {3U, 8U}) {
     const TempFolder folder, again;
     ASSERT_EQ(driven_campaign(folder.path(), {"--quiet", "--set", "integrity_risk=1e-9"}).exit_status, 0);
-    const campaign::Manifest manifest = campaign::read_manifest(folder.path());
-    RunRecord record = campaign::read_records(folder.path(), manifest).at(1);
-    record.frames[wrong].quantity[POSE_WALL_ROLL].truth += 0.5;
-    campaign::write_record(campaign::record_file(folder.path(), record.run), record, manifest.fingerprint());
-    ASSERT_EQ(test::command({"campaign", "--card-only", "--quiet", "--output", folder.path()}).exit_status, 0);
-    std::ifstream page(folder.file("card.json"));
-    std::istringstream line(nlohmann::json::parse(page)["worst_events"][0]["command"].get<std::string>());
-    std::vector<std::string> words;
-    for (std::string word; line >> word;) words.push_back(word == "DIR" ? again.path() : word);
-    words.emplace_back("--quiet");
-    ASSERT_EQ(test::command({words.begin() + 1, words.end()}).exit_status, 0) << line.str();
+    test::run_all_of(test::command_of_event(folder.path(), 1, wrong, again.path()) + " --quiet");
     const CsvTable repeated = table_of(again.file("frames.csv"));
     ASSERT_GT(repeated.rows(), wrong);
     const CsvTable frames = table_of(folder.file("frames.csv"));
-    const std::size_t row = record.frames.size() + wrong;  // of the second record
+    const std::size_t row = frames.rows() / 4 + wrong;  // of the second of four records
     for (const char* column : {"stamp_ns", "roll", "roll_pl", "d_lf", "d_lf_raw", "yaw_state"}) {
       EXPECT_EQ(repeated.cell(wrong, *repeated.find_column(column)), frames.cell(row, *frames.find_column(column)))
           << column;

@@ -8,12 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
+#include <string>
+#include <vector>
 
-#include "campaign/folder.hpp"
 #include "csv/csv_table.hpp"
+#include "event_command.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 
@@ -22,40 +21,21 @@ namespace {
 
 using test::command;
 using test::contains;
+using test::run_all_of;
 using test::table_of;
 using test::TempFolder;
 
-// Of a campaign of one run whose last frame was made to mislead; its folder is in the place of DIR.
-std::string command_of_event(const std::string& folder, const std::string& again,
-                             const std::vector<std::string>& words) {
-  std::vector<std::string> all = {"campaign",     "--quiet", "--seed",   "5",    "--draws",   "1",
-                                  "--first-draw", "3",       "--output", folder, "--sensors", "vlp16"};
+constexpr std::size_t kFrames = 5;
+
+// Of a campaign of one run whose last frame was made to mislead; another folder is in the place of DIR.
+std::string command_of_last_frame(const std::string& folder, const std::string& again,
+                                  const std::vector<std::string>& words) {
+  std::vector<std::string> all = {
+      "campaign", "--quiet",  "--seed", "5",         "--draws", "1",        "--first-draw",
+      "3",        "--output", folder,   "--sensors", "vlp16",   "--frames", std::to_string(kFrames)};
   all.insert(all.end(), words.begin(), words.end());
   EXPECT_EQ(command(all).exit_status, 0);
-  const campaign::Manifest manifest = campaign::read_manifest(folder);
-  campaign::RunRecord record = campaign::read_records(folder, manifest).front();
-  record.frames.back().quantity[POSE_WALL_ROLL].truth += 0.5;
-  campaign::write_record(campaign::record_file(folder, record.run), record, manifest.fingerprint());
-  EXPECT_EQ(command({"campaign", "--card-only", "--quiet", "--output", folder}).exit_status, 0);
-  std::ifstream page(folder + "/card.json");
-  std::string text = nlohmann::json::parse(page)["worst_events"][0]["command"];
-  for (std::size_t at = text.find("DIR"); at != std::string::npos; at = text.find("DIR")) text.replace(at, 3, again);
-  return text;
-}
-
-// As a shell would; there are no quotes in it.
-void run_all_of(const std::string& line) {
-  std::istringstream words(line + " &&");
-  std::vector<std::string> one;
-  for (std::string word; words >> word;) {
-    if (word != "&&") {
-      one.push_back(word);
-      continue;
-    }
-    ASSERT_EQ(one.front(), "pose_wall");
-    ASSERT_EQ(command({one.begin() + 1, one.end()}).exit_status, 0) << line;
-    one.clear();
-  }
+  return test::command_of_event(folder, 0, kFrames - 1, again);
 }
 
 void expect_same_last_row(const std::string& frames_file, const std::string& again_file) {
@@ -74,8 +54,8 @@ void expect_same_last_row(const std::string& frames_file, const std::string& aga
 TEST(CampaignRecipe, FramesOnDiskGiveTheValuesOfTheCampaign) {
   const TempFolder folder;
   const TempFolder again;
-  const std::string line = command_of_event(folder.path(), again.path(),
-                                            {"--scenes", "rough", "--frames", "5", "--set", "integrity_risk=1e-9"});
+  const std::string line =
+      command_of_last_frame(folder.path(), again.path(), {"--scenes", "rough", "--set", "integrity_risk=1e-9"});
   EXPECT_TRUE(contains(line, "pose_wall run")) << line;
   run_all_of(line);
   expect_same_last_row(folder.file("frames.csv"), again.file("out.csv"));
@@ -84,8 +64,8 @@ TEST(CampaignRecipe, FramesOnDiskGiveTheValuesOfTheCampaign) {
 TEST(CampaignRecipe, StampsThatJumpComeFromTheCampaignItself) {
   const TempFolder folder;
   const TempFolder again;
-  const std::string line = command_of_event(folder.path(), again.path(),
-                                            {"--scenes", "jitter", "--frames", "5", "--set", "integrity_risk=1e-9"});
+  const std::string line =
+      command_of_last_frame(folder.path(), again.path(), {"--scenes", "jitter", "--set", "integrity_risk=1e-9"});
   EXPECT_TRUE(contains(line, "pose_wall campaign")) << line;
   run_all_of(line + " --quiet");
   expect_same_last_row(folder.file("frames.csv"), again.file("frames.csv"));
@@ -96,7 +76,7 @@ TEST(CampaignRecipe, AFileOfSettingsIsNotForgotten) {
   const TempFolder again;
   const std::string config = folder.write("mine.yaml", "temporal_smoothing_tau: 1.0\n");
   const std::string line =
-      command_of_event(folder.path(), again.path(), {"--scenes", "rough", "--frames", "5", "--config", config});
+      command_of_last_frame(folder.path(), again.path(), {"--scenes", "rough", "--config", config});
   run_all_of(line + " --quiet");
   expect_same_last_row(folder.file("frames.csv"), again.file("frames.csv"));
 }
