@@ -64,11 +64,11 @@ struct Eighths {
     return total > 0 && count[eighth] * kRealPart >= total && count[eighth] * kGroundPart >= about[eighth];
   }
   // Of the floor, near the machine. None speaks for it where other ground is seen, on which the machine may stand: what
-  // lies about the plane in all eighths that do not show the floor.
+  // lies about the plane but off it, in all eighths that do not show the floor.
   double near_share() const {
-    std::uint32_t elsewhere = 0;
-    for (std::uint32_t eighth = 0; eighth < 8; ++eighth) elsewhere += has_ground(eighth) ? 0 : about[eighth];
-    return total > 0 && elsewhere * kRealPart < total ? static_cast<double>(near) / total : 0.0;
+    std::uint32_t other = 0;
+    for (std::uint32_t k = 0; k < 8; ++k) other += has_ground(k) ? 0 : about[k] - count[k];
+    return total > 0 && other * kRealPart < total ? static_cast<double>(near) / total : 0.0;
   }
 };
 
