@@ -375,8 +375,10 @@ enum pose_wall_state {
                             readable, confidence 0 */
   POSE_WALL_HELD = 1,    /* not measured in this frame: the last good value. Its protection level grows, except where an
                             odometry leads back to a measured place */
-  POSE_WALL_DEGRADED = 2, /* measured in this frame, but weak: see the protection level */
-  POSE_WALL_VALID = 3     /* measured in this frame, every gate passed, protection level within the alert limit */
+  POSE_WALL_DEGRADED = 2, /* measured in this frame, but its protection level passes the alert limit, a jump is not yet
+                             confirmed, or the cloud came before (POSE_WALL_R_FROZEN) */
+  POSE_WALL_VALID = 3     /* measured in this frame, protection level within the alert limit. The level reaches to every
+                             reading of the scene that the engine knows of */
 };
 
 /* Why a value is not valid, and notes on valid ones. Bits; pinned by a test. */
@@ -419,7 +421,7 @@ enum pose_wall_reason {
   POSE_WALL_R_WALLS_NOT_PARALLEL = 1 << 16,
   POSE_WALL_R_YAW_OUT_OF_RANGE = 1 << 17, /* beyond yaw_max_deg, where side and face become ambiguous */
   POSE_WALL_R_CROSS_ROAD = 1 << 18,       /* a better pair of walls runs across the machine than along it */
-  POSE_WALL_R_CURVED = 1 << 19,           /* wall or floor bends significantly */
+  POSE_WALL_R_CURVED = 1 << 19,           /* a wall bends significantly */
   POSE_WALL_R_EXTRAPOLATED =
       1 << 20, /* of a distance: no wall visible around the sampling point, so its plane is extended there; or the wall
                   steps there, or the point lies in the rock. Of yaw: the walls are visible only well ahead or behind */

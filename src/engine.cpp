@@ -390,7 +390,7 @@ void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
     // The cloud is as old as its first copy, and the machine may have moved since.
     if (frozen) m.protection[POSE_WALL_PART_AGE] += since_first.growth[q];
     m.reasons |= reasons;
-    m.weak = m.weak || frozen;
+    m.stale = frozen;
     if (timing.still || too_often) m.measured = false;
   }
 }

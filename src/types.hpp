@@ -28,7 +28,7 @@ struct Extrinsic {
 
 // The verdict of gates.
 struct Verdict {
-  std::uint32_t reasons = 0;  // pose_wall_reason bits that forbid or weaken it
+  std::uint32_t reasons = 0;  // pose_wall_reason bits that forbid or doubt it
   bool refused = false;       // a gate refused it
 
   void refuse(std::uint32_t why) {

@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "base/estimation/near_plane.hpp"
-#include "base/estimation/normal_equations.hpp"
 #include "base/simd/four_floats.hpp"
 
 namespace pose_wall {
@@ -196,7 +195,6 @@ void FloorGrid::mark_rising(const PointSet& points_base, const Plane& plane, dou
 FloorEvidence FloorGrid::evidence(const Axes& axes) const {
   constexpr double kCellArea_m2 = kCell_m * kCell_m;  // of a cell in plan
   FloorEvidence out;
-  NormalEquations spread;
   for (std::int32_t iy = bounds_.y_min; iy <= bounds_.y_max; ++iy) {
     for (std::int32_t ix = bounds_.x_min; ix <= bounds_.x_max; ++ix) {
       if ((marked_[index(ix, iy)] & kMarked) == 0) continue;
@@ -205,10 +203,8 @@ FloorEvidence FloorGrid::evidence(const Axes& axes) const {
       const double across = axes.left_base.x() * x + axes.left_base.y() * y;
       out.area_m2 += kCellArea_m2;
       out.score_m2 += std::fabs(across) <= kDrivingStripHalf_m ? kCellArea_m2 * 2.0 : kCellArea_m2;
-      spread.add(x, y, 0.0, 1.0);
     }
   }
-  out.across_spread_m = spread.smaller_spread_m();
   return out;
 }
 

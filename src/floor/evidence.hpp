@@ -16,9 +16,8 @@
 namespace pose_wall {
 
 struct FloorEvidence {
-  double score_m2 = 0.0;         // open area; the strip that the machine drives on counts double
-  double area_m2 = 0.0;          // open area
-  double across_spread_m = 0.0;  // standard deviation of the open cells across their main direction
+  double score_m2 = 0.0;  // open area; the strip that the machine drives on counts double
+  double area_m2 = 0.0;   // open area
 };
 
 // A grid in plan around the base origin.

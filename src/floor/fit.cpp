@@ -160,8 +160,6 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
   out->roll_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(roll);
   out->pitch_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(pitch);
   out->dof = uneven.dof;
-  const double bent = std::fabs(roll.dot(here)) + std::fabs(pitch.dot(here));
-  demand<gate::FLOOR_BEND>(&out->fit, bent, s);
 }
 
 // Fits the plane to the points about it and selects again until it settles. The points stay in the scratch.

@@ -53,7 +53,6 @@ void judge_fit(const FloorScene& scene, const FloorCandidate& best, PlaneFit* fi
   demand<gate::FLOOR_STAYED>(fit, same_floor(fit->plane, best.plane));
   demand<gate::FLOOR_INLIERS>(fit, fit->inliers, s);
   demand<gate::FLOOR_AREA>(fit, best.evidence.area_m2, s);
-  demand<gate::FLOOR_SPREAD>(fit, best.evidence.across_spread_m, s);
 }
 
 // One look: the best candidate within the radius, its fit, its rivals.

@@ -14,10 +14,6 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kWeakFloor = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_CURVED;  // any of these degrades a floor
-// Any of these degrades a wall.
-constexpr std::uint32_t kWeakWall =
-    POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_WALL_FEW_INLIERS | POSE_WALL_R_CURVED;
 constexpr double kSplayInSigmas = 3.0;  // judgement, 2026-11-21: parallel walls differ by more in 0.3 % of cases
 // Walls may differ by so much by chance. Beyond, up to kSplayInSigmas, the rock is known less well than it seems, and
 // the standard deviation is stretched to fit (Birge 1932). In seed 647 yaw's protection ended 0.06 degrees short; of
@@ -58,10 +54,7 @@ void measure_floor(const FloorResult& floor, const Levelling& levelling, const S
     *pitch = measurement(levelling.pitch_rad, with_floor(floor.pitch_sigma_rad, kSigmaMinAngle_rad),
                          floor.pitch_bound_rad, floor.dof, s);
   }
-  for (Measurement* m : {roll, pitch}) {
-    m->reasons |= floor.fit.reasons;
-    m->weak = (floor.fit.reasons & kWeakFloor) != 0;
-  }
+  for (Measurement* m : {roll, pitch}) m->reasons |= floor.fit.reasons;
 }
 
 void measure_distances(const JudgedWall& wall, const Settings& s, Measurement* front, Measurement* back) {
@@ -77,7 +70,6 @@ void measure_distances(const JudgedWall& wall, const Settings& s, Measurement* f
       if (wall.extrapolated[end]) m.reasons |= POSE_WALL_R_EXTRAPOLATED;
     }
     m.reasons |= wall.fit.reasons;
-    m.weak = (m.reasons & (kWeakWall | POSE_WALL_R_EXTRAPOLATED)) != 0;
   }
 }
 
@@ -148,6 +140,23 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
   return yaw_measurement(raw, stretch * stretch / information, bound, dof, tilt_share, floor, s);
 }
 
+// If one of two walls is none, the other one alone gives the direction (solution separation: Blanch et al. 2015). If
+// nothing but things that may be no wall is left, the direction is that of a thing.
+void reach_without_things(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
+                          const Settings& s, Measurement* yaw) {
+  constexpr double kThing_rad = 0.44;  // 25 degrees: judgement, 2026-11-27, as far as a road may bend before a wall
+  for (int side = 0; side < 2; ++side) {
+    if (walls[side].fit.refused || !walls[side].may_be_no_wall) continue;
+    const JudgedWall& other = walls[1 - side];
+    if (other.fit.refused || other.may_be_no_wall) {
+      yaw->protection.reach(kThing_rad + yaw->protection.sum(), POSE_WALL_PART_RIVAL);
+      return;
+    }
+    const Measurement alone = yaw_by_one(other, floor, levelling, s);
+    yaw->protection.reach(std::fabs(yaw->raw - alone.raw) + alone.protection.sum(), POSE_WALL_PART_RIVAL);
+  }
+}
+
 Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
                         const Settings& s) {
   const bool left = !walls[0].fit.refused, right = !walls[1].fit.refused;
@@ -157,13 +166,11 @@ Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, co
   } else if (left || right) {
     m = yaw_by_one(walls[left ? 0 : 1], floor, levelling, s);
   }
-  std::uint32_t doubts = 0;
+  if (m.measured) reach_without_things(floor, levelling, walls, s, &m);
   for (const JudgedWall& wall : walls) {
     // If one wall is left, the reasons of the other do not count against yaw. If none is, they explain it.
-    if (!wall.fit.refused || !m.measured) doubts |= wall.fit.reasons;
+    if (!wall.fit.refused || !m.measured) m.reasons |= wall.fit.reasons;
   }
-  m.reasons |= doubts;
-  m.weak = (doubts & (kWeakWall | POSE_WALL_R_EXTRAPOLATED)) != 0;
   return m;
 }
 

@@ -99,7 +99,7 @@ double smoothed(double raw, double trust, double tau_s, Track* t) {
 // the limit acts only within lag_most().
 bool follow(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t) {
   const double protection = m.protection.sum(), known = t->protection.sum() + t->grown.total(), before = t->value;
-  const double trust = protection > known ? known / protection : 1.0;  // a weaker measurement than before pulls less
+  const double trust = protection > known ? known / protection : 1.0;  // a wider one than before pulls less
   const double free = smoothed(m.raw, trust, s.temporal_smoothing_tau, t);
   const bool limited = quantity == POSE_WALL_YAW && !passes<gate::RATE>(std::fabs(free - before), s);
   const double wished = limited ? clamped(free, before, limit_of<gate::RATE>(s)) : free;
@@ -154,18 +154,18 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   t->protection[POSE_WALL_PART_LAG] += std::fabs(t->value - m.raw);
   const bool within = passes<gate::PROTECTION_SMOOTHED>(t->protection.sum(), alert_limit(quantity, s));
   if (!within) m.reasons |= POSE_WALL_R_ALERT_LIMIT;
-  const bool valid = within && !m.weak && t->to_confirm == 0;
+  const bool valid = within && !m.stale && t->to_confirm == 0;
   if (valid) keep_good(m, t);
   if (!valid && in_doubt) m.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
   out->state = out->raw_state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
-  out->reasons = m.reasons;
+  out->reasons = valid ? m.reasons & ~kDoubts : m.reasons;
   out->raw = m.raw;
   out->value = t->value;
   out->raw_protection_level = m.protection.sum();
   report_protection(t->protection, out);
 }
 
-// Holds the last good value if there is one: a weak frame since then does not replace it.
+// Holds the last good value if there is one: a degraded frame since then does not replace it.
 void set_held(const Measurement& m, std::uint32_t quantity, const Settings& s, Track* t, pose_wall_value* out) {
   out->reasons = m.reasons;
   if (!t->good.exists) t->to_confirm = kConfirmations;

@@ -272,7 +272,8 @@ void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const
   memory->position_m = at.position_m;
   memory->R_run_base = at.R_run_base;
   const auto is_good = [&measured](std::uint32_t quantity) {
-    return measured.quantity[quantity].measured && !measured.quantity[quantity].weak;
+    const Measurement& m = measured.quantity[quantity];
+    return m.measured && !m.stale && (m.reasons & POSE_WALL_R_ALERT_LIMIT) == 0;
   };
   if (is_good(POSE_WALL_ROLL)) see_floor(floor, at, s, &memory->floor);
   for (int side = 0; side < 2; ++side) {

@@ -39,8 +39,8 @@ struct FittedWall {
   double along_min_m = 0.0;
   double along_max_m = 0.0;
   double area_m2 = 0.0;
-  bool straight = false;  // over its height, as far as it shows: its long waves are no bend
   bool grooved = false;   // its surface lies in two depths along its length, like pipes one above the other
+  bool straight = false;  // over its height, as far as it shows: its long waves are no bend
 };
 
 // One argument against a wall. It widens the protection levels, or refuses the wall.
@@ -48,11 +48,13 @@ struct Doubt : Verdict {
   double off_m[2] = {0.0, 0.0};   // at s_front, s_back: how far the wall may be off
   double yaw_rad = 0.0;           // how far the direction may be off
   double yaw_to_rival_rad = 0.0;  // the same, if the direction is that of another wall
+  bool may_be_no_wall = false;    // but a curtain, a vehicle or pipes: the direction is then that of a thing
 };
 
 // The wall with all doubts in its bounds.
 struct JudgedWall : FittedWall {
   double yaw_to_rival_rad = 0.0;  // if its rival is the wall, or the road bends before it
+  bool may_be_no_wall = false;    // but a curtain, a vehicle or pipes
 
   JudgedWall() = default;
   explicit JudgedWall(const FittedWall& fitted) : FittedWall(fitted) {}
@@ -62,6 +64,7 @@ struct JudgedWall : FittedWall {
     for (int end = 0; end < 2; ++end) distance_bound_m[end][POSE_WALL_PART_RIVAL] += doubt.off_m[end];
     yaw_bound_rad[POSE_WALL_PART_RIVAL] += doubt.yaw_rad;
     yaw_to_rival_rad = larger(yaw_to_rival_rad, doubt.yaw_to_rival_rad);
+    may_be_no_wall = may_be_no_wall || doubt.may_be_no_wall;
   }
 };
 

@@ -63,7 +63,6 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const std::uint32_t scored[2] = {scratch->propose.search[0].scored(), scratch->propose.search[1].scored()};
   WallChoice choice = choose_walls(beside[0], beside[1], s);
   refuse_where_across(scene, random, &scratch->propose, &choice);
-  refuse_unexplained(scene, &choice);
   if (!work.is_spent()) learn_directions(scene, &scratch->sight);
   WallsResult out;
   out.tilt_level_rad = tilt_by_walls(scene, beside);
@@ -81,7 +80,6 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   }
   refuse_unfinished(work, &out.side);
   doubt_those_alone(s, choice, beside, &out.side);
-  doubt_short_ones_apart(s, choice, &out.side);
   refuse_blocked_sides(scene.counts, s, &out.side);
   set_sigmas(scratch->errors, s.protection_sigmas, &out.side);
   share_direction(scene, &out.side);

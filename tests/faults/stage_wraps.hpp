@@ -259,7 +259,7 @@ POSE_WALL_WRAP(WallSight, look_at,
                 SightScratch* scratch)) {
   WallSight r = look_at_for_real(scene, wall, along, behind_m, scratch);
   if (fails(Fault::kSightSilent)) r.silent = 1.0;
-  if (fails(Fault::kSightNan)) r.silent = r.open = r.depth_m = r.topless = kNan;
+  if (fails(Fault::kSightNan)) r.silent = r.open = r.depth_m = kNan;
   if (fails(Fault::kSightDim)) r.dim = true;
   return r;
 }

@@ -106,8 +106,10 @@ TEST(LevelCurve, OnlyWhatItsLevelAloneKeepsBackBecomesValid) {
   EXPECT_TRUE(valid_at(0.5, kept_back(wide, POSE_WALL_R_ALERT_LIMIT)));
   EXPECT_FALSE(valid_at(0.7, kept_back(wide, POSE_WALL_R_ALERT_LIMIT))) << "0.7 * 1.5 is still above";
   EXPECT_TRUE(valid_at(0.5, kept_back(wide, POSE_WALL_R_ALERT_LIMIT | POSE_WALL_R_STAMP_LEAP)));
-  EXPECT_FALSE(valid_at(0.5, kept_back(wide, POSE_WALL_R_ALERT_LIMIT | POSE_WALL_R_WALL_AMBIGUOUS)));
-  EXPECT_FALSE(valid_at(0.5, kept_back(0.01, POSE_WALL_R_WALL_AMBIGUOUS)));
+  EXPECT_TRUE(valid_at(0.5, kept_back(wide, POSE_WALL_R_ALERT_LIMIT | POSE_WALL_R_WALL_AMBIGUOUS)))
+      << "the level holds it";
+  EXPECT_FALSE(valid_at(0.5, kept_back(wide, POSE_WALL_R_ALERT_LIMIT | POSE_WALL_R_INNOVATION)));
+  EXPECT_FALSE(valid_at(0.5, kept_back(0.01, POSE_WALL_R_FROZEN)));
   EXPECT_FALSE(valid_at(0.5, kept_back(0.01, POSE_WALL_R_ALERT_LIMIT, POSE_WALL_HELD)));
   EXPECT_FALSE(valid_at(0.5, kept_back(kNothing, POSE_WALL_R_ALERT_LIMIT, POSE_WALL_INVALID)));
 }

@@ -10,12 +10,16 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-// Reasons that a valid value may have, too.
+// Reasons that no level answers may keep a value back as well. These do not: valid values have the former, and the
+// level holds the doubts.
 constexpr std::uint32_t kHarmless = POSE_WALL_R_STAMP_BACK | POSE_WALL_R_STAMP_LEAP | POSE_WALL_R_RATE_LIMITED |
                                     POSE_WALL_R_LEAF_GROWN | POSE_WALL_R_PRIOR;
+constexpr std::uint32_t kDoubts = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_WALL_AMBIGUOUS |
+                                  POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_EXTRAPOLATED | POSE_WALL_R_CURVED;
 
 bool is_kept_back_by_level_alone(const QuantityRecord& value) {
-  return value.measured.state == POSE_WALL_DEGRADED && (value.reasons & ~kHarmless) == POSE_WALL_R_ALERT_LIMIT;
+  return value.measured.state == POSE_WALL_DEGRADED &&
+         (value.reasons & ~(kHarmless | kDoubts)) == POSE_WALL_R_ALERT_LIMIT;
 }
 
 }  // namespace

@@ -40,23 +40,14 @@ bool is_of_any_wall(const Note& note) {
          note.is(POSE_WALL_TRACE_WALL_SOLID) || note.is(POSE_WALL_TRACE_WALL_LEAN);
 }
 
-// True where a weightier gate gives the same message: a doubt beside the same refusal, requirements of a wall that
-// stands alone where there is no wall, the explained share where no walls were chosen, and open area that is silent.
+// True where a weightier gate gives the same message: requirements of a wall that stands alone where there is no wall,
+// and open area that is silent.
 bool is_said_already(const Note& note, const std::vector<Note>& refusals) {
-  const Note* const silent = find(refusals, POSE_WALL_TRACE_WALL_SILENT);
-  const bool open_is_silent = silent != nullptr && note.gate.value < 1.1 * silent->gate.value;
-  if (note.is(POSE_WALL_TRACE_WALL_OPEN)) return open_is_silent;
-  if (note.is(POSE_WALL_TRACE_EXPLAINED)) {
-    return find(refusals, POSE_WALL_TRACE_WALL_CHOSEN) != nullptr ||
-           find(refusals, POSE_WALL_TRACE_WALLS_PARALLEL) != nullptr;
-  }
-  if (note.is(POSE_WALL_TRACE_WALL_LENGTH_ALONE) || note.is(POSE_WALL_TRACE_WALL_FILLED)) {
+  if (note.is(POSE_WALL_TRACE_WALL_LENGTH_ALONE)) {
     return std::any_of(refusals.begin(), refusals.end(), [](const Note& n) { return is_of_any_wall(n); });
   }
-  if (note.is(POSE_WALL_TRACE_WALL_OPEN_DOUBT)) {
-    return open_is_silent || find(refusals, POSE_WALL_TRACE_WALL_OPEN) != nullptr;
-  }
-  return note.is(POSE_WALL_TRACE_WALL_SOLID_DOUBT) && find(refusals, POSE_WALL_TRACE_WALL_SOLID) != nullptr;
+  const Note* const silent = find(refusals, POSE_WALL_TRACE_WALL_SILENT);
+  return note.is(POSE_WALL_TRACE_WALL_OPEN_DOUBT) && silent != nullptr && note.gate.value < 1.1 * silent->gate.value;
 }
 
 bool is_rival(const Note& note) {

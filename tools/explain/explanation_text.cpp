@@ -123,12 +123,9 @@ std::string planes_text(const pose_wall_config& config, const pose_wall_result& 
   return rows > 0 ? table.text(4) : std::string(tr("none")) + "\n";
 }
 
-// A wall meets some gates twice, as it was drawn and as it was fitted, and its bend is tested at two places.
+// A wall meets some gates twice, as it was drawn and as it was fitted.
 std::string name_of(const std::vector<Note>& all, std::size_t index) {
   const Note& note = all[index];
-  const bool at_sample = note.is(POSE_WALL_TRACE_SAMPLE_BEND) && index + 1 < all.size() &&
-                         all[index + 1].is(POSE_WALL_TRACE_SAMPLE_OFFSET);
-  if (at_sample) return say("{} ({})", note.info.name, subject_words(all[index + 1].gate.subject));
   const bool is_of_a_plane = note.is(POSE_WALL_TRACE_WALL_INLIERS) || note.is(POSE_WALL_TRACE_WALL_LENGTH) ||
                              note.is(POSE_WALL_TRACE_WALL_SOLID) || note.is(POSE_WALL_TRACE_WALL_LEAN);
   const auto is_the_same = [&note](const Note& later) {

@@ -54,10 +54,6 @@ constexpr GateWords kFloorWords[] = {
                   "ground_height_max and ground_tilt_max_deg")},
     {"floor_fit", translatable("The floor's points lie nearly on one line, or in too few places to fit a plane."),
      translatable("show more of the floor; raise ground_roi_radius_max")},
-    {"floor_bend",
-     translatable("The floor bends: at the machine it is tilted by {value} against the whole plane; {limit} is allowed "
-                  "(a fifth of {key})."),
-     translatable("a smaller ground_roi_radius keeps the floor local")},
     {"floor_rival",
      translatable("Where only one of both planes has points, another one scores {value} of the chosen one, by open"
                   " ground, which counts twice where the machine drives. From {limit} on either may be the floor, "
@@ -80,8 +76,6 @@ constexpr GateWords kFloorWords[] = {
      translatable("lower {key} for a sensor of few points; ground_roi_radius_max lets it look farther out")},
     {"floor_area", translatable("{value} of the floor are seen as open ground; {limit} are needed."),
      translatable("show more of the floor; ground_roi_radius_max lets it look farther out")},
-    {"floor_spread", translatable("The visible floor is a strip that spreads by {value} across; {limit} is needed."),
-     translatable("show more of the floor to the sides")},
     {"floor_near",
      translatable(
          "The floor is seen on one side of the machine only, and {value} of it near the machine; {limit} is "

@@ -26,42 +26,19 @@ constexpr GateWords kChoiceWords[] = {
      translatable("The strongest planes of the two sides are no pair: |n_left . n_right| is {value}; {limit} is needed "
                   "({key})."),
      translatable("lower {key} where walls really run so")},
-    {"pair_length",
-     translatable("The strongest planes of the two sides are no pair: together they are supported over {value}; "
-                  "{limit} is needed."),
-     translatable("show more of the walls")},
-    {"pair_contested",
-     translatable("The strongest pair is contested: a plane stronger than one of the two runs apart from it."),
-     translatable("look for walls that run apart")},
-    {"pair_share",
-     translatable(
-         "The strongest pair shows {value} of what one wall alone shows; less than {limit} is a pair by chance."),
-     translatable("the other wall is hardly seen")},
     {"wall_length_alone",
      translatable(
          "The wall has no partner on the other side. Alone it needs support over {limit} ({key}); it has {value}."),
      translatable("show more of the wall; lower {key} for short walls")},
-    {"wall_filled",
-     translatable("The wall has no partner on the other side. Alone it must be solid over {limit} of its span; it is "
-                  "over {value}."),
-     translatable("flat spots that happen to lie in line are no wall")},
     {"walls_parallel",
-     translatable("The longest planes of the two sides make no pair: they are not parallel ({key}), or a stronger "
-                  "plane runs apart from them. They cannot both be walls of one road."),
+     translatable("The longest planes of the two sides make no pair: they are not parallel ({key}). "
+                  "They cannot both be walls of one road."),
      translatable("a junction, a niche or a vehicle; lower {key} where walls really run so")},
     {"wall_chosen", translatable("So no plane of this side can be the wall."), ""},
     {"across",
      translatable("A pair of planes ahead and behind shows {value} of the wall that the sides show; {limit} is the "
                   "most. Beyond it the machine stands across a road, and the planes beside it are faces."),
      translatable("turn the machine along the road; check forward_axis and extrinsic_yaw")},
-    {"across_alone",
-     translatable("A plane ahead or behind shows {value} of what the one wall shows; {limit} is the most. Beyond it "
-                  "that plane may be the road's direction."),
-     translatable("turn the machine along the road; check forward_axis and extrinsic_yaw")},
-    {"explained",
-     translatable("The chosen planes of both sides explain {value} of the points at the height of walls; at least "
-                  "{limit} is needed. Less means a hall, a cavern or a heap of things, not a road."),
-     translatable("wall_z_min and wall_z_max set the height of walls")},
     {"wall_rival",
      translatable("Another plane on this side scores {value} of the chosen one, less what is seen through it and what "
                   "belongs to both. From {limit} on either may be the wall, and the protection levels reach to it."),
@@ -87,33 +64,16 @@ constexpr GateWords kFitWords[] = {
      translatable("The wall bends: at the machine it is turned by {value} against the whole plane; {limit} is allowed "
                   "(a fifth of {key})."),
      translatable("a curved road, or a wall that bulges")},
-    {"sample_bend",
-     translatable("The wall bends by {value} at a sampling point; {limit} is allowed (a fifth of {key})."),
-     translatable("a curved road, or a wall that bulges")},
-    {"sample_offset",
-     translatable("At the height of its sampling point the wall lies {value} off its plane; {limit} is allowed (a "
-                  "fifth of {key})."),
-     translatable("an arch, or a heap along the wall; wall_z_min and wall_z_max set the heights of the fit")},
-    {"sample_gap",
-     translatable("The wall is not seen at its sampling point: the nearest part is {value} away; {limit} is allowed. "
-                  "The plane is prolonged to the point."),
-     translatable("s_front and s_back set the sampling points")},
     {"sample_hole",
      translatable("Around the sampling point the wall is unseen for {value}, or seen on one side only; {limit} is "
                   "allowed. The wall may end or step there."),
      translatable("s_front and s_back set the sampling points")},
-    {"sample_before",
-     translatable("The sampling point lies behind the wall's plane, in the rock. The distance is how far it lies past "
-                  "the wall, not a clearance."),
-     translatable("s_front, s_back, lateral_offset_left and lateral_offset_right set the sampling points")},
     {"sample_step", translatable("At its sampling point the wall may step out or back by {value}."),
      translatable("s_front and s_back set the sampling points")},
     {"wall_away",
      translatable(
          "The wall is first seen {value} away along the road; {limit} is allowed. In between the road may bend."),
      translatable("a sensor that looks one way only, or the machine hides the wall beside it")},
-    {"wall_solid_doubt", translatable("{value} of the wall is seen through; more than {limit} is doubted."),
-     translatable("things stand before the wall")},
     {"fit_inliers", translatable("{value} measured points lie on the fitted wall; {limit} are needed ({key})."),
      translatable("lower {key} for a sensor of few points")},
     {"fit_stayed", translatable("The fit drifted off to a surface that is no wall."),
@@ -138,14 +98,6 @@ constexpr GateWords kSightWords[] = {
      translatable("Near the sensor {value} of the wall returns nothing; {limit} is the most. Things with gaps stand "
                   "before a wall that gives no return."),
      translatable("pipes or props before a wall too dark to be seen")},
-    {"wall_open",
-     translatable(
-         "Near the sensor {value} of the wall is silent or seen through; {limit} is the most. The wall has gaps."),
-     translatable("pipes, props or a row of things stand where the wall should be")},
-    {"wall_topless",
-     translatable("Over the top of {value} of the wall something behind it is seen, or nothing; {limit} is the most. A "
-                  "wall reaches up to the roof."),
-     translatable("a conveyor, a vehicle or a curtain stands where the wall should be")},
     {"wall_island",
      translatable("The sensor looks past both ends of the plane: it is a curtain, a vehicle or a pillar."),
      translatable("this object hides the wall")},
@@ -153,17 +105,10 @@ constexpr GateWords kSightWords[] = {
      translatable("this object hides the wall")},
     {"wall_layer", translatable("Behind the wall another surface shows, equally far behind over a wall's length."),
      translatable("pipes and props hide the wall")},
-    {"left_alone",
-     translatable("The other side was refused. Alone the wall needs support over {limit} ({key}); it has {value}."),
-     translatable("see the other side; lower {key} for short walls")},
     {"alone_apart",
      translatable("The wall stands alone, and the other side shows a surface turned by {value} against it; {limit} is "
                   "allowed. It is not known which of them runs along the road."),
      translatable("see the other side; a junction, or a road that widens")},
-    {"short_apart",
-     translatable("The wall is shorter than one that stands alone ({key}), and turned by {value} against the other "
-                  "wall. Beyond {limit} the other wall does not vouch for it."),
-     translatable("see the other side; show more of the wall")},
     {"wall_near",
      translatable(
          "{value} returns of this side are nearer than {key}; {limit} is the most. Something blocks the view."),

@@ -13,9 +13,8 @@ namespace {
 
 // 4 degrees: walls of one road rarely differ by more; judgement, 2026-11-21.
 constexpr double kParallelScale_rad = 0.07;
-constexpr double kDoubtShare = 0.5;     // judgement, 2026-11-21: half as strong a wall, not parallel, doubts the first
-constexpr double kSplayedCosMin = 0.8;  // 37 degrees: beyond, no side of the same road; judgement, 2026-11-21
-constexpr double kAcrossCos = 0.7;      // 45 degrees: planes turned further from the side walls stand across the road
+constexpr double kDoubtShare = 0.5;  // judgement, 2026-11-21: half as strong a wall, not parallel, doubts the first
+constexpr double kAcrossCos = 0.7;   // 45 degrees: planes turned further from the side walls stand across the road
 
 struct Pair {
   const WallCandidate* a = nullptr;
@@ -23,13 +22,8 @@ struct Pair {
   double score = 0.0;
 };
 
-double parallel_by(const Plane& a, const Plane& b) {
-  return std::fabs(a.n.dot(b.n));
-}
-
 bool may_be_pair(const WallCandidate& a, const WallCandidate& b, const Settings& s) {
-  const bool parallel = passes<gate::PAIR_PARALLEL>(parallel_by(a.plane, b.plane), s);
-  return passes<gate::PAIR_LENGTH>(a.evidence.length_m + b.evidence.length_m, s) && parallel;
+  return passes<gate::PAIR_PARALLEL>(std::fabs(a.plane.n.dot(b.plane.n)), s);
 }
 
 // Parallel pairs only; the nearer to parallel, the better.
@@ -52,42 +46,13 @@ Pair best_pair(const WallCandidates& as, const WallCandidates& bs, const Setting
   return best;
 }
 
-// Two strong walls that are not parallel make no road with one direction, even if a weak plane happens to be parallel
-// to one of them.
-bool contested(const Pair& pair, const WallCandidates* const (&lists)[2], const Settings& s) {
-  const WallCandidate* const chosen[2] = {pair.a, pair.b};
-  for (int side = 0; side < 2; ++side) {
-    for (std::uint32_t i = 0; i < lists[side]->count; ++i) {
-      const WallCandidate& c = lists[side]->item[i];
-      const double parallel = parallel_by(c.plane, chosen[1 - side]->plane);
-      if (c.failed != 0 || parallel > limit_of<gate::PAIR_PARALLEL>(s) || parallel < kSplayedCosMin) continue;
-      if (c.evidence.length_m >= limit_of<gate::PAIR_LENGTH>(s) &&
-          chosen[side]->evidence.score_m2 < kDoubtShare * c.evidence.score_m2) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-// True if it is solid over enough of its span. A boulder and a far spot in line with it leave a hole.
-bool is_filled(const WallCandidate& c, const Settings& s) {
-  const double span_m = c.evidence.along_max_m - c.evidence.along_min_m;
-  return passes<gate::WALL_FILLED>(span_m > 0.0 ? c.evidence.length_m / span_m : 1.0, s);
-}
-
-bool can_stand_alone(const WallCandidate& c, const Settings& s) {
-  const bool long_enough = passes<gate::WALL_LENGTH_ALONE>(c.evidence.length_m, s);
-  return is_filled(c, s) && long_enough;
-}
-
-const WallCandidate* best_single(const WallCandidates& list, bool (*accepts)(const WallCandidate&, const Settings&),
-                                 const Settings& s) {
+// The best plane that is long enough by itself.
+const WallCandidate* best_single(const WallCandidates& list, const Settings& s) {
   POSE_WALL_NOTE(const trace::Silence until_chosen);
   const WallCandidate* best = nullptr;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
-    if (c.failed != 0 || !accepts(c, s)) continue;
+    if (c.failed != 0 || !passes<gate::WALL_LENGTH_ALONE>(c.evidence.length_m, s)) continue;
     if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
   }
   return best;
@@ -100,7 +65,6 @@ std::uint32_t why_none(const WallCandidates& list, const Settings& s) {
   if (best != nullptr) {
     why.reasons = best->failed;
     demand<gate::WALL_LENGTH_ALONE>(&why, best->evidence.length_m, s);
-    POSE_WALL_NOTE(is_filled(*best, s));
   }
   demand<gate::WALL_CHOSEN>(&why, false);
   return why.reasons;
@@ -190,27 +154,19 @@ void refuse_both(const Verdict& verdict, WallChoice* out) {
 }
 
 #ifdef POSE_WALL_TRACE
-// Notes why the strongest planes of both sides that pass their own gates are no pair.
+// Notes why the strongest planes of both sides are no pair.
 void note_pair(const Pair& pair, const WallCandidates* const (&lists)[2], const Settings& s) {
-  const WallCandidate* const a = pair.a != nullptr ? pair.a : best_single(*lists[0], is_filled, s);
-  const WallCandidate* const b = pair.b != nullptr ? pair.b : best_single(*lists[1], is_filled, s);
+  const WallCandidate* const a = pair.a != nullptr ? pair.a : lists[0]->strongest();
+  const WallCandidate* const b = pair.b != nullptr ? pair.b : lists[1]->strongest();
   if (a != nullptr && b != nullptr) may_be_pair(*a, *b, s);
 }
 #endif
 
-// The best pair, unless a stronger plane runs apart from it or one wall alone shows much more. Then it is a pair by
-// chance.
 Pair choose_pair(const WallCandidates* const (&lists)[2], const Settings& s) {
   POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_WALLS));
   const Pair pair = best_pair(*lists[0], *lists[1], s);
   POSE_WALL_NOTE(note_pair(pair, lists, s));
-  if (pair.a == nullptr || !passes<gate::PAIR_CONTESTED>(!contested(pair, lists, s))) return {};
-  double alone = 0.0;
-  for (const WallCandidates* list : lists) {
-    const WallCandidate* lone = best_single(*list, can_stand_alone, s);
-    if (lone != nullptr && lone->evidence.score_m2 > alone) alone = lone->evidence.score_m2;
-  }
-  return passes<gate::PAIR_SHARE>(alone > 0.0 ? pair.score / alone : 1.0, s) ? pair : Pair{};
+  return pair;
 }
 
 // Notes that this side's wall makes no pair with the longest wall of the other side.
@@ -223,8 +179,7 @@ void add_no_pair(int side, WallChoice* out) {
 
 // Without a parallel pair: one wall alone, unless the other side's plane doubts it.
 void choose_single(const WallCandidates* const (&lists)[2], const Settings& s, WallChoice* out) {
-  const WallCandidate* best[2] = {best_single(*lists[0], can_stand_alone, s),
-                                  best_single(*lists[1], can_stand_alone, s)};
+  const WallCandidate* best[2] = {best_single(*lists[0], s), best_single(*lists[1], s)};
   if (best[0] != nullptr && best[1] != nullptr) {
     const double a = best[0]->evidence.score_m2, b = best[1]->evidence.score_m2;
     const int weaker = a < b ? 0 : 1;
@@ -254,43 +209,15 @@ void say_why_or_rival(const WallCandidates* const (&lists)[2], const Settings& s
   }
 }
 
-// Planes across the road. Against one wall alone, planes of few points count too: they are enough to doubt the road's
-// direction.
-WallCandidates across(const WallCandidates& list, const WallChoice& sides, bool alone) {
+// Planes across the road.
+WallCandidates across(const WallCandidates& list, const WallChoice& sides) {
   WallCandidates out = list;
   const Plane& side = (sides.side[0] != nullptr ? sides.side[0] : sides.side[1])->plane;
   for (std::uint32_t i = 0; i < out.count; ++i) {
     WallCandidate& c = out.item[i];
-    if (alone) c.failed &= ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS);
     if (!(std::fabs(c.plane.n.dot(side.n)) < kAcrossCos)) c.failed |= POSE_WALL_R_WALL_NOT_FOUND;
   }
   return out;
-}
-
-// Doubts the chosen sides if the planes ahead and behind make a better roadway.
-void judge_across(const WallChoice& sides, const WallCandidates& ahead, const WallCandidates& behind, const Settings& s,
-                  Verdict* verdict) {
-  const bool alone = sides.side[0] == nullptr || sides.side[1] == nullptr;
-  const WallCandidates a = across(ahead, sides, alone), b = across(behind, sides, alone);
-  if (!demand<gate::ACROSS>(verdict, best_pair(a, b, s).score / sides.score_m2, s) || !alone) return;
-  for (const WallCandidate* lone : {best_single(a, is_filled, s), best_single(b, is_filled, s)}) {
-    if (lone != nullptr) demand<gate::ACROSS_ALONE>(verdict, lone->evidence.score_m2 / sides.score_m2, s);
-  }
-}
-
-// Share of the band's points on the chosen walls.
-double explained_share(const WallScene& scene, const WallChoice& choice) {
-  const auto slab = [&](const WallCandidate* wall) {
-    if (wall == nullptr) return Slab::empty();
-    return Slab(wall->plane, on_wall_m(scene.settings));
-  };
-  const Slab left = slab(choice.side[0]), right = slab(choice.side[1]);
-  const PointSet& band = scene.band_level;
-  FourInts explained{};  // true is -1
-  for_each_four_points(band, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    explained -= counts & (left.holds(x, y, z) | right.holds(x, y, z));
-  });
-  return band.count > 0 ? static_cast<double>(sum_of_lanes(explained)) / static_cast<double>(band.count) : 0.0;
 }
 
 }  // namespace
@@ -314,20 +241,10 @@ void refuse_if_across(const WallCandidates& ahead, const WallCandidates& behind,
                       WallChoice* choice) {
   POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_WALLS));
   Verdict verdict;
-  if (choice->any()) {
-    judge_across(*choice, ahead, behind, settings, &verdict);
-  } else {
-    // Without a chosen side any pair is better.
-    const Pair pair = best_pair(ahead, behind, settings);
-    if (pair.a != nullptr) demand<gate::ACROSS>(&verdict, pair.score / choice->score_m2, settings);
-  }
-  refuse_both(verdict, choice);
-}
-
-void refuse_unexplained(const WallScene& scene, WallChoice* choice) {
-  POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_WALLS));
-  Verdict verdict;
-  demand<gate::EXPLAINED>(&verdict, explained_share(scene, *choice), scene.settings);
+  // Without a chosen side any pair is better.
+  const Pair pair = choice->any() ? best_pair(across(ahead, *choice), across(behind, *choice), settings)
+                                  : best_pair(ahead, behind, settings);
+  if (pair.a != nullptr) demand<gate::ACROSS>(&verdict, pair.score / choice->score_m2, settings);
   refuse_both(verdict, choice);
 }
 

@@ -26,8 +26,4 @@ WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right,
 void refuse_if_across(const WallCandidates& ahead, const WallCandidates& behind, const Settings& settings,
                       WallChoice* choice);
 
-// In a cavern or a hall full of things two flat spots may happen to be parallel, but they explain few of the points.
-// Both sides are then refused, and still measured.
-void refuse_unexplained(const WallScene& scene, WallChoice* choice);
-
 }  // namespace pose_wall

@@ -53,12 +53,11 @@ Doubt by_close_look(const WallSight& sight, const WallEdges& edges, bool grooved
   demand<gate::WALL_OPEN_DOUBT>(&doubt, sight.open, s);
   demand<gate::WALL_GROOVES>(&doubt, !grooved);
   demand<gate::WALL_LAYER>(&doubt, !edges.layer_behind);
-  if (doubt.reasons != 0) {
+  doubt.may_be_no_wall = doubt.reasons != 0;
+  if (doubt.may_be_no_wall) {
     doubt.off_m[0] = doubt.off_m[1] = larger(kRivalStretch * sight.depth_m + kRivalMargin_m, kMayStep_m);
   }
   demand<gate::WALL_SILENT>(&doubt, sight.silent, s);
-  demand<gate::WALL_OPEN>(&doubt, sight.open, s);
-  demand<gate::WALL_TOPLESS>(&doubt, sight.topless, s);
   demand<gate::WALL_ISLAND>(&doubt, !edges.island);
   demand<gate::WALL_LOW>(&doubt, !edges.low);
   return doubt;
@@ -98,7 +97,6 @@ JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallCh
   JudgedWall wall(fitted);
   wall.add(by_distance(chosen.evidence.away_m, s));
   if (choice.rival[side] != nullptr) wall.add(by_rival(scene, choice.rival[side]->plane, side, fitted));
-  demand<gate::WALL_SOLID_DOUBT>(&wall.fit, chosen.evidence.seen_through, s);
   demand<gate::FIT_INLIERS>(&wall.fit, fitted.fit.inliers, s);
   demand<gate::WALL_YAW>(&wall.fit, std::fabs(fitted.yaw_rad), s);
   if (!fitted.fit.found) return wall;
@@ -120,19 +118,7 @@ void doubt_those_alone(const Settings& s, const WallChoice& choice, const WallCa
     const double apart = apart_from_other_side(wall, choice.side[other], (*walls)[other], beside[other], s);
     (*walls)[side].add(by_other_side(apart, s));
     // The rest of a pair must be as long as a wall that stands alone.
-    if (choice.side[other] != nullptr) demand<gate::LEFT_ALONE>(&(*walls)[side].fit, wall.evidence.length_m, s);
-  }
-}
-
-void doubt_short_ones_apart(const Settings& s, const WallChoice& choice, JudgedWall (*walls)[2]) {
-  if (choice.side[0] == nullptr || choice.side[1] == nullptr) return;
-  const double apart = angle_in_plan((*walls)[0].fit.plane, (*walls)[1].fit.plane);
-  for (int side = 0; side < 2; ++side) {
-    if (choice.side[side]->evidence.length_m >= limit_of<gate::WALL_LENGTH_ALONE>(s)) continue;
-    POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
-    Doubt doubt;
-    if (!demand<gate::SHORT_APART>(&doubt, apart, s)) doubt.off_m[0] = doubt.off_m[1] = kMayStep_m;
-    (*walls)[side].add(doubt);
+    if (choice.side[other] != nullptr) demand<gate::WALL_LENGTH_ALONE>(&(*walls)[side].fit, wall.evidence.length_m, s);
   }
 }
 

@@ -21,10 +21,6 @@ JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallCh
 void doubt_those_alone(const Settings& settings, const WallChoice& choice, const WallCandidates (&beside)[2],
                        JudgedWall (*walls)[2]);
 
-// Two walls support each other as far as they are parallel. A wall too short to stand alone, beside one of another
-// direction, may be a boulder.
-void doubt_short_ones_apart(const Settings& settings, const WallChoice& choice, JudgedWall (*walls)[2]);
-
 // Refuses a side if most of its returns are nearer than range_min: they hide everything behind them.
 void refuse_blocked_sides(const IngestCounts& counts, const Settings& settings, JudgedWall (*walls)[2]);
 

@@ -22,7 +22,6 @@ constexpr double kWide_m = 0.7;        // judgement, 2026-11-21: wider gaps are 
 constexpr int kRoadsMax = 2;           // judgement, 2026-11-21: more gaps are a row of props
 constexpr double kOneGapShare = 0.34;  // judgement, 2026-11-21: one gap of up to a third of the wall may be a road, too
 constexpr double kBlindFactor = 1.5;   // judgement, 2026-11-21: few cells show the silence elsewhere: half more passes
-constexpr double kBlindTopsMax = 0.1;  // judgement, 2026-11-21: with more tops silent elsewhere, silence proves nothing
 constexpr double kUnexplainedMax = 0.05;               // judgement, 2026-11-21: silence, twice the limit of wall_silent
 constexpr std::uint32_t kRows = DirectionGrid::kRows;  // of the directions' grid
 constexpr double kExpectedMin = 3.0;                   // by Poisson: of three expected, none comes in 5 % by chance
@@ -38,7 +37,6 @@ constexpr double kBrightShare = 0.7;  // judgement, 2026-11-21: of the expected 
 constexpr double kBrightCellsMin = 0.05;  // judgement, 2026-11-21: bright among half dead: things before a dark wall
 constexpr std::uint32_t kCellsMin = 20;   // judgement, 2026-11-21: a rank among fewer has no meaning
 constexpr double kZoneCellsMin = 60.0;    // judgement, 2026-11-21: a share of as many errs by 6 % at most
-constexpr double kZoneColumnsMin = 10.0;  // judgement, 2026-11-21: a tenth of the tops (kBlindTopsMax) takes ten
 
 // Chance that fewer than `limit` come when `mean` are expected (Poisson).
 double chance_below(double limit, double mean) {
@@ -55,11 +53,10 @@ double chance_below(double limit, double mean) {
 
 // Returns from a plane, one column of directions after the other.
 
-// Numbers of cells, and of columns by their highest cell. Silent tops are those beyond chance.
+// Numbers of cells.
 struct SightTally {
   double cells = 0.0, silent = 0.0, silent_by_chance = 0.0, through = 0.0;
-  double columns = 0.0, silent_tops = 0.0, tops_through = 0.0;
-  double silent_variance = 0.0, tops_variance = 0.0;  // of what chance makes silent
+  double silent_variance = 0.0;  // of what chance makes silent
 
   // sign -1: subtracts it.
   void add(const SightTally& other, double sign = 1.0);
@@ -85,19 +82,14 @@ class SightColumns {
   // No cells: the column does not look at the plane.
   SightColumn at(std::uint32_t column, double brightness, bool with_chance) const;
 
-  // Silent shares away from the plane. A sensor may be blind here and there, look further up ahead than aside, or spin
+  // Silent share away from the plane. A sensor may be blind here and there, look further up ahead than aside, or spin
   // about another axis than expected. 1 if too little else is in view to know.
-  struct Blindness {
-    double cells = 1.0;
-    double tops = 1.0;  // of columns, by their highest cell
-  };
-  Blindness elsewhere() const;
+  double blindness_elsewhere() const;
 
  private:
-  // Numbers of cells by zone (beside, above, below), and of columns.
+  // Numbers of cells by zone (beside, above, below).
   struct SilenceElsewhere {
     double cells[SightLines::kAlong] = {}, silent[SightLines::kAlong] = {};
-    double columns = 0.0, silent_tops = 0.0;
   };
   void count_elsewhere(std::uint32_t column, SilenceElsewhere* out) const;
 
@@ -117,11 +109,7 @@ void SightTally::add(const SightTally& other, double sign) {
   silent += sign * other.silent;
   silent_by_chance += sign * other.silent_by_chance;
   through += sign * other.through;
-  columns += sign * other.columns;
-  silent_tops += sign * other.silent_tops;
-  tops_through += sign * other.tops_through;
   silent_variance += sign * other.silent_variance;
-  tops_variance += sign * other.tops_variance;
 }
 
 bool SightColumn::is_gap() const {
@@ -178,24 +166,15 @@ double SightColumns::brightness() const {
 }
 
 SightColumn SightColumns::at(std::uint32_t column, double brightness, bool with_chance) const {
-  constexpr double kLowest_m = -1e3;  // below every height
   SightColumn out;
   if (!may_show(column)) return out;
-  double top_level_m = kLowest_m;
   for (std::uint32_t row = 0; row < kRows; ++row) {
     if (!can_tell(row, column)) continue;
     const SightLines::Crossing c = lines_.at(row, column);
-    if (!c.near || c.z_level_m < scene_.z_min_level_m || c.z_level_m > scene_.z_max_level_m + kAboveBand_m) continue;
+    if (!in_band(c)) continue;
     const double mean = brightness * directions_.expected.at(row, column),
                  by_chance = with_chance ? chance_below(kSilentShare * mean, mean) : 0.0;
     const bool silent = is_silent(row, column, brightness), through = !silent && is_through(row, column);
-    if (c.z_level_m > top_level_m) {
-      top_level_m = c.z_level_m;
-      out.tally.silent_tops = (silent ? 1.0 : 0.0) - by_chance;
-      out.tally.tops_through = through ? 1.0 : 0.0;
-      out.tally.tops_variance = by_chance * (1.0 - by_chance);
-    }
-    if (!in_band(c)) continue;
     out.tally.cells += 1.0;
     out.tally.silent += silent ? 1.0 : 0.0;
     out.tally.silent_by_chance += by_chance;
@@ -204,43 +183,31 @@ SightColumn SightColumns::at(std::uint32_t column, double brightness, bool with_
     out.along_m += c.along_m;
   }
   if (out.tally.cells > 0.0) out.along_m /= out.tally.cells;
-  out.tally.columns = 1.0;
   return out;
 }
 
 void SightColumns::count_elsewhere(std::uint32_t column, SilenceElsewhere* out) const {
-  double top_up = -1.0;
-  bool any = false, top_is_silent = false;
   const bool towards = lines_.looks_towards(column);
   for (std::uint32_t row = 0; row < kRows; ++row) {
     if (!can_tell(row, column)) continue;
     const SightLines::Zone zone = lines_.zone(row, column);
     if (zone == SightLines::kAlong || (towards && lines_.at(row, column).near)) continue;
-    const bool silent_here = is_silent(row, column, 1.0);
-    if (!any || lines_.up(row, column) > top_up) {
-      top_up = lines_.up(row, column);
-      top_is_silent = silent_here;
-    }
-    any = true;
     out->cells[zone] += 1.0;
-    out->silent[zone] += silent_here ? 1.0 : 0.0;
+    out->silent[zone] += is_silent(row, column, 1.0) ? 1.0 : 0.0;
   }
-  out->columns += any ? 1.0 : 0.0;
-  out->silent_tops += any && top_is_silent ? 1.0 : 0.0;
 }
 
-SightColumns::Blindness SightColumns::elsewhere() const {
+double SightColumns::blindness_elsewhere() const {
   SilenceElsewhere counted;
   for (std::uint32_t column = 0; column < kColumns; ++column) {
     if (directions_.seen.is_seen[column]) count_elsewhere(column, &counted);
   }
-  Blindness out;
+  double out = 1.0;
   // The least of the three zones, since one of them may be dark too.
   for (int zone = 0; zone < SightLines::kAlong; ++zone) {
     const double share = counted.cells[zone] >= kZoneCellsMin ? counted.silent[zone] / counted.cells[zone] : 1.0;
-    out.cells = share < out.cells ? share : out.cells;
+    out = share < out ? share : out;
   }
-  if (counted.columns >= kZoneColumnsMin) out.tops = counted.silent_tops / counted.columns;
   return out;
 }
 
@@ -302,7 +269,7 @@ struct ColumnRow {
     for (std::uint32_t k = 0; k < kColumns; ++k) {
       const SightColumn c = columns.at((away + k) % kColumns, brightness, with_chance);
       if (c.tally.cells > 0.0) item[count++] = c;
-      silent += c.tally.silent + c.tally.silent_tops;
+      silent += c.tally.silent;
     }
     return silent > 0.0;
   }
@@ -355,15 +322,11 @@ WallSight judge(const ColumnRow& row, const SightColumns& columns) {
   if (!(all.cells > 0.0)) return out;
   const double silent = all.silent / all.cells;
   const double by_chance = (all.silent_by_chance + scatter_of_chance(all.silent_variance)) / all.cells;
-  SightColumns::Blindness blind;  // silence elsewhere excuses only silence
-  if (silent > by_chance || all.silent_tops > 0.0) blind = columns.elsewhere();
-  const double elsewhere = kBlindFactor * blind.cells;
+  // Silence elsewhere excuses only silence.
+  const double elsewhere = silent > by_chance ? kBlindFactor * columns.blindness_elsewhere() : 0.0;
   const double unexplained = silent - (by_chance > elsewhere ? by_chance : elsewhere);
   out.silent = unexplained > 0.0 ? unexplained : 0.0;
   out.open = out.silent + all.through / all.cells;
-  const double silent_tops = all.silent_tops - scatter_of_chance(all.tops_variance);
-  const bool tops_tell = blind.tops <= kBlindTopsMax && silent_tops > 0.0;
-  out.topless = ((tops_tell ? silent_tops : 0.0) + all.tops_through) / all.columns;
   out.dim = silent - by_chance > kUnexplainedMax && !(out.silent > 0.0);
   return out;
 }

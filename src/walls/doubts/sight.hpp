@@ -22,9 +22,6 @@ struct WallSight {
   double open = 0.0;
   // Nearly all voxels whose rays pass the plane here lie within this depth behind it. 0: no ray passes.
   double depth_m = 0.0;
-  // Share of its columns with nothing, or something behind it, over its top. A wall reaches up to the roof; a curtain,
-  // a vehicle or a conveyor does not.
-  double topless = 0.0;
   // Too few returns all over it, or too much silence elsewhere, for gaps to be noticed.
   bool dim = false;
 };

@@ -56,8 +56,6 @@ class SightLines {
   // Other zones of view. Along the road everything may be too far.
   enum Zone { kBeside, kAbove, kBelow, kAlong };
   Zone zone(std::uint32_t row, std::uint32_t column) const;
-  // Sine of the elevation in the levelled frame.
-  double up(std::uint32_t row, std::uint32_t column) const { return up_lidar_.dot(ray_lidar(row, column)); }
   // The column that looks straight away from the plane.
   std::uint32_t column_away() const;
 

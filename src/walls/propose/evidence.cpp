@@ -155,20 +155,6 @@ WallEvidence WallGrid::evidence() const {
   return out;
 }
 
-double WallGrid::gap_to_solid_m(double along_m) const {
-  constexpr double kNone_m = 1e3;  // beyond every distance
-  double nearest = kNone_m;
-  for (std::uint32_t column = 0; column < kColumns; ++column) {
-    if (!column_is_solid(column)) continue;
-    const double low = wall_column_from_m(column);
-    double gap = 0.0;
-    if (along_m < low) gap = low - along_m;
-    if (along_m > low + kColumn_m) gap = along_m - low - kColumn_m;
-    if (gap < nearest) nearest = gap;
-  }
-  return nearest;
-}
-
 bool WallGrid::is_solid_at(double along_m) const {
   const double place = along_m * (1.0 / kColumn_m) + 0.5 * kColumns;
   return place >= 0.0 && place < kColumns && column_is_solid(static_cast<std::uint32_t>(place));

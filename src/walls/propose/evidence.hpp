@@ -70,8 +70,6 @@ class WallGrid {
   void mark(const WallScene& scene, const Plane& wall, const Eigen::Vector3d& along_level, const Reach& reach);
   WallEvidence evidence() const;
 
-  // Distance along the road from a place to the nearest solid column; large if there is none.
-  double gap_to_solid_m(double along_m) const;
   bool is_solid_at(double along_m) const;
   // Of the four points that count, those at which the plane is solid.
   FourTruths solid_at(FourFloats along_m, FourFloats z_level_m, FourTruths counts) const;

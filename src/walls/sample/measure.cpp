@@ -113,19 +113,14 @@ void set_distances(const WallScene& scene, const WallSurface& surface, int side,
     out->distance_m[end] = distance_at(out->fit.plane, sample);
     out->at_sample[end] = {1.0, u, v};
     const double bend = std::fabs(patch.bend_at(u, v));
-    demand<gate::SAMPLE_BEND>(&out->fit, bend, s);
     POSE_WALL_NOTE(const trace::About about(quantity_subject(side, end)));
     const double offset_m = leaves_plane_by(scene, surface, *out, sample.z());
-    const double along_m = out->along_level.dot(sample);
     const AtSample seen = look_at_sample(scene, surface, grid, *out, sample);
-    const double gap_m = grid.gap_to_solid_m(along_m);
-    const bool near = passes<gate::SAMPLE_GAP>(gap_m, s);
-    const bool unseen = !passes<gate::SAMPLE_HOLE>(seen.hole_m, s) || !near;
+    const bool unseen = !passes<gate::SAMPLE_HOLE>(seen.hole_m, s);
     // A distance has no sign: a point in the rock has that of one before it.
-    const bool in_rock = !passes<gate::SAMPLE_BEFORE>(!(out->fit.plane.signed_distance(sample) < 0.0));
+    const bool in_rock = out->fit.plane.signed_distance(sample) < 0.0;
     const bool interrupted = !passes<gate::SAMPLE_STEP>(seen.bound_m, s);
     out->extrapolated[end] = interrupted || unseen || in_rock;
-    POSE_WALL_NOTE(passes<gate::SAMPLE_OFFSET>(offset_m, s));
     ProtectionParts& bound = out->distance_bound_m[end];
     bound[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(bias);
     bound[POSE_WALL_PART_BEND] = bend + offset_m;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: fits become measurements by the stated arithmetic: weighted mean of both walls, range bias, splay, what makes
-// a value weak, and that nothing is measured from what was refused.
+// Proves: fits become measurements by the stated arithmetic: weighted mean of both walls, range bias, splay, which
+// reasons come along, and that nothing is measured from what was refused.
 
 #include "output/quality.hpp"
 
@@ -57,7 +57,6 @@ TEST(Quality, GoodFitsMeasureAllSeven) {
   const double expected[] = {0.1, -0.2, 0.02, 2.4, 2.6, 2.4, 2.6};
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     EXPECT_TRUE(m.quantity[q].measured) << q;
-    EXPECT_FALSE(m.quantity[q].weak) << q;
     EXPECT_NEAR(m.quantity[q].raw, expected[q], 1e-12) << q;
     EXPECT_GT(m.quantity[q].sigma, 0.0) << q;
     EXPECT_GT(m.quantity[q].protection.sum(), 5.0 * m.quantity[q].sigma) << q;
@@ -172,26 +171,54 @@ TEST(Quality, YawReachesToARivalOfEitherWallHoweverSmallItsWeight) {
   }
 }
 
-TEST(Quality, WhatIsDoubtfulIsWeak) {
+// Solution separation: if the doubted one is a curtain, the other wall alone is right.
+TEST(Quality, YawByAWallThatMayBeNoneReachesToTheOtherWallAlone) {
+  for (const int side : {0, 1}) {
+    Scene both;
+    both.walls[side].yaw_rad += 0.002;
+    Scene alone = both, doubted = both;
+    alone.walls[side].fit.refused = true;
+    doubted.walls[side].may_be_no_wall = true;
+    const Measurement by_other = alone.measured().quantity[POSE_WALL_YAW];
+    const Measurement yaw = doubted.measured().quantity[POSE_WALL_YAW];
+    EXPECT_EQ(yaw.raw, both.measured().quantity[POSE_WALL_YAW].raw) << side;
+    EXPECT_GE(yaw.protection.sum(), std::fabs(yaw.raw - by_other.raw) + by_other.protection.sum() - 1e-12) << side;
+    EXPECT_LT(yaw.protection.sum(), by_other.protection.sum() + 0.002) << side;
+  }
+}
+
+TEST(Quality, YawByThingsThatMayBeNoWallsIsNotKnown) {
+  for (const bool is_alone : {false, true}) {
+    Scene scene;
+    scene.walls[0].may_be_no_wall = true;
+    scene.walls[1].may_be_no_wall = !is_alone;
+    scene.walls[1].fit.refused = is_alone;
+    EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].protection.sum(), 0.44) << is_alone;
+  }
+}
+
+// The level alone tells how good a value is: a doubt adds its reason here, and its bound where it is raised.
+TEST(Quality, ADoubtOfAWallComesWithItsReasonAndSoDoesYaw) {
   for (const std::uint32_t reason :
        {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_R_WALL_SEEN_THROUGH, POSE_WALL_R_WALL_FEW_INLIERS, POSE_WALL_R_CURVED}) {
     SCOPED_TRACE(reason);
     Scene scene;
     scene.walls[1].fit.reasons = reason;
     const Measurements m = scene.measured();
-    EXPECT_TRUE(m.quantity[POSE_WALL_D_RF].measured && m.quantity[POSE_WALL_YAW].measured) << "in doubt, not refused";
-    EXPECT_TRUE(m.quantity[POSE_WALL_D_RF].weak && m.quantity[POSE_WALL_D_RB].weak && m.quantity[POSE_WALL_YAW].weak);
-    EXPECT_FALSE(m.quantity[POSE_WALL_D_LF].weak) << "the other side is not in doubt";
+    for (const int q : {POSE_WALL_D_RF, POSE_WALL_D_RB, POSE_WALL_YAW}) {
+      EXPECT_TRUE(m.quantity[q].measured) << q << ": in doubt, not refused";
+      EXPECT_EQ(m.quantity[q].reasons, reason) << q;
+    }
+    EXPECT_EQ(m.quantity[POSE_WALL_D_LF].reasons, 0U) << "the other side is not in doubt";
   }
   Scene far;
   far.walls[0].extrapolated[0] = true;
   const Measurements m = far.measured();
-  EXPECT_TRUE(m.quantity[POSE_WALL_D_LF].weak);
-  EXPECT_NE(m.quantity[POSE_WALL_D_LF].reasons & POSE_WALL_R_EXTRAPOLATED, 0U);
-  EXPECT_FALSE(m.quantity[POSE_WALL_D_LB].weak);
+  EXPECT_EQ(m.quantity[POSE_WALL_D_LF].reasons, POSE_WALL_R_EXTRAPOLATED);
+  EXPECT_EQ(m.quantity[POSE_WALL_D_LB].reasons, 0U);
   Scene floor;
   floor.floor.fit.reasons = POSE_WALL_R_FLOOR_AMBIGUOUS;
-  EXPECT_TRUE(floor.measured().quantity[POSE_WALL_ROLL].weak);
+  EXPECT_EQ(floor.measured().quantity[POSE_WALL_ROLL].reasons, POSE_WALL_R_FLOOR_AMBIGUOUS);
 }
 
 TEST(Quality, BoundsAddToTheLevel) {

@@ -196,7 +196,7 @@ TEST(TemporalOdometry, ANewRunForgetsWhatWasSeen) {
   OdometryMemory memory = road.seen_from(place(0, 0, 0), s);
   pose_wall_odometry other = place(0, 0, 0);
   other.run = 8;
-  for (const int q : {POSE_WALL_D_LF, POSE_WALL_D_LB}) road.measured.quantity[q].weak = true;
+  for (const int q : {POSE_WALL_D_LF, POSE_WALL_D_LB}) road.measured.quantity[q].stale = true;
   remember_place(other, road.floor, road.levelling, road.walls, road.measured, s, kAxes, &memory);
   EXPECT_EQ(memory.run, 8U);
   EXPECT_FALSE(memory.wall[0].exists);

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: states, ages, protection levels and flags follow the specification frame by frame, for measurements, gaps,
-// jumps, weak values and stamps that stand still, jump back or leap ahead; and that no NaN stands where a number is
+// jumps, stale values and stamps that stand still, jump back or leap ahead; and that no NaN stands where a number is
 // promised, nor a number where there is none.
 
 #include "output/temporal.hpp"
@@ -30,21 +30,21 @@ class Life {
   explicit Life(std::initializer_list<test::KeyValue> settings = {}, std::uint32_t quantity = POSE_WALL_D_LF)
       : settings_(test::settings_with(settings)), quantity_(quantity) {}
 
-  pose_wall_value measured(std::int64_t stamp_ms, double raw, double protection = 0.02, bool weak = false) {
+  pose_wall_value measured(std::int64_t stamp_ms, double raw, double protection = 0.02, bool stale = false) {
     Measurements m;
     Measurement& q = m.quantity[quantity_];
     q.measured = true;
     q.raw = raw;
     q.sigma = protection / 5.0;
     q.protection[POSE_WALL_PART_RANDOM] = protection;
-    q.weak = weak;
+    q.stale = stale;
     return frame(stamp_ms, m);
   }
   // Another plane may be the wall: the level reaches to it.
   pose_wall_value ambiguous(std::int64_t stamp_ms, double raw, double protection) {
     Measurements m;
     Measurement& q = m.quantity[quantity_];
-    q.measured = q.weak = true;
+    q.measured = true;
     q.raw = raw;
     q.sigma = 0.004;
     q.protection[POSE_WALL_PART_RANDOM] = protection;

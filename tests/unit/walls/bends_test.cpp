@@ -30,7 +30,7 @@ using test::RayScene;
 using test::Rock;
 using test::WallProfile;
 
-constexpr double kWall_m = 2.0;
+constexpr double kBentWall_m = 2.0;
 constexpr std::uint32_t kRuns = 10;
 // Looks down past the foot of the wall, and up by 7 degrees: at 2 m it ends a quarter of a metre above itself.
 const Lidar kLooksDown{-50.0, 7.0, 1.0, 0.35};
@@ -57,14 +57,14 @@ Fitted fitted(WallProfile profile, const Lidar& lidar, std::uint32_t seed) {
   const Rock rock(0.05, 0.3, &noise);
   RayScene scene;
   scene.set_noise(kNoise_m);
-  scene.add(test::side_panel(kWall_m, {-16.0, 16.0}, {kFloorZ_m, 2.0}));
-  scene.set_relief(kWall_m, [&](const Eigen::Vector3d& p) { return -rock.at(p.x(), p.z()) - profile(p.z()); });
+  scene.add(test::side_panel(kBentWall_m, {-16.0, 16.0}, {kFloorZ_m, 2.0}));
+  scene.set_relief(kBentWall_m, [&](const Eigen::Vector3d& p) { return -rock.at(p.x(), p.z()) - profile(p.z()); });
   BandFixture band({{"range_noise", "0.01"}});
   scene.scan(lidar, &band);
   const WallScene walls = band.scene();
   test::Placed<WallGrid> grid;
   test::Placed<WallFitScratch> scratch(band.points().set().capacity());
-  const Plane start{-Eigen::Vector3d::UnitY(), kWall_m};
+  const Plane start{-Eigen::Vector3d::UnitY(), kBentWall_m};
   const WallSurface surface = fit_surface(walls, start, grid.get(), scratch.get());
   Fitted out;
   out.solved = surface.patch.solved;
@@ -72,7 +72,7 @@ Fitted fitted(WallProfile profile, const Lidar& lidar, std::uint32_t seed) {
   out.band = {walls.z_min_level_m, walls.z_max_level_m};
   if (!out.solved) return out;
   out.lean_rad = lean_of(surface.plane());
-  out.offset_m = surface.plane().signed_distance(Eigen::Vector3d::Zero()) - kWall_m;
+  out.offset_m = surface.plane().signed_distance(Eigen::Vector3d::Zero()) - kBentWall_m;
   return out;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: out of candidates on four sides the parallel pair with the most evidence is chosen, doubtful, contested or
+// Proves: out of candidates on four sides the parallel pair with the most evidence is chosen, doubtful or
 // crossing ones are refused with the reason, and a rival is named.
 
 #include "walls/choose/choose.hpp"
@@ -92,15 +92,14 @@ TEST(WallSelect, AMuchWeakerOneCastsNoDoubt) {
 
 // A strong wall on either side, apart by an angle, and beside one of them a weak plane that is parallel to the other.
 struct SplayedRoad : Choice {
-  static constexpr double kStrong_m2 = 20.0;
+  static constexpr double kStrong_m2 = 20.0, kWeak_m2 = 3.0;
 
-  SplayedRoad(int splayed_side, double apart_rad, double splayed_length_m, double weak_m2) {
+  SplayedRoad(int splayed_side, double apart_rad) {
     const auto wall = [](int side, double d, double score, double turned) {
       return side == 0 ? left_wall(d, score, turned) : right_wall(d, score, -turned);
     };
-    WallCandidate splayed = wall(splayed_side, 2.5, kStrong_m2, apart_rad);
-    splayed.evidence.length_m = splayed_length_m;
-    lists[splayed_side] = list({splayed, wall(splayed_side, 2.2, weak_m2, 0.0)});
+    lists[splayed_side] =
+        list({wall(splayed_side, 2.5, kStrong_m2, apart_rad), wall(splayed_side, 2.2, kWeak_m2, 0.0)});
     lists[1 - splayed_side] = list({wall(1 - splayed_side, 2.5, kStrong_m2, 0.0)});
     left = lists[0];
     right = lists[1];
@@ -113,33 +112,16 @@ struct SplayedRoad : Choice {
 // Beyond what a pair may be apart (wall_parallel_cos: 26 degrees), up to 37.
 constexpr double kApart_rad[] = {-0.6, -0.47, 0.47, 0.6};
 
-TEST(WallSelect, AWeakParallelPlaneMakesNoRoadOfTwoStrongWallsApart) {
+TEST(WallSelect, AStrongWallThatRunsApartIsTheRivalOfAWeakParallelPlane) {
   for (const int side : {0, 1}) {
     for (const double apart_rad : kApart_rad) {
-      const SplayedRoad road(side, apart_rad, 12.0, 3.0);
+      const SplayedRoad road(side, apart_rad);
       const WallChoice chosen = road.choose();
       SCOPED_TRACE(::testing::Message() << side << " " << apart_rad);
-      EXPECT_EQ(chosen.side[0], nullptr);
-      EXPECT_EQ(chosen.side[1], nullptr);
-      EXPECT_TRUE(chosen.verdict[0].refused && chosen.verdict[1].refused);
-      EXPECT_NE(chosen.verdict[0].reasons & chosen.verdict[1].reasons & POSE_WALL_R_WALLS_NOT_PARALLEL, 0U);
-    }
-  }
-}
-
-TEST(WallSelect, WhatIsShortOrWeakOrFarFromParallelContestsNoPair) {
-  const SplayedRoad harmless[] = {{0, 0.5, 5.9, 3.0},    // short: a vehicle's or a boulder's side
-                                  {1, 0.5, 5.9, 3.0},    //
-                                  {0, 0.5, 12.0, 10.5},  // no more than twice the parallel plane
-                                  {1, 0.5, 12.0, 10.5},  //
-                                  {0, 0.7, 12.0, 3.0},   // 40 degrees: a corner, no splay
-                                  {1, 0.7, 12.0, 3.0}};
-  for (const SplayedRoad& road : harmless) {
-    const WallChoice chosen = road.choose();
-    for (int side = 0; side < 2; ++side) {
       const WallCandidates& on_side = side == 0 ? road.left : road.right;
-      EXPECT_EQ(chosen.side[side], &on_side.item[on_side.count - 1]) << &road - harmless << ", the parallel one";
-      EXPECT_FALSE(chosen.verdict[side].refused) << &road - harmless;
+      EXPECT_EQ(chosen.side[side], &on_side.item[1]) << "the parallel one";
+      EXPECT_EQ(chosen.rival[side], &on_side.item[0]) << "so the levels reach to the strong one";
+      EXPECT_EQ(chosen.rival[1 - side], nullptr);
     }
   }
 }

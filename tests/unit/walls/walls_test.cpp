@@ -210,32 +210,6 @@ TEST(Walls, WhatIsLeftOfAPairMustBeAsLongAsAWallAlone) {
   }
 }
 
-// Two boulders that happen to lie nearly alike: as a pair they may be short, and then they must be a pair.
-TEST(Walls, ShortOnesVouchForEachOtherAsFarAsTheyRunAlike) {
-  constexpr BandFixture::Extent kShort{-1.75, 1.75, 0.3, 2.4};
-  for (const double apart_rad : {0.0, 0.1, 0.2, 0.35}) {
-    for (const bool both_short : {true, false}) {
-      SCOPED_TRACE(::testing::Message() << apart_rad << (both_short ? " both short" : " one short"));
-      BandFixture band({{"s_front", "1"}, {"s_back", "-1"}});
-      band.add_wall(3.0, both_short ? kShort : kLongWall);
-      band.add_wall(-3.0, kShort, apart_rad);
-      const WallsResult r = band.walls();
-      ASSERT_TRUE(r.side[0].fit.found && !r.side[0].fit.refused);
-      if (r.side[1].fit.refused) {
-        EXPECT_TRUE(apart_rad > 0.3 && !both_short) << "long enough to be told from half a pair";
-        continue;
-      }
-      const bool unlike = apart_rad > 0.14;
-      for (int side = 0; side < 2; ++side) {
-        const bool doubted = unlike && (side == 1 || both_short);
-        EXPECT_EQ((r.side[side].fit.reasons & POSE_WALL_R_WALLS_NOT_PARALLEL) != 0, doubted) << side;
-        for (const ProtectionParts& bound : r.side[side].distance_bound_m)
-          EXPECT_EQ(bound.sum() >= 2.0, doubted) << side;
-      }
-    }
-  }
-}
-
 // Walls that run apart, of which one shows so much less that the other is taken alone: it need not be the one that runs
 // along the road.
 TEST(Walls, AWallAloneTellsTheRoadNoBetterThanTheOtherSideAllows) {
