@@ -381,7 +381,8 @@ enum pose_wall_state {
                              reading of the scene that the engine knows of */
 };
 
-/* Why a value is not valid, and notes on valid ones. Bits; pinned by a test. */
+/* Why a value is not valid, and notes on valid ones. A valid value has none of the doubts FLOOR_AMBIGUOUS,
+   WALL_AMBIGUOUS, WALL_SEEN_THROUGH, CURVED and EXTRAPOLATED: its level holds them. Bits; pinned by a test. */
 enum pose_wall_reason {
   /* the frame */
   POSE_WALL_R_NO_POINTS = 1 << 0, /* too few points survive the filters */

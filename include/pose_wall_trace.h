@@ -59,8 +59,8 @@ enum pose_wall_trace_gate_id {
   POSE_WALL_TRACE_FLOOR_AREA,
   POSE_WALL_TRACE_FLOOR_NEAR,
   POSE_WALL_TRACE_FLOOR_BESIDE,
-  /* the choice of the walls */
   POSE_WALL_TRACE_FLOOR_BY_WALLS,
+  /* the choice of the walls */
   POSE_WALL_TRACE_LEVELLED,
   POSE_WALL_TRACE_WALL_PLANES,
   POSE_WALL_TRACE_WALL_INLIERS,

@@ -24,6 +24,8 @@ bool lie_alike(const Plane& a, const Plane& b) {
   return a.n.cross(b.n).squaredNorm() <= kAlike_rad * kAlike_rad;
 }
 
+// A rival is not fitted in full. Judgement, 2026-11-27: half a degree, as 2 to 3 m of rough ground err.
+constexpr double kRivalMargin_rad = 0.0087;
 constexpr double kOneSide = 0.8;  // judgement, 2026-11-23: a fifth of the points may be strays where both planes meet
 constexpr double kNearLine_m = 0.3;  // judgement, 2026-11-23: accuracy of the line in which two floors meet
 constexpr double kLower_m = 0.3;  // a belt's or a table's height, more than a kerb's; 0.5 before a review, 2026-11-23
@@ -186,11 +188,11 @@ void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const
                      FloorScratch* scratch, FloorResult* floor) {
   const Settings& s = scene.settings;
   const FloorCandidate& best = *candidates.best();
-  const RollPitch a = roll_pitch_of_up(best.plane.n);
   // On a small floor a few centimetres are many degrees, so what both planes show counts. So it does where the fit
   // failed or wandered off to the rival.
   const Plane& fitted = floor->fit.plane;
   const bool is_sure = floor->fit.found && same_floor(fitted, best.plane) && best.evidence.area_m2 >= kSmallArea_m2;
+  const RollPitch a = roll_pitch_of_up(best.plane.n);
   double roll = 0.0, pitch = 0.0;
   for (const FloorCandidate& rival : candidates.all()) {
     if (&rival == &best || (!rival.may_carry() && best.evidence.area_m2 >= kSureArea_m2)) continue;
@@ -203,8 +205,8 @@ void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const
     if (passes<gate::FLOOR_RIVAL>(share, s)) continue;
     POSE_WALL_NOTE(trace::fate(rival.plane, POSE_WALL_TRACE_RIVAL));
     const RollPitch b = roll_pitch_of_up(rival.plane.n);
-    roll = larger(roll, std::fabs(a.roll_rad - b.roll_rad));
-    pitch = larger(pitch, std::fabs(a.pitch_rad - b.pitch_rad));
+    roll = larger(roll, std::fabs(a.roll_rad - b.roll_rad) + kRivalMargin_rad);
+    pitch = larger(pitch, std::fabs(a.pitch_rad - b.pitch_rad) + kRivalMargin_rad);
     floor->fit.reasons |= POSE_WALL_R_FLOOR_AMBIGUOUS;
     const bool must_stand_alone = best.evidence.area_m2 < kSmallArea_m2 && !rival.ghost;
     if (must_stand_alone && !lie_alike(best.plane, rival.plane)) demand<gate::FLOOR_ALONE>(&floor->fit, share, s);

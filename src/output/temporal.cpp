@@ -41,16 +41,20 @@ void check_innovation(const Measurement& m, [[maybe_unused]] const Settings& s, 
 }
 
 // A rival wall seen a moment ago is not gone because this frame does not show it. A level that reached to one falls
-// once kConfirmations frames in a row have seen none. Until then a new measurement may be the rival. Floors are
-// different: uneven ground shows another slope in one frame of five, and is right in the others.
+// once kConfirmations frames in a row have seen none as far off. Until then a new measurement may be the rival. Floors
+// are different: uneven ground shows another slope in one frame of five, and is right in the others.
 void keep_doubts(const Settings& s, Track* t, Measurement* m) {
-  if ((m->reasons & POSE_WALL_R_WALL_AMBIGUOUS) != 0) {
+  constexpr double kFrames = kConfirmations + 1;  // in so many frames at most the level that is remembered grew
+  const double grown = t->grown.total();
+  const bool remembers = !passes<gate::DOUBTED>(t->doubted_frames, s);
+  const bool as_far_off = !remembers || m->protection.sum() + kFrames * grown >= t->raw_protection;
+  if ((m->reasons & POSE_WALL_R_WALL_AMBIGUOUS) != 0 && as_far_off) {
     t->doubted_frames = kConfirmations;
     return;
   }
-  if (passes<gate::DOUBTED>(t->doubted_frames, s)) return;
+  if (!remembers) return;
   --t->doubted_frames;
-  m->protection.reach(std::fabs(m->raw - t->raw) + t->raw_protection + t->grown.total(), POSE_WALL_PART_RIVAL);
+  m->protection.reach(std::fabs(m->raw - t->raw) + t->raw_protection + grown, POSE_WALL_PART_RIVAL);
 }
 
 // Until a jump is confirmed the last good value may be the right one. Without one, the level is no better than the

@@ -273,7 +273,7 @@ void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const
   memory->R_run_base = at.R_run_base;
   const auto is_good = [&measured](std::uint32_t quantity) {
     const Measurement& m = measured.quantity[quantity];
-    return m.measured && !m.stale && (m.reasons & POSE_WALL_R_ALERT_LIMIT) == 0;
+    return m.measured && !m.stale && (m.reasons & kDoubts) == 0;  // whatever the width of its level
   };
   if (is_good(POSE_WALL_ROLL)) see_floor(floor, at, s, &memory->floor);
   for (int side = 0; side < 2; ++side) {

@@ -73,7 +73,8 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
     POSE_WALL_NOTE(trace::attempt(1));
     if (choice.side[side] != nullptr && !work.is_spent()) {
       const FittedWall fitted = fit_wall(scene, *choice.side[side], side, scratch);
-      if (!work.is_spent()) out.side[side] = judge_wall(scene, views[side], choice, side, fitted, scratch);
+      if (!work.is_spent())
+        out.side[side] = judge_wall(scene, views[side], choice, beside[side], side, fitted, scratch);
     }
     out.side[side].fit.iterations = scored[side];
     out.side[side].fit.add(choice.verdict[side]);

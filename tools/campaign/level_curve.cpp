@@ -10,10 +10,10 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-// Reasons that no level answers may keep a value back as well. These do not: valid values have the former, and the
-// level holds the doubts.
+// Reasons that keep no value back. Valid values have them as well:
 constexpr std::uint32_t kHarmless = POSE_WALL_R_STAMP_BACK | POSE_WALL_R_STAMP_LEAP | POSE_WALL_R_RATE_LIMITED |
                                     POSE_WALL_R_LEAF_GROWN | POSE_WALL_R_PRIOR;
+// The level holds these; as in src/output/measurements.hpp.
 constexpr std::uint32_t kDoubts = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_WALL_AMBIGUOUS |
                                   POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_EXTRAPOLATED | POSE_WALL_R_CURVED;
 

@@ -15,8 +15,8 @@ namespace pose_wall::tools::campaign {
 inline constexpr std::array<double, 7> kLevelScales = {0.3, 0.5, 0.7, 0.85, 1.0, 1.2, 1.5};
 
 // Under a scale a value is valid if its level times the scale is within the alert limit, and nothing but its level kept
-// it from being valid: it was valid, or degraded by the reason alert_limit alone. What depends on earlier frames (a
-// hold, a jump to be confirmed) stays as it was.
+// it from being valid: it was valid, or degraded by the reason alert_limit, with or without doubts that the level
+// holds. What depends on earlier frames (a hold, a jump to be confirmed) stays as it was.
 bool is_valid_under(double scale, const QuantityRecord& value, double alert_limit);
 
 // Of the frames of some runs, under one scale.

@@ -111,6 +111,9 @@ std::string gate_list_text() {
                    say("{} ({})", tr(gate.asks), origin_words(gate.origin))});
   }
   std::string text = table.text(6);
+  text +=
+      fmt::format("{}\n", tr("refuses: nothing is measured by it. doubts: the protection level grows, or the value is "
+                             "degraded. tells: a note."));
   if (language() != Language::kEnglish) {
     text += fmt::format("{}\n", tr("The full grounds of each limit are in English: --language en."));
   }

@@ -54,7 +54,7 @@ std::vector<std::string> doubted(const Notes& notes, std::uint32_t quantity) {
   std::vector<std::string> out;
   for (const std::uint32_t subject : planes_behind(quantity)) {
     if (!notes.refused(subject) && !notes.failed(subject, POSE_WALL_TRACE_DOUBTS).empty()) {
-      out.push_back(say("{} doubted", subject_words(subject)));
+      out.push_back(subject_words(subject));
     }
   }
   return out;
@@ -122,9 +122,9 @@ std::string outcome_sentence(const pose_wall_result& result, const Notes& notes,
   std::vector<std::string> told = {head(v, quantity), sum.empty() ? "" : say("Its level: {}.", sum)};
   told.push_back(measured ? lag_sentence(v, quantity) : why_unmeasured(notes, quantity));
   told.push_back(kept_doubt(v, notes, quantity));
+  const std::vector<std::string> planes = doubted(notes, quantity);
+  if (measured && !planes.empty()) told.push_back(say("Its level holds the doubts about: {}.", listed(planes)));
   if (measured && v.state != POSE_WALL_VALID) {
-    const std::vector<std::string> planes = doubted(notes, quantity);
-    if (!planes.empty()) told.push_back(say("Degraded: {}.", listed(planes)));
     if (!notes.failed(POSE_WALL_TRACE_FRAME, POSE_WALL_TRACE_DOUBTS).empty()) {
       told.emplace_back(tr("Degraded: see the frame."));
     }

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "base/estimation/near_plane.hpp"
 #include "gates/gate.hpp"
 
 namespace pose_wall {
@@ -136,17 +135,18 @@ bool is_weaker(const WallCandidate& rival, const WallCandidate& chosen, const Se
   return passes<gate::WALL_RIVAL>(own_share(rival, chosen, s) * share, s);
 }
 
-// Planes with few points count here: they are enough for a doubt.
-const WallCandidate* rival_of(const WallCandidates& list, const WallCandidate& chosen, const Settings& s) {
+// All planes that may be the wall as well. Planes with few points count here: they are enough for a doubt.
+void find_rivals(const WallCandidates& list, int side, const Settings& s, WallChoice* out) {
   POSE_WALL_NOTE(const trace::Silence until_chosen);
-  const WallCandidate* best = nullptr;
+  const WallCandidate& chosen = *out->side[side];
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
     if (&c == &chosen || (c.failed & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS)) != 0) continue;
     if (is_weaker(c, chosen, s)) continue;
-    if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
+    out->rivals[side] |= 1U << i;
+    const WallCandidate* const best = out->rival[side];
+    if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) out->rival[side] = &c;
   }
-  return best;
 }
 
 void refuse_both(const Verdict& verdict, WallChoice* out) {
@@ -154,10 +154,19 @@ void refuse_both(const Verdict& verdict, WallChoice* out) {
 }
 
 #ifdef POSE_WALL_TRACE
-// Notes why the strongest planes of both sides are no pair.
+const WallCandidate* strongest_good(const WallCandidates& list) {
+  const WallCandidate* best = nullptr;
+  for (std::uint32_t i = 0; i < list.count; ++i) {
+    const WallCandidate& c = list.item[i];
+    if (c.failed == 0 && (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2)) best = &c;
+  }
+  return best;
+}
+
+// Notes why the strongest planes of both sides that pass their own gates are no pair.
 void note_pair(const Pair& pair, const WallCandidates* const (&lists)[2], const Settings& s) {
-  const WallCandidate* const a = pair.a != nullptr ? pair.a : lists[0]->strongest();
-  const WallCandidate* const b = pair.b != nullptr ? pair.b : lists[1]->strongest();
+  const WallCandidate* const a = pair.a != nullptr ? pair.a : strongest_good(*lists[0]);
+  const WallCandidate* const b = pair.b != nullptr ? pair.b : strongest_good(*lists[1]);
   if (a != nullptr && b != nullptr) may_be_pair(*a, *b, s);
 }
 #endif
@@ -203,7 +212,7 @@ void say_why_or_rival(const WallCandidates* const (&lists)[2], const Settings& s
       if (!verdict.refused) verdict.reasons |= why_none(*lists[side], s);
       verdict.refused = true;
     } else {
-      out->rival[side] = rival_of(*lists[side], *out->side[side], s);
+      find_rivals(*lists[side], side, s, out);
       POSE_WALL_NOTE(if (out->rival[side] != nullptr) is_weaker(*out->rival[side], *out->side[side], s));
     }
   }
@@ -244,7 +253,7 @@ void refuse_if_across(const WallCandidates& ahead, const WallCandidates& behind,
   // Without a chosen side any pair is better.
   const Pair pair = choice->any() ? best_pair(across(ahead, *choice), across(behind, *choice), settings)
                                   : best_pair(ahead, behind, settings);
-  if (pair.a != nullptr) demand<gate::ACROSS>(&verdict, pair.score / choice->score_m2, settings);
+  if (choice->any() || pair.a != nullptr) demand<gate::ACROSS>(&verdict, pair.score / choice->score_m2, settings);
   refuse_both(verdict, choice);
 }
 

@@ -12,7 +12,8 @@ namespace pose_wall {
 
 struct WallChoice {
   const WallCandidate* side[2] = {nullptr, nullptr};   // left, right
-  const WallCandidate* rival[2] = {nullptr, nullptr};  // another plane on that side that is nearly as good
+  const WallCandidate* rival[2] = {nullptr, nullptr};  // the strongest other plane on that side that may be the wall
+  std::uint32_t rivals[2] = {0, 0};                    // all of these: bit i is item i of the side's planes
   Verdict verdict[2];                                  // why a side has no wall, or a doubtful one
   double score_m2 = 0.0;                               // of the chosen walls together
 

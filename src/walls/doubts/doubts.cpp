@@ -11,9 +11,10 @@
 namespace pose_wall {
 namespace {
 
-// A rival is not fitted in full: its distance may be 5 % and 3 cm more. Judgement, 2026-11-21:
-constexpr double kRivalStretch = 1.05;
-constexpr double kRivalMargin_m = 0.03;
+// A rival is not fitted in full: its distance may be 5 % and 3 cm more, and its direction half a degree.
+constexpr double kRivalStretch = 1.05;       // judgement, 2026-11-21
+constexpr double kRivalMargin_m = 0.03;      // judgement, 2026-11-21: the noise of a sensor
+constexpr double kRivalMargin_rad = 0.0087;  // judgement, 2026-11-27: 2 to 3 m of rough rock err by so much
 
 // A wall seen only well ahead of the machine, or behind it: the road may bend in between.
 Doubt by_distance(double away_m, const Settings& s) {
@@ -23,14 +24,22 @@ Doubt by_distance(double away_m, const Settings& s) {
   return doubt;
 }
 
-// The rival may be the wall: the protection levels reach to it.
-Doubt by_rival(const WallScene& scene, const Plane& rival, int side, const FittedWall& wall) {
+// Each rival may be the wall: the protection levels reach to the farthest of them.
+Doubt by_rivals(const WallScene& scene, const WallCandidates& beside, std::uint32_t rivals, int side,
+                const FittedWall& wall) {
   Doubt doubt;
+  if (rivals == 0) return doubt;
   doubt.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
-  doubt.yaw_to_rival_rad = std::fabs(yaw_of(along_of(rival, scene.forward_level), scene.forward_level) - wall.yaw_rad);
-  for (int end = 0; end < 2; ++end) {
-    const double distance = distance_at(rival, scene.sample_level_m[side][end]);
-    doubt.off_m[end] = kRivalStretch * std::fabs(distance - wall.distance_m[end]) + kRivalMargin_m;
+  for (std::uint32_t i = 0; i < beside.count; ++i) {
+    if ((rivals >> i & 1U) == 0) continue;
+    const Plane& rival = beside.item[i].plane;
+    const double turned_rad =
+        std::fabs(yaw_of(along_of(rival, scene.forward_level), scene.forward_level) - wall.yaw_rad);
+    doubt.yaw_to_rival_rad = larger(doubt.yaw_to_rival_rad, kRivalStretch * turned_rad + kRivalMargin_rad);
+    for (int end = 0; end < 2; ++end) {
+      const double off_m = std::fabs(distance_at(rival, scene.sample_level_m[side][end]) - wall.distance_m[end]);
+      doubt.off_m[end] = larger(doubt.off_m[end], kRivalStretch * off_m + kRivalMargin_m);
+    }
   }
   return doubt;
 }
@@ -90,13 +99,13 @@ Doubt by_other_side(double apart_rad, const Settings& s) {
 
 }  // namespace
 
-JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
-                      const FittedWall& fitted, WallsScratch* scratch) {
+JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallChoice& choice,
+                      const WallCandidates& beside, int side, const FittedWall& fitted, WallsScratch* scratch) {
   const Settings& s = scene.settings;
   const WallCandidate& chosen = *choice.side[side];
   JudgedWall wall(fitted);
   wall.add(by_distance(chosen.evidence.away_m, s));
-  if (choice.rival[side] != nullptr) wall.add(by_rival(scene, choice.rival[side]->plane, side, fitted));
+  wall.add(by_rivals(scene, beside, choice.rivals[side], side, fitted));
   demand<gate::FIT_INLIERS>(&wall.fit, fitted.fit.inliers, s);
   demand<gate::WALL_YAW>(&wall.fit, std::fabs(fitted.yaw_rad), s);
   if (!fitted.fit.found) return wall;

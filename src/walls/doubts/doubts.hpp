@@ -11,10 +11,11 @@
 
 namespace pose_wall {
 
-// The fitted wall of one side with all doubts about it alone: its own gates, its rival (found in choose/), its distance
-// from the machine, and the close look. side: 0 left, 1 right. The grid is marked with it.
-JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallChoice& choice, int side,
-                      const FittedWall& fitted, WallsScratch* scratch);
+// The fitted wall of one side with all doubts about it alone: its own gates, its rivals (found in choose/), its
+// distance from the machine, and the close look. beside: the planes of its side. side: 0 left, 1 right. The grid is
+// marked with it.
+JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallChoice& choice,
+                      const WallCandidates& beside, int side, const FittedWall& fitted, WallsScratch* scratch);
 
 // A wall alone gives the road's direction only as well as the other side allows, and must be long enough by itself.
 // beside: all planes that may be walls, by side.

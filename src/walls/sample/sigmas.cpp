@@ -29,8 +29,10 @@ void set_sigmas(const PatchErrors (&errors)[2], double sigmas, JudgedWall (*wall
     JudgedWall& wall = (*walls)[side];
     if (!wall.fit.found) continue;
     PatchErrors own = errors[side];
-    // A wall that may bend looks as if it had long waves, and other rock knows nothing of that.
-    if (both && wall.straight) own.layer[0].weigh(errors[1 - side].layer[0].evidence);
+    // A wall that may bend looks as if it had long waves, and other rock knows nothing of that. A thing that may be no
+    // wall shows no rock.
+    if (both && wall.straight && !(*walls)[1 - side].may_be_no_wall)
+      own.layer[0].weigh(errors[1 - side].layer[0].evidence);
     set_sigmas_of_one(own, sigmas, &wall);
   }
 }

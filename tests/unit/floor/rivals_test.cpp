@@ -323,7 +323,8 @@ TEST(FloorRivals, APlaneThatShowsGroundTheFloorLeavesOutIsOne) {
     readings.add_ground(0.01, 0.7);
     const FloorResult f = readings.reached();
     EXPECT_TRUE(is_ambiguous(f)) << rise_rad;
-    EXPECT_NEAR(f.roll_bound_rad.sum(), std::fabs(rise_rad), 1e-9) << rise_rad;
+    EXPECT_GE(f.roll_bound_rad.sum(), std::fabs(rise_rad)) << rise_rad;
+    EXPECT_LE(f.roll_bound_rad.sum(), std::fabs(rise_rad) + 0.01) << rise_rad << ": half a degree for the rival itself";
   }
 }
 

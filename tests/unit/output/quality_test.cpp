@@ -200,7 +200,7 @@ TEST(Quality, YawByThingsThatMayBeNoWallsIsNotKnown) {
 // The level alone tells how good a value is: a doubt adds its reason here, and its bound where it is raised.
 TEST(Quality, ADoubtOfAWallComesWithItsReasonAndSoDoesYaw) {
   for (const std::uint32_t reason :
-       {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_R_WALL_SEEN_THROUGH, POSE_WALL_R_WALL_FEW_INLIERS, POSE_WALL_R_CURVED}) {
+       {POSE_WALL_R_WALL_AMBIGUOUS, POSE_WALL_R_WALL_SEEN_THROUGH, POSE_WALL_R_EXTRAPOLATED, POSE_WALL_R_CURVED}) {
     SCOPED_TRACE(reason);
     Scene scene;
     scene.walls[1].fit.reasons = reason;

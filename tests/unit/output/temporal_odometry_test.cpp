@@ -203,6 +203,18 @@ TEST(TemporalOdometry, ANewRunForgetsWhatWasSeen) {
   EXPECT_TRUE(memory.wall[1].exists);
 }
 
+// What is in doubt is no landmark. What is only known widely is one, with its wide level.
+TEST(TemporalOdometry, SurfacesInDoubtAreNotRemembered) {
+  const Settings s = test::settings_with();
+  for (const std::uint32_t reason : {POSE_WALL_R_FLOOR_AMBIGUOUS, POSE_WALL_R_ALERT_LIMIT}) {
+    Road road;
+    for (Measurement& m : road.measured.quantity) m.reasons = reason;
+    const OdometryMemory memory = road.seen_from(place(0, 0, 0), s);
+    EXPECT_EQ(memory.floor.exists, reason == POSE_WALL_R_ALERT_LIMIT);
+    EXPECT_EQ(memory.wall[0].exists, reason == POSE_WALL_R_ALERT_LIMIT);
+  }
+}
+
 TEST(TemporalOdometry, NumbersThatAreNoneAreUnsound) {
   const pose_wall_odometry good = place(1, 2, 0.3);
   ASSERT_TRUE(is_sound(good));

@@ -300,7 +300,7 @@ TEST(Temporal, AfterExpiryAMeasurementStartsAfresh) {
   EXPECT_EQ(life.measured(1000, 3.0).state, POSE_WALL_VALID) << "it came three times more";
 }
 
-TEST(Temporal, AWeakFrameDoesNotLaunderAJump) {
+TEST(Temporal, ADegradedFrameDoesNotLaunderAJump) {
   Life life;
   life.measured(0, 2.0, 0.05);
   life.measured(100, 1.5, 0.6);  // its own level reaches to the old value
@@ -310,7 +310,7 @@ TEST(Temporal, AWeakFrameDoesNotLaunderAJump) {
   EXPECT_GE(v.protection_level, 0.5 - 0.05);
 }
 
-TEST(Temporal, HeldIsTheLastGoodValueNotTheWeakOneAfterIt) {
+TEST(Temporal, HeldIsTheLastGoodValueNotTheDegradedOneAfterIt) {
   Life life;
   life.measured(0, 2.0, 0.05);
   life.measured(100, 2.02, 0.3);
@@ -337,7 +337,7 @@ TEST(Temporal, AClockThatStandsStillFromTheFirstFrameHoldsNothing) {
   EXPECT_EQ(life.missing(0).state, POSE_WALL_INVALID);
 }
 
-TEST(Temporal, WeakIsDegradedHoweverSmallItsLevel) {
+TEST(Temporal, StaleIsDegradedHoweverSmallItsLevel) {
   Life life;
   EXPECT_EQ(life.measured(0, 2.0, 0.001, true).state, POSE_WALL_DEGRADED);
   EXPECT_EQ(life.measured(100, 2.0, 0.001, false).state, POSE_WALL_VALID);
@@ -394,6 +394,24 @@ TEST(Temporal, ARivalStaysInTheLevelUntilThreeFramesShowNone) {
   const pose_wall_value after = life.measured(1400, 2.0);
   EXPECT_EQ(after.state, POSE_WALL_VALID);
   EXPECT_EQ(after.reasons & POSE_WALL_R_WALL_AMBIGUOUS, 0U);
+}
+
+// The smaller one answers nothing about the larger one.
+TEST(Temporal, ASmallRivalDoesNotHideALargeOneThatWasSeen) {
+  Life life;
+  life.measured(0, 2.0);
+  life.ambiguous(100, 2.0, 1.0);
+  for (int i = 2; i < 5; ++i) {
+    const pose_wall_value v = life.ambiguous(100 * i, 2.0, 0.05);
+    EXPECT_EQ(v.state, POSE_WALL_DEGRADED) << i;
+    EXPECT_GE(v.protection_level, 1.0) << i;
+  }
+  for (int i = 5; i < 40; ++i) {
+    const pose_wall_value v = life.ambiguous(100 * i, 2.0, 0.05);
+    EXPECT_EQ(v.state, POSE_WALL_VALID) << i << ": the small one alone, within the alert limit";
+    EXPECT_EQ(v.reasons & POSE_WALL_R_WALL_AMBIGUOUS, 0U) << "its level holds the doubt";
+    EXPECT_LT(v.protection_level, 0.1) << i << ": and it does not grow";
+  }
 }
 
 TEST(Temporal, ARivalThatFlickersIsDoubtedThroughout) {
