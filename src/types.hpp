@@ -26,6 +26,10 @@ struct Extrinsic {
   Eigen::Vector3d sensor_base_m;
 };
 
+// Doubts say what else the scene may be. The level reaches to that, so a level within the alert limit answers them.
+constexpr std::uint32_t kDoubts = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_WALL_AMBIGUOUS |
+                                  POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_EXTRAPOLATED | POSE_WALL_R_CURVED;
+
 // The verdict of gates.
 struct Verdict {
   std::uint32_t reasons = 0;  // pose_wall_reason bits that forbid or doubt it

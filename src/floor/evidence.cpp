@@ -84,8 +84,7 @@ class FloorGrid::FourBins {
 void FloorGrid::find_open(const PointSet& points_base, double radius_m, double sensor_z_base_m,
                           Span<std::uint32_t> places, PointSet* open) {
   eighths_.fill(0);
-  lowest_m_ = sensor_z_base_m - kBelowSensor_m;
-  FourBins four(radius_m, lowest_m_);
+  FourBins four(radius_m, sensor_z_base_m - kBelowSensor_m);
   constexpr auto kNowhere = static_cast<std::uint32_t>(FourBins::kNowhere);  // unsigned, like the listed places
   std::uint32_t last = kNowhere;  // points come roughly in the order of their places
   for_each_four_points(points_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {

@@ -80,7 +80,6 @@ class FloorGrid {
 
   static constexpr std::uint8_t kMarked = 1, kBelow = 2;  // bits of a cell
   std::uint32_t marked_cells_ = 0;
-  double lowest_m_ = 0.0;  // of the grid's heights
   // Per cell one bit for each eighth of a metre that holds points.
   Span<std::uint64_t> eighths_;
   Span<std::uint8_t> marked_;

@@ -12,10 +12,6 @@
 
 namespace pose_wall {
 
-// Doubts say what else the scene may be. The level reaches to that, so a level within the alert limit answers them.
-constexpr std::uint32_t kDoubts = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_WALL_AMBIGUOUS |
-                                  POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_EXTRAPOLATED | POSE_WALL_R_CURVED;
-
 // One of the seven quantities, as this frame measured it.
 struct Measurement {
   bool measured = false;

@@ -149,7 +149,7 @@ void reach_without_things(const FloorResult& floor, const Levelling& levelling, 
     if (walls[side].fit.refused || !walls[side].may_be_no_wall) continue;
     const JudgedWall& other = walls[1 - side];
     if (other.fit.refused || other.may_be_no_wall) {
-      yaw->protection.reach(kThing_rad + yaw->protection.sum(), POSE_WALL_PART_RIVAL);
+      yaw->protection[POSE_WALL_PART_RIVAL] += kThing_rad;
       return;
     }
     const Measurement alone = yaw_by_one(other, floor, levelling, s);

@@ -16,10 +16,7 @@ constexpr double kModelError_rad = 0.0035;
 
 // A doubtful wall must not turn a good one.
 bool can_share(const JudgedWall& wall) {
-  // Any of these bars a wall from turning the other one.
-  constexpr std::uint32_t kDoubtful =
-      POSE_WALL_R_WALL_AMBIGUOUS | POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_CURVED | POSE_WALL_R_EXTRAPOLATED;
-  return !wall.fit.refused && (wall.fit.reasons & kDoubtful) == 0;
+  return !wall.fit.refused && (wall.fit.reasons & kDoubts) == 0;
 }
 
 // 1 up to the limit, falling to 0 at twice the limit.

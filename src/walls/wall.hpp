@@ -39,8 +39,8 @@ struct FittedWall {
   double along_min_m = 0.0;
   double along_max_m = 0.0;
   double area_m2 = 0.0;
-  bool grooved = false;   // its surface lies in two depths along its length, like pipes one above the other
   bool straight = false;  // over its height, as far as it shows: its long waves are no bend
+  bool grooved = false;   // its surface lies in two depths along its length, like pipes one above the other
 };
 
 // One argument against a wall. It widens the protection levels, or refuses the wall.

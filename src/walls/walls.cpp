@@ -22,7 +22,8 @@ void note_candidates(const WallChoice& choice, const WallCandidates& beside, int
   passes<gate::WALL_PLANES>(beside.count, s);
   if (shown != nullptr) failed_gates(shown->plane, shown->evidence, s);
   if (chosen != nullptr) trace::fate(chosen->plane, POSE_WALL_TRACE_CHOSEN);
-  if (choice.rival[side] != nullptr) trace::fate(choice.rival[side]->plane, POSE_WALL_TRACE_RIVAL);
+  const WallCandidate* const rival = choice.strongest_rival(side, beside);
+  if (rival != nullptr) trace::fate(rival->plane, POSE_WALL_TRACE_RIVAL);
 }
 #endif
 

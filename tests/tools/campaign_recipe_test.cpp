@@ -25,7 +25,7 @@ using test::run_all_of;
 using test::table_of;
 using test::TempFolder;
 
-constexpr std::size_t kFrames = 5;
+constexpr std::size_t kFrames = 5;  // of each run: a few are enough, the event is in the last
 
 // Of a campaign of one run whose last frame was made to mislead; another folder is in the place of DIR.
 std::string command_of_last_frame(const std::string& folder, const std::string& again,

@@ -48,13 +48,9 @@ Pair best_pair(const WallCandidates& as, const WallCandidates& bs, const Setting
 // The best plane that is long enough by itself.
 const WallCandidate* best_single(const WallCandidates& list, const Settings& s) {
   POSE_WALL_NOTE(const trace::Silence until_chosen);
-  const WallCandidate* best = nullptr;
-  for (std::uint32_t i = 0; i < list.count; ++i) {
-    const WallCandidate& c = list.item[i];
-    if (c.failed != 0 || !passes<gate::WALL_LENGTH_ALONE>(c.evidence.length_m, s)) continue;
-    if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) best = &c;
-  }
-  return best;
+  return list.strongest_of([&](std::uint32_t i) {
+    return list.item[i].failed == 0 && passes<gate::WALL_LENGTH_ALONE>(list.item[i].evidence.length_m, s);
+  });
 }
 
 // Why a side has no wall: the gates that its strongest plane fails.
@@ -136,17 +132,15 @@ bool is_weaker(const WallCandidate& rival, const WallCandidate& chosen, const Se
 }
 
 // All planes that may be the wall as well. Planes with few points count here: they are enough for a doubt.
-void find_rivals(const WallCandidates& list, int side, const Settings& s, WallChoice* out) {
+std::uint32_t rivals_of(const WallCandidates& list, const WallCandidate& chosen, const Settings& s) {
   POSE_WALL_NOTE(const trace::Silence until_chosen);
-  const WallCandidate& chosen = *out->side[side];
+  std::uint32_t rivals = 0;
   for (std::uint32_t i = 0; i < list.count; ++i) {
     const WallCandidate& c = list.item[i];
     if (&c == &chosen || (c.failed & ~static_cast<std::uint32_t>(POSE_WALL_R_WALL_FEW_INLIERS)) != 0) continue;
-    if (is_weaker(c, chosen, s)) continue;
-    out->rivals[side] |= 1U << i;
-    const WallCandidate* const best = out->rival[side];
-    if (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2) out->rival[side] = &c;
+    if (!is_weaker(c, chosen, s)) rivals |= 1U << i;
   }
+  return rivals;
 }
 
 void refuse_both(const Verdict& verdict, WallChoice* out) {
@@ -154,17 +148,11 @@ void refuse_both(const Verdict& verdict, WallChoice* out) {
 }
 
 #ifdef POSE_WALL_TRACE
-const WallCandidate* strongest_good(const WallCandidates& list) {
-  const WallCandidate* best = nullptr;
-  for (std::uint32_t i = 0; i < list.count; ++i) {
-    const WallCandidate& c = list.item[i];
-    if (c.failed == 0 && (best == nullptr || c.evidence.score_m2 > best->evidence.score_m2)) best = &c;
-  }
-  return best;
-}
-
 // Notes why the strongest planes of both sides that pass their own gates are no pair.
 void note_pair(const Pair& pair, const WallCandidates* const (&lists)[2], const Settings& s) {
+  const auto strongest_good = [](const WallCandidates& list) {
+    return list.strongest_of([&list](std::uint32_t i) { return list.item[i].failed == 0; });
+  };
   const WallCandidate* const a = pair.a != nullptr ? pair.a : strongest_good(*lists[0]);
   const WallCandidate* const b = pair.b != nullptr ? pair.b : strongest_good(*lists[1]);
   if (a != nullptr && b != nullptr) may_be_pair(*a, *b, s);
@@ -212,8 +200,9 @@ void say_why_or_rival(const WallCandidates* const (&lists)[2], const Settings& s
       if (!verdict.refused) verdict.reasons |= why_none(*lists[side], s);
       verdict.refused = true;
     } else {
-      find_rivals(*lists[side], side, s, out);
-      POSE_WALL_NOTE(if (out->rival[side] != nullptr) is_weaker(*out->rival[side], *out->side[side], s));
+      out->rivals[side] = rivals_of(*lists[side], *out->side[side], s);
+      POSE_WALL_NOTE(const WallCandidate* const rival = out->strongest_rival(side, *lists[side]));
+      POSE_WALL_NOTE(if (rival != nullptr) is_weaker(*rival, *out->side[side], s));
     }
   }
 }

@@ -11,13 +11,18 @@
 namespace pose_wall {
 
 struct WallChoice {
-  const WallCandidate* side[2] = {nullptr, nullptr};   // left, right
-  const WallCandidate* rival[2] = {nullptr, nullptr};  // the strongest other plane on that side that may be the wall
-  std::uint32_t rivals[2] = {0, 0};                    // all of these: bit i is item i of the side's planes
-  Verdict verdict[2];                                  // why a side has no wall, or a doubtful one
-  double score_m2 = 0.0;                               // of the chosen walls together
+  const WallCandidate* side[2] = {nullptr, nullptr};  // left, right
+  std::uint32_t rivals[2] = {0, 0};                   // other planes that may be the wall: bit i is item i of the side
+  Verdict verdict[2];                                 // why a side has no wall, or a doubtful one
+  double score_m2 = 0.0;                              // of the chosen walls together
 
   bool any() const { return side[0] != nullptr || side[1] != nullptr; }
+  bool is_rival(int of_side, std::uint32_t item) const { return (rivals[of_side] >> item & 1U) != 0; }
+  // beside: the planes of that side. nullptr if no plane is a rival.
+  const WallCandidate* strongest_rival(int of_side, const WallCandidates& beside) const {
+    static_assert(kWallShortlist <= 32, "rivals has a bit for each plane");
+    return beside.strongest_of([&](std::uint32_t i) { return is_rival(of_side, i); });
+  }
 };
 
 WallChoice choose_walls(const WallCandidates& left, const WallCandidates& right, const Settings& settings);

@@ -25,13 +25,12 @@ Doubt by_distance(double away_m, const Settings& s) {
 }
 
 // Each rival may be the wall: the protection levels reach to the farthest of them.
-Doubt by_rivals(const WallScene& scene, const WallCandidates& beside, std::uint32_t rivals, int side,
+Doubt by_rivals(const WallScene& scene, const WallChoice& choice, const WallCandidates& beside, int side,
                 const FittedWall& wall) {
   Doubt doubt;
-  if (rivals == 0) return doubt;
-  doubt.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
   for (std::uint32_t i = 0; i < beside.count; ++i) {
-    if ((rivals >> i & 1U) == 0) continue;
+    if (!choice.is_rival(side, i)) continue;
+    doubt.reasons = POSE_WALL_R_WALL_AMBIGUOUS;
     const Plane& rival = beside.item[i].plane;
     const double turned_rad =
         std::fabs(yaw_of(along_of(rival, scene.forward_level), scene.forward_level) - wall.yaw_rad);
@@ -105,7 +104,7 @@ JudgedWall judge_wall(const WallScene& scene, const SideView& view, const WallCh
   const WallCandidate& chosen = *choice.side[side];
   JudgedWall wall(fitted);
   wall.add(by_distance(chosen.evidence.away_m, s));
-  wall.add(by_rivals(scene, beside, choice.rivals[side], side, fitted));
+  wall.add(by_rivals(scene, choice, beside, side, fitted));
   demand<gate::FIT_INLIERS>(&wall.fit, fitted.fit.inliers, s);
   demand<gate::WALL_YAW>(&wall.fit, std::fabs(fitted.yaw_rad), s);
   if (!fitted.fit.found) return wall;

@@ -182,14 +182,6 @@ void WallSearch::offer_offsets(const Eigen::Vector3d& normal_level) {
   }
 }
 
-const WallCandidate* WallCandidates::strongest() const {
-  const WallCandidate* best = nullptr;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (best == nullptr || item[i].evidence.score_m2 > best->evidence.score_m2) best = &item[i];
-  }
-  return best;
-}
-
 void ProposeScratch::lay_out(Arena& arena, std::uint32_t points_max) {
   for (WallSearch& s : search) s.lay_out(arena, points_max);
   thin_level.lay_out(arena, kThinMost);

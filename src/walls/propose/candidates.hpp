@@ -90,8 +90,19 @@ struct WallCandidates {
   WallCandidate item[kWallShortlist];
   std::uint32_t count = 0;
 
-  // The best score, whatever gates it fails; nullptr if there is none.
-  const WallCandidate* strongest() const;
+  // The best score of the items that are accepted by their index; nullptr if none is.
+  template <typename Accepts>
+  const WallCandidate* strongest_of(const Accepts& accepts) const {
+    const WallCandidate* best = nullptr;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (accepts(i) && (best == nullptr || item[i].evidence.score_m2 > best->evidence.score_m2)) best = &item[i];
+    }
+    return best;
+  }
+  // The same, whatever gates it fails.
+  const WallCandidate* strongest() const {
+    return strongest_of([](std::uint32_t) { return true; });
+  }
 };
 
 // Scratch for candidates.

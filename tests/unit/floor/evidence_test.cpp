@@ -81,7 +81,7 @@ bool much_is_below(test::FloorFixture* g, double height_above_floor, double shar
 
 // Two planes that cross in the middle: the threshold apart from a third of a metre on.
 TEST(FloorGrid, GroundThatAnotherPlaneHasAsWellIsNotMarkedApart) {
-  constexpr double kSlope = 0.1, kThresh_m = 0.03;
+  constexpr double kSlope = 0.1, kThresh_m = 0.03;  // 0.3 m from the line they are a threshold apart
   test::FloorFixture g;
   for (double x = -4.0; x <= 4.0; x += 0.05) {
     for (double y = -2.0; y <= 2.0; y += 0.05) g.add(x, y, kSlope * x);

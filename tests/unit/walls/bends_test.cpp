@@ -30,7 +30,7 @@ using test::RayScene;
 using test::Rock;
 using test::WallProfile;
 
-constexpr double kBentWall_m = 2.0;
+constexpr double kBentWall_m = 2.0;  // to the left, as in a road of 4 m
 constexpr std::uint32_t kRuns = 10;
 // Looks down past the foot of the wall, and up by 7 degrees: at 2 m it ends a quarter of a metre above itself.
 const Lidar kLooksDown{-50.0, 7.0, 1.0, 0.35};

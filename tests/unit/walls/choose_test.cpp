@@ -92,7 +92,7 @@ TEST(WallSelect, AMuchWeakerOneCastsNoDoubt) {
 
 // A strong wall on either side, apart by an angle, and beside one of them a weak plane that is parallel to the other.
 struct SplayedRoad : Choice {
-  static constexpr double kStrong_m2 = 20.0, kWeak_m2 = 3.0;
+  static constexpr double kStrong_m2 = 20.0, kWeak_m2 = 3.0;  // far from the half from which a plane is a rival
 
   SplayedRoad(int splayed_side, double apart_rad) {
     const auto wall = [](int side, double d, double score, double turned) {
@@ -120,8 +120,8 @@ TEST(WallSelect, AStrongWallThatRunsApartIsTheRivalOfAWeakParallelPlane) {
       SCOPED_TRACE(::testing::Message() << side << " " << apart_rad);
       const WallCandidates& on_side = side == 0 ? road.left : road.right;
       EXPECT_EQ(chosen.side[side], &on_side.item[1]) << "the parallel one";
-      EXPECT_EQ(chosen.rival[side], &on_side.item[0]) << "so the levels reach to the strong one";
-      EXPECT_EQ(chosen.rival[1 - side], nullptr);
+      EXPECT_EQ(chosen.rivals[side], 1U << 0) << "so the levels reach to the strong one";
+      EXPECT_EQ(chosen.rivals[1 - side], 0U);
     }
   }
 }
@@ -166,8 +166,8 @@ TEST(WallSelect, ARivalNearlyAsGoodIsNamed) {
   c.right = list({right_wall(2.5, 20.0)});
   const WallChoice chosen = c.choose();
   EXPECT_EQ(chosen.side[0], &c.left.item[0]);
-  EXPECT_EQ(chosen.rival[0], &c.left.item[1]);
-  EXPECT_EQ(chosen.rival[1], nullptr);
+  EXPECT_EQ(chosen.rivals[0], 1U << 1);
+  EXPECT_EQ(chosen.rivals[1], 0U);
 }
 
 WallCandidate from_to(WallCandidate c, double from_m, double to_m, double solid_m) {
@@ -203,7 +203,7 @@ TEST(WallSelect, WhatAPlaneSharesWithTheChosenOneIsNoEvidenceForIt) {
     c.right = list({right_wall(2.5, 20.0)});
     const WallChoice chosen = c.choose();
     EXPECT_EQ(chosen.side[0], &c.left.item[0]);
-    EXPECT_EQ(chosen.rival[0], other.is_rival ? &c.left.item[1] : nullptr)
+    EXPECT_EQ(chosen.rivals[0], other.is_rival ? 1U << 1 : 0U)
         << other.turned_rad << " " << other.d_m << " " << other.from_m << " " << other.to_m;
   }
 }
@@ -223,7 +223,7 @@ TEST(WallSelect, AWallThatGoesOnBesideWhatItsOpeningShowsIsARival) {
     c.right = list({from_to(right_wall(2.5, 20.0), -9.0, 9.0, 18.0)});
     const WallChoice chosen = c.choose();
     EXPECT_EQ(chosen.side[0], &c.left.item[0]);
-    EXPECT_EQ(chosen.rival[0], near.is_rival ? &c.left.item[1] : nullptr) << near.from_m << " " << near.solid_m;
+    EXPECT_EQ(chosen.rivals[0], near.is_rival ? 1U << 1 : 0U) << near.from_m << " " << near.solid_m;
   }
 }
 
@@ -242,7 +242,7 @@ TEST(WallSelect, WhatStandsBeforeAWallAndStopsNearlyAllIsARivalHoweverSmall) {
     c.right = list({right_wall(2.5, 20.0)});
     const WallChoice chosen = c.choose();
     EXPECT_EQ(chosen.side[0], &c.left.item[0]);
-    EXPECT_EQ(chosen.rival[0], near.is_rival ? &c.left.item[1] : nullptr)
+    EXPECT_EQ(chosen.rivals[0], near.is_rival ? 1U << 1 : 0U)
         << near.at_m << " " << near.score_m2 << " " << near.stopped << " " << near.turned_rad;
   }
 }
