@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The engine before the judge: a road, a sensor and some frames through the C ABI, each value compared with the truth.
+// The engine before the judge: the frames of a trial through the C ABI, each value compared with the truth. Several
+// treatments of the engine hear the very same clouds.
 
 #pragma once
 
@@ -10,18 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "judge/scanner.hpp"
+#include "judge/trial.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall::judge {
-
-struct Case {
-  std::uint64_t seed = 0;
-  bool quiet = false;  // a road of flat whole walls without features
-  int sensor = -1;     // row of kSensorTable; -1: drawn
-  int frames = 4;
-  bool no_bias = false;  // ranges without a constant error
-};
 
 // One value of one frame.
 struct Finding {
@@ -38,46 +31,40 @@ struct Finding {
   double error = 0.0, level = 0.0, raw_error = 0.0, raw_level = 0.0, sigma = 0.0, alert_limit = 0.0;
 };
 
+// How the engine is used.
+struct Treatment {
+  bool motion = false;         // the motion library beside it
+  std::uint32_t work_max = 0;  // the key; 0: by the size of the cloud
+};
+
+// What one frame took.
+struct Work {
+  std::uint64_t steps = 0;
+  bool limited = false;  // the budget ended it
+};
+
 struct Verdict {
   // "road 17 (vlp16, pipes+body), frame 2: d_lf valid, off by 0.1203, level 0.0811 ..., and how to replay it"
   std::string text(const Finding& finding) const;
 
   Case tried;
+  Treatment treatment;
   int sensor = 0;
   std::uint32_t features = 0;
   std::vector<Finding> findings;  // frames x quantities
+  std::vector<Work> work;         // one a frame
 };
 
-// What measures the frames of a road, opened with its config.
+// What measures the frames of a road, opened with what it is measured with.
 using Process = std::function<pose_wall_result(const pose_wall_cloud&)>;
-using Open = std::function<Process(const pose_wall_config&)>;
+using Open = std::function<Process(const Setup&)>;
 
-// Throws std::runtime_error where the engine refuses a call.
-Verdict hear(const Case& tried, const Open& open);
-// The delivered engine.
-Verdict hear(const Case& tried);
+// The delivered libraries.
+Open opened_as(const Treatment& treatment);
 
-// The points of one frame and the settings, to look at a case with other tools: PCD files and a YAML file.
-void write_frames(const Case& tried, const std::string& folder);
-
-// What many verdicts come to, for one quantity.
-struct Tally {
-  void add(const Finding& finding);
-  double share_valid() const { return frames == 0 ? 0.0 : static_cast<double>(valid) / frames; }
-
-  int frames = 0, valid = 0, degraded = 0, held = 0;
-  int beyond_valid = 0, beyond_degraded = 0, beyond_held = 0, raw_beyond = 0, misleading = 0;
-  double closest = 0.0;                                 // largest share of its level that an error took
-  double z2_sum = 0.0;                                  // of their squared errors over squared sigma
-  std::vector<double> errors, levels, levels_in_sigma;  // of measured values: raw ones
-  std::vector<int> reasons = std::vector<int>(32, 0);   // of values that are not valid
-};
-using Tallies = std::vector<Tally>;  // one a quantity
-
-void add(Tallies* tallies, const Verdict& verdict);
-// A row a quantity: frames, valid share, errors, levels, what is beyond.
-std::string table(const Tallies& tallies);
-// Why values are not valid, most frequent first.
-std::string reasons_table(const Tallies& tallies);
+// One verdict for each. Throws std::runtime_error where the engine refuses a call.
+std::vector<Verdict> hear(const Case& tried, const std::vector<Open>& each);
+std::vector<Verdict> hear(const Case& tried, const std::vector<Treatment>& treatments);
+Verdict hear(const Case& tried, const Treatment& treatment = {});
 
 }  // namespace pose_wall::judge

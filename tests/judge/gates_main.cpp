@@ -56,10 +56,10 @@ Options read_options(const std::vector<std::string>& words) {
 
 // Adds the gates that failed.
 Verdict hear_traced(const Case& tried, GateFailures* failed) {
-  return hear(tried, [failed](const pose_wall_config& config) -> Process {
+  const Open open = [failed](const Setup& setup) -> Process {
     const auto engine = std::make_shared<tools::TracedEngine>();
     api::Config loaded;
-    *loaded.get() = config;
+    *loaded.get() = setup.config;
     if (engine->open(loaded) != POSE_WALL_OK) throw std::runtime_error("the traced engine refuses the config");
     return [engine, failed](const pose_wall_cloud& cloud) {
       pose_wall_result result = api::make_result();
@@ -68,7 +68,8 @@ Verdict hear_traced(const Case& tried, GateFailures* failed) {
       failed->add(engine->trace());
       return result;
     };
-  });
+  };
+  return hear(tried, std::vector<Open>{open}).front();
 }
 
 struct Worth {

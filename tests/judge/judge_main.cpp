@@ -1,61 +1,100 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// usage: pose_wall_judge [--seed FIRST] [--roads N] [--frames N] [--sensor NAME] [--quiet] [--no-bias] [--all]
-//                        [--write FOLDER]
+// usage: pose_wall_judge [--seed FIRST] [--roads N] [--frames N] [--from FRAME] [--sensor NAME] [--quiet] [--no-bias]
+//                        [--times on|off] [--motion on|off] [--work-max N] [--going drawn|stands|drives] [--all]
+//                        [--compare | --near-walls | --write FOLDER]
 //
 // Judges the engine on N roads from the seed FIRST on, and prints tables: of all, by sensor and by feature, before them
 // every value that was beyond its level. One road is replayed by its seed; --all then prints each of its values, and
-// --write its frames. Exit status 1: a valid value was beyond its level or misleading.
+// --write its frames. --times off: all rays of a scan at one instant, by sensors with even rings. --motion on: the
+// motion library runs beside the engine. --compare hears the same clouds with motion, without, and without a budget.
+// --near-walls tries sensors near walls, with the offsets of their light and without. Exit status 1: a valid value was
+// beyond its level or misleading; --near-walls: a value was lost by the offsets.
 
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <string>
+#include <vector>
 
-#include "judge/court.hpp"
+#include "judge/compare.hpp"
+#include "judge/near_walls.hpp"
+#include "judge/tally.hpp"
 
 namespace pose_wall::judge {
 namespace {
 
 struct Options {
   Case first;
+  Treatment treatment = {true, 0};
   long roads = 100;
-  bool all = false;
+  bool all = false, compare = false, near_walls = false;
   std::string folder;
 };
 
-int sensor_of(const std::string& name) {
-  for (std::size_t k = 0; k < kSensorTable.size(); ++k) {
-    if (name == kSensorTable.at(k).name) return static_cast<int>(k);
-  }
-  std::fprintf(stderr, "%s: no such sensor\n", name.c_str());
+[[noreturn]] void refuse(const std::string& word, const char* why) {
+  std::fprintf(stderr, "%s: %s\n", word.c_str(), why);
   std::exit(2);
 }
 
-Options read_options(int count, char** words) {
+int sensor_of(const std::string& name) {
+  for (int row = 0; row < kAllSensors; ++row) {
+    if (name == sensor_at(row).name) return row;
+  }
+  refuse(name, "no such sensor");
+}
+
+long number_of(const std::string& word) {
+  char* end = nullptr;
+  const long number = std::strtol(word.c_str(), &end, 10);
+  if (word.empty() || *end != 0 || number < 0) refuse(word, "no number");
+  return number;
+}
+
+bool on_of(const std::string& word) {
+  if (word != "on" && word != "off") refuse(word, "neither on nor off");
+  return word == "on";
+}
+
+Going going_of(const std::string& word) {
+  if (word != "drawn" && word != "stands" && word != "drives") refuse(word, "neither drawn, stands nor drives");
+  return word == "drawn" ? Going::kDrawn : word == "stands" ? Going::kStands : Going::kDrives;
+}
+
+using Setter = std::function<void(const std::string&)>;
+
+// What follows no word, and what follows one.
+Options read_options(const std::vector<std::string>& words) {
   Options options;
-  for (int k = 1; k < count; ++k) {
-    const std::string word = words[k], next = k + 1 < count ? words[k + 1] : "";
-    if (word == "--quiet" || word == "--no-bias" || word == "--all") {
-      (word == "--quiet" ? options.first.quiet : word == "--all" ? options.all : options.first.no_bias) = true;
-      continue;
-    }
-    ++k;
-    if (word == "--seed") {
-      options.first.seed = std::strtoull(next.c_str(), nullptr, 10);
-    } else if (word == "--roads") {
-      options.roads = std::strtol(next.c_str(), nullptr, 10);
-    } else if (word == "--frames") {
-      options.first.frames = static_cast<int>(std::strtol(next.c_str(), nullptr, 10));
-    } else if (word == "--sensor") {
-      options.first.sensor = sensor_of(next);
-    } else if (word == "--write") {
-      options.folder = next;
+  options.first.times = true;
+  const std::map<std::string, bool*> switches = {{"--quiet", &options.first.quiet},
+                                                 {"--no-bias", &options.first.no_bias},
+                                                 {"--all", &options.all},
+                                                 {"--compare", &options.compare},
+                                                 {"--near-walls", &options.near_walls}};
+  const std::map<std::string, Setter> settings = {
+      {"--seed", [&](const std::string& word) { options.first.seed = std::strtoull(word.c_str(), nullptr, 10); }},
+      {"--roads", [&](const std::string& word) { options.roads = number_of(word); }},
+      {"--frames", [&](const std::string& word) { options.first.frames = static_cast<int>(number_of(word)); }},
+      {"--from", [&](const std::string& word) { options.first.from_frame = static_cast<int>(number_of(word)); }},
+      {"--sensor", [&](const std::string& word) { options.first.sensor = sensor_of(word); }},
+      {"--times", [&](const std::string& word) { options.first.times = on_of(word); }},
+      {"--motion", [&](const std::string& word) { options.treatment.motion = on_of(word); }},
+      {"--work-max",
+       [&](const std::string& word) { options.treatment.work_max = static_cast<std::uint32_t>(number_of(word)); }},
+      {"--going", [&](const std::string& word) { options.first.going = going_of(word); }},
+      {"--write", [&](const std::string& word) { options.folder = word; }}};
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    if (const auto it = switches.find(words[k]); it != switches.end()) {
+      *it->second = true;
+    } else if (const auto setting = settings.find(words[k]); setting != settings.end() && k + 1 < words.size()) {
+      setting->second(words[++k]);
     } else {
-      std::fprintf(stderr, "%s: no such option\n", word.c_str());
-      std::exit(2);
+      refuse(words[k], "no such option, or nothing behind it");
     }
   }
   return options;
@@ -73,11 +112,12 @@ struct Totals {
   }
 
   void print() const {
-    std::printf("\nAll roads\n%s\n%s", table(all).c_str(), reasons_table(all).c_str());
+    std::printf("\nAll roads\n%s\n%s\n%s", table(all).c_str(), reasons_table(all).c_str(), work.text().c_str());
     for (const auto& [name, tallies] : groups) std::printf("\n%s\n%s", name.c_str(), table(tallies).c_str());
   }
 
   Tallies all;
+  WorkTally work;
   std::map<std::string, Tallies> groups;
 };
 
@@ -87,7 +127,7 @@ int run(const Options& options) {
   for (long k = 0; k < options.roads; ++k) {
     Case tried = options.first;
     tried.seed += static_cast<std::uint64_t>(k);
-    const Verdict verdict = hear(tried);
+    const Verdict verdict = hear(tried, options.treatment);
     totals.add(verdict);
     for (const Finding& finding : verdict.findings) {
       const bool bad = finding.beyond() || finding.raw_beyond() || finding.misleading();
@@ -100,17 +140,38 @@ int run(const Options& options) {
   return wrong ? 1 : 0;
 }
 
+int compare(const Options& options) {
+  Comparison comparison;
+  for (long k = 0; k < options.roads; ++k) {
+    Case tried = options.first;
+    tried.seed += static_cast<std::uint64_t>(k);
+    comparison.add(tried);
+    std::fflush(stdout);
+  }
+  std::printf("%s", comparison.text().c_str());
+  return comparison.wrong() ? 1 : 0;
+}
+
+int near_walls() {
+  const NearWalls found = try_near_walls(every_near_wall());
+  std::printf("%s", found.text().c_str());
+  return found.lost.empty() ? 0 : 1;
+}
+
+int obey(const Options& options) {
+  if (options.near_walls) return near_walls();
+  if (options.compare) return compare(options);
+  if (options.folder.empty()) return run(options);
+  write_frames(options.first, options.folder);
+  return 0;
+}
+
 }  // namespace
 }  // namespace pose_wall::judge
 
 int main(int count, char** words) {
   try {
-    const pose_wall::judge::Options options = pose_wall::judge::read_options(count, words);
-    if (!options.folder.empty()) {
-      pose_wall::judge::write_frames(options.first, options.folder);
-      return 0;
-    }
-    return pose_wall::judge::run(options);
+    return pose_wall::judge::obey(pose_wall::judge::read_options({std::next(words), std::next(words, count)}));
   } catch (const std::exception& fault) {
     std::fprintf(stderr, "%s\n", fault.what());
     return 2;

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "judge/court.hpp"
+#include "judge/tally.hpp"
 
 namespace pose_wall::judge {
 namespace {

@@ -13,9 +13,6 @@ namespace {
 
 using Eigen::AngleAxisd;
 
-// Specification: the machine is about 4.5 m long and 1.2 m wide.
-constexpr double kHalfLength_m = 2.25, kHalfWidth_m = 0.6;
-constexpr double kClear_m = 0.15;  // to walls and to what stands beside them
 // Slower than the config lets a machine be in a frame of 0.1 s: hold_rate_angle 0.05 rad/s, hold_rate_distance 0.2 m/s.
 constexpr double kCreep_m = 0.01, kCreep_rad = 0.002;
 

@@ -41,6 +41,10 @@ struct Machine {
   std::vector<std::string> boxes;
 };
 
+// Specification: the machine is about 4.5 m long and 1.2 m wide.
+constexpr double kHalfLength_m = 2.25, kHalfWidth_m = 0.6;
+constexpr double kClear_m = 0.15;  // to walls and to what stands beside them
+
 enum class Hung { kUpright, kUpsideDown, kAnyhow };
 
 // Sizes, axes and mounting. A machine with a body hides a part of the floor.

@@ -64,6 +64,7 @@ class Builder {
     wall(road_.right, -1.0);
     ends();
     line_.end_m = std::min(face_x_m_, road_.has(kBend) ? bend_x_m() : 30.0);
+    road_.room_ahead_m = std::min(line_.end_m, line_.ramp_x_m);
     furnish(&road_, line_, &draw_);
     if (road_.has(kDust)) road_.dust = {draw_.uniform(0.02, 0.2), draw_.uniform(0.003, 0.04), draw_.uniform(0.5, 2.0)};
     return road_;

@@ -60,6 +60,7 @@ struct Road {
   std::uint32_t features = 0;
   double width_m = 5.0, height_m = 3.0;
   double free_left_m = 2.5, free_right_m = 2.5;  // beside the machine, from the middle of the road
+  double room_ahead_m = 30.0;                    // as far as that its floor and its walls are these planes
   Plane floor, left, right;
   std::vector<Panel> panels;  // panels[0] is the floor
   std::vector<Solid> solids;
