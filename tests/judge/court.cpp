@@ -80,7 +80,8 @@ std::string feature_names(std::uint32_t features) {
 std::string replay(const Case& tried, const Treatment& treatment) {
   std::string text = format("replay: pose_wall_judge --seed %llu --roads 1 --frames %d",
                             static_cast<unsigned long long>(tried.seed), tried.frames);
-  if (tried.quiet) text += " --quiet";
+  if (tried.furnishing == Furnishing::kQuiet) text += " --quiet";
+  if (tried.furnishing == Furnishing::kRich) text += " --rich";
   if (tried.no_bias) text += " --no-bias";
   if (!tried.times) text += " --times off";
   if (!treatment.motion) text += " --motion off";

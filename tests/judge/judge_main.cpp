@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// usage: pose_wall_judge [--seed FIRST] [--roads N] [--frames N] [--from FRAME] [--sensor NAME] [--quiet] [--no-bias]
+// usage: pose_wall_judge [--seed FIRST] [--roads N] [--frames N] [--from FRAME] [--sensor NAME] [--quiet | --rich]
+// [--no-bias]
 //                        [--times on|off] [--motion on|off] [--work-max N] [--going drawn|stands|drives] [--all]
-//                        [--compare | --near-walls | --write FOLDER]
+//                        [--compare | --furnished | --near-walls | --write FOLDER]
 //
 // Judges the engine on N roads from the seed FIRST on, and prints tables: of all, by sensor and by feature, before them
 // every value that was beyond its level. One road is replayed by its seed; --all then prints each of its values, and
 // --write its frames. --times off: all rays of a scan at one instant, by sensors with even rings. --motion on: the
 // motion library runs beside the engine. --compare hears the same clouds with motion, without, and without a budget.
+// --furnished does so on the roads of the furnished class.
 // --near-walls tries sensors near walls, with the offsets of their light and without. Exit status 1: a valid value was
 // beyond its level or misleading; --near-walls: a value was lost by the offsets.
 
@@ -22,6 +24,7 @@
 #include <vector>
 
 #include "judge/compare.hpp"
+#include "judge/furnished.hpp"
 #include "judge/near_walls.hpp"
 #include "judge/tally.hpp"
 
@@ -32,7 +35,7 @@ struct Options {
   Case first;
   Treatment treatment = {true, 0};
   long roads = 100;
-  bool all = false, compare = false, near_walls = false;
+  bool all = false, compare = false, furnished = false, near_walls = false;
   std::string folder;
 };
 
@@ -42,10 +45,9 @@ struct Options {
 }
 
 int sensor_of(const std::string& name) {
-  for (int row = 0; row < kAllSensors; ++row) {
-    if (name == sensor_at(row).name) return row;
-  }
-  refuse(name, "no such sensor");
+  const int row = sensor_row(name);
+  if (row < 0) refuse(name, "no such sensor");
+  return row;
 }
 
 long number_of(const std::string& word) {
@@ -71,10 +73,13 @@ using Setter = std::function<void(const std::string&)>;
 Options read_options(const std::vector<std::string>& words) {
   Options options;
   options.first.times = true;
-  const std::map<std::string, bool*> switches = {{"--quiet", &options.first.quiet},
+  bool quiet = false, rich = false;
+  const std::map<std::string, bool*> switches = {{"--quiet", &quiet},
+                                                 {"--rich", &rich},
                                                  {"--no-bias", &options.first.no_bias},
                                                  {"--all", &options.all},
                                                  {"--compare", &options.compare},
+                                                 {"--furnished", &options.furnished},
                                                  {"--near-walls", &options.near_walls}};
   const std::map<std::string, Setter> settings = {
       {"--seed", [&](const std::string& word) { options.first.seed = std::strtoull(word.c_str(), nullptr, 10); }},
@@ -97,14 +102,16 @@ Options read_options(const std::vector<std::string>& words) {
       refuse(words[k], "no such option, or nothing behind it");
     }
   }
+  if (quiet) options.first.furnishing = Furnishing::kQuiet;
+  if (rich) options.first.furnishing = Furnishing::kRich;
   return options;
 }
 
 struct Totals {
   void add(const Verdict& verdict) {
     judge::add(&all, verdict);
-    judge::add(&groups[std::string("sensor ") + kSensorTable.at(static_cast<std::size_t>(verdict.sensor)).name],
-               verdict);
+    work.add(verdict);
+    judge::add(&groups[std::string("sensor ") + sensor_at(verdict.sensor).name], verdict);
     if (verdict.features == 0) judge::add(&groups["feature none"], verdict);
     for (std::uint32_t k = 0; k < kFeatures; ++k) {
       if ((verdict.features >> k & 1U) != 0) judge::add(&groups[std::string("feature ") + feature_name(k)], verdict);
@@ -152,6 +159,13 @@ int compare(const Options& options) {
   return comparison.wrong() ? 1 : 0;
 }
 
+int furnished() {
+  Comparison comparison;
+  for (int k = 0; k < kFurnishedRoads; ++k) comparison.add(furnished_road(k));
+  std::printf("%s", comparison.text().c_str());
+  return comparison.wrong() ? 1 : 0;
+}
+
 int near_walls() {
   const NearWalls found = try_near_walls(every_near_wall());
   std::printf("%s", found.text().c_str());
@@ -160,6 +174,7 @@ int near_walls() {
 
 int obey(const Options& options) {
   if (options.near_walls) return near_walls();
+  if (options.furnished) return furnished();
   if (options.compare) return compare(options);
   if (options.folder.empty()) return run(options);
   write_frames(options.first, options.folder);

@@ -14,36 +14,39 @@ namespace pose_wall::judge {
 namespace {
 
 constexpr double kBehind_m = -45.0, kAhead_m = 60.0;  // beyond what the engine takes (range_max)
-constexpr double kOverlap_m = 0.03;                   // of neighbouring panels, so that no ray slips between them
+constexpr double kRicher = 3.0;                       // times as rough: up to the 5 cm of a gallery that was blasted
+constexpr double kDustier = 5.0;     // as many rays end in dust: a fifth, at most, behind a cutting head
+constexpr double kOverlap_m = 0.03;  // of neighbouring panels, so that no ray slips between them
 
 struct FeatureRow {
   const char* name;
-  double probability;
+  double probability, in_rich;
 };
-constexpr std::array<FeatureRow, kFeatures> kFeatureTable = {{{"rough_rock", 0.25},
-                                                              {"arch", 0.25},
-                                                              {"steel_sets", 0.15},
-                                                              {"pipes", 0.25},
-                                                              {"belt", 0.15},
-                                                              {"box", 0.12},
-                                                              {"vehicle", 0.12},
-                                                              {"people", 0.15},
-                                                              {"crosscut", 0.15},
-                                                              {"heaps", 0.20},
-                                                              {"bench", 0.08},
-                                                              {"ramp", 0.10},
-                                                              {"bend", 0.12},
-                                                              {"puddles", 0.15},
-                                                              {"dust", 0.12},
-                                                              {"body", 0.60}}};
+constexpr std::array<FeatureRow, kFeatures> kFeatureTable = {{{"rough_rock", 0.25, 0.75},
+                                                              {"arch", 0.25, 0.50},
+                                                              {"steel_sets", 0.15, 0.30},
+                                                              {"pipes", 0.25, 0.50},
+                                                              {"belt", 0.15, 0.30},
+                                                              {"box", 0.12, 0.24},
+                                                              {"vehicle", 0.12, 0.24},
+                                                              {"people", 0.15, 0.30},
+                                                              {"crosscut", 0.15, 0.30},
+                                                              {"heaps", 0.20, 0.40},
+                                                              {"bench", 0.08, 0.16},
+                                                              {"ramp", 0.10, 0.20},
+                                                              {"bend", 0.12, 0.24},
+                                                              {"puddles", 0.15, 0.30},
+                                                              {"dust", 0.12, 0.60},
+                                                              {"body", 0.60, 0.60}}};
 
 class Builder {
  public:
-  Builder(std::uint64_t seed, bool quiet) : draw_(seed), quiet_(quiet) {
+  Builder(std::uint64_t seed, Furnishing furnishing)
+      : draw_(seed), quiet_(furnishing == Furnishing::kQuiet), rich_(furnishing == Furnishing::kRich) {
     road_.seed = seed;
     for (std::uint32_t k = 0; k < kFeatures; ++k) {
-      const bool has = draw_.chance(kFeatureTable[k].probability);
-      if (has && !quiet) road_.features |= 1U << k;
+      const bool has = draw_.chance(rich_ ? kFeatureTable[k].in_rich : kFeatureTable[k].probability);
+      if (has && !quiet_) road_.features |= 1U << k;
     }
     // The arch would have to bend, too.
     if (road_.has(kArch)) road_.features &= ~(1U << kBend | 1U << kRamp);
@@ -67,6 +70,7 @@ class Builder {
     road_.room_ahead_m = std::min(line_.end_m, line_.ramp_x_m);
     furnish(&road_, line_, &draw_);
     if (road_.has(kDust)) road_.dust = {draw_.uniform(0.02, 0.2), draw_.uniform(0.003, 0.04), draw_.uniform(0.5, 2.0)};
+    if (rich_) road_.dust = {road_.dust.lost, kDustier * road_.dust.near, kRicher * road_.dust.depth_m};
     return road_;
   }
 
@@ -87,6 +91,7 @@ class Builder {
     road_.left = plane({toe_left_rad, -1.0, tilt_rad(lean_deg)}, {0.0, half_m, middle_m});
     road_.right = plane({toe_right_rad, 1.0, tilt_rad(lean_deg)}, {0.0, -half_m, middle_m});
     roughness_m_ = quiet_ ? 0.0 : road_.has(kRoughRock) ? draw_.uniform(0.008, 0.015) : draw_.uniform(0.0007, 0.006);
+    if (rich_) roughness_m_ *= kRicher;
   }
 
   Rock rock() {
@@ -98,7 +103,7 @@ class Builder {
   Rock floor_rock() {
     if (quiet_) return Rock();
     const double rms_m = road_.has(kRoughRock) ? draw_.uniform(0.008, 0.02) : draw_.uniform(0.002, 0.008);
-    return Rock(&draw_, rms_m, draw_.uniform(0.4, 2.0), draw_.uniform(0.3, 1.0));
+    return Rock(&draw_, rich_ ? kRicher * rms_m : rms_m, draw_.uniform(0.4, 2.0), draw_.uniform(0.3, 1.0));
   }
 
   static Panel panel(const Plane& plane, const Vector3d& along, double u_min_m, double u_max_m, const Rock& rock) {
@@ -219,7 +224,7 @@ class Builder {
   }
 
   Draw draw_;
-  bool quiet_;
+  bool quiet_, rich_;
   Road road_;
   double roughness_m_ = 0.0, face_x_m_ = 0.0, bend_x_m_ = 0.0, bend_radius_m_ = 0.0;
   RoadLine line_;
@@ -257,8 +262,8 @@ const char* feature_name(std::uint32_t feature) {
   return kFeatureTable.at(feature).name;
 }
 
-Road draw_road(std::uint64_t seed, bool quiet) {
-  return Builder(seed, quiet).build();
+Road draw_road(std::uint64_t seed, Furnishing furnishing) {
+  return Builder(seed, furnishing).build();
 }
 
 double range_m(const Road& road, const std::vector<Solid>& body, const Ray& ray, Draw* draw) {

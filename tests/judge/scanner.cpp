@@ -55,6 +55,13 @@ const std::array<Sensor, kAllSensors> kSensorTable = {{
     {"rs16", "vlp16.yaml", Pattern::kRings, 16, 0, 0.0, 0.0, 0.01, 0.005, 0.003, Hung::kUpright, rs16_beams},
 }};
 
+int sensor_row(const std::string& name) {
+  for (int row = 0; row < kAllSensors; ++row) {
+    if (name == sensor_at(row).name) return row;
+  }
+  return -1;
+}
+
 int draw_real_sensor(Draw* draw) {
   std::vector<int> rows;
   for (int row = 0; row < kAllSensors; ++row) {

@@ -43,6 +43,8 @@ extern const std::array<Sensor, kAllSensors> kSensorTable;
 inline const Sensor& sensor_at(int row) {
   return kSensorTable.at(static_cast<std::size_t>(row));
 }
+// Of that name, or -1.
+int sensor_row(const std::string& name);
 // A row whose scans take their time, each such row as often as another.
 int draw_real_sensor(Draw* draw);
 // Whether its clouds tell when each point was measured: not those of directions at random, which are at one instant.

@@ -64,13 +64,13 @@ Trial::Trial(const Case& tried)
     : tried_(tried),
       draw_(tried.seed ^ 0x5EED5EED5EED5EEDU),
       drive_draw_(tried.seed ^ 0xD01E5D01E5D01E5DU),
-      road_(draw_road(tried.seed, tried.quiet)),
+      road_(draw_road(tried.seed, tried.furnishing)),
       sensor_(tried.sensor >= 0 ? tried.sensor
               : tried.times     ? draw_real_sensor(&drive_draw_)
                                 : draw_.whole(0, kSensors - 1)),
       machine_(draw_machine(road_, sensor().hung, &draw_)),
       scanner_(sensor(), tried.no_bias, &draw_),
-      stance_(draw_stance(road_, tried.quiet, &draw_)),
+      stance_(draw_stance(road_, tried.furnishing == Furnishing::kQuiet, &draw_)),
       stands_(draw_.chance(0.5)) {
   if (!tried.times) return;
   Draw going(tried.seed ^ 0x601D601D601D601DU);

@@ -19,8 +19,8 @@ constexpr std::int64_t kPeriod_ns = 100000000;  // 10 Hz
 
 struct Case {
   std::uint64_t seed = 0;
-  bool quiet = false;  // a road of flat whole walls without features
-  int sensor = -1;     // row of kSensorTable; -1: drawn
+  Furnishing furnishing = Furnishing::kDrawn;
+  int sensor = -1;  // row of kSensorTable; -1: drawn
   int frames = 4;
   int from_frame = 0;    // frames before it are measured and not judged
   bool no_bias = false;  // ranges without a constant error

@@ -73,7 +73,7 @@ TEST_P(JudgesTruth, RollAndPitchAreAboutBaseXAndYWhateverIsForward) {
 int rays_that_end_on(Plane Road::*plane) {
   int on_plane = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
-    const Road road = draw_road(seed, true);
+    const Road road = draw_road(seed, Furnishing::kQuiet);
     Draw draw(seed);
     for (int ray = 0; ray < 400; ++ray) {
       const Vector3d way = Vector3d(draw.normal(), draw.normal(), draw.normal()).normalized();
