@@ -13,7 +13,7 @@
 namespace pose_wall::judge {
 namespace {
 
-constexpr double kOtherWall_m = 2.5, kRoof_m = 3.0;
+constexpr double kOtherWall_m = 2.3, kRoof_m = 3.0;
 constexpr double kRough_m = 0.006, kLongest_m = 1.5, kHurst = 0.7;  // the middle of what furnished roads have
 constexpr double kFace_m = 25.0, kBack_m = -25.0;
 constexpr double kTurned_rad = 1.5 * kRadPerDeg;  // along no ring's own direction
