@@ -27,12 +27,13 @@ using test::TempFolder;
 
 constexpr std::size_t kFrames = 5;  // of each run: a few are enough, the event is in the last
 
-// Of a campaign of one run whose last frame was made to mislead; another folder is in the place of DIR.
+// Of a campaign of one run, the draw of this number, whose last frame was made to mislead; another folder is in the
+// place of DIR.
 std::string command_of_last_frame(const std::string& folder, const std::string& again,
-                                  const std::vector<std::string>& words) {
+                                  const std::vector<std::string>& words, const std::string& draw = "3") {
   std::vector<std::string> all = {
       "campaign", "--quiet",  "--seed", "5",         "--draws", "1",        "--first-draw",
-      "3",        "--output", folder,   "--sensors", "vlp16",   "--frames", std::to_string(kFrames)};
+      draw,       "--output", folder,   "--sensors", "vlp16",   "--frames", std::to_string(kFrames)};
   all.insert(all.end(), words.begin(), words.end());
   EXPECT_EQ(command(all).exit_status, 0);
   return test::command_of_event(folder, 0, kFrames - 1, again);
@@ -51,14 +52,33 @@ void expect_same_last_row(const std::string& frames_file, const std::string& aga
   }
 }
 
+// One of two draws in a row drives, the other one stands; scans of both take time.
 TEST(CampaignRecipe, FramesOnDiskGiveTheValuesOfTheCampaign) {
+  std::string lines;
+  for (const char* draw : {"3", "4"}) {
+    const TempFolder folder;
+    const TempFolder again;
+    const std::string line =
+        command_of_last_frame(folder.path(), again.path(), {"--scenes", "rough", "--set", "integrity_risk=1e-9"}, draw);
+    EXPECT_TRUE(contains(line, "pose_wall run")) << line;
+    EXPECT_TRUE(contains(line, " --set scan_s=0.1 --set rock_repeats=no --set speed_mps=")) << line;
+    run_all_of(line);
+    expect_same_last_row(folder.file("frames.csv"), again.file("out.csv"));
+    lines += line;
+  }
+  const std::size_t standing = lines.find("--set speed_mps=0 ");
+  EXPECT_NE(standing, std::string::npos) << lines;
+  EXPECT_EQ(lines.find("--set speed_mps=0 ", standing + 1), std::string::npos) << lines;
+}
+
+TEST(CampaignRecipe, ScansOfOneInstantAreRepeatedAsSuch) {
   const TempFolder folder;
   const TempFolder again;
   const std::string line =
-      command_of_last_frame(folder.path(), again.path(), {"--scenes", "rough", "--set", "integrity_risk=1e-9"});
-  EXPECT_TRUE(contains(line, "pose_wall run")) << line;
-  run_all_of(line);
-  expect_same_last_row(folder.file("frames.csv"), again.file("out.csv"));
+      command_of_last_frame(folder.path(), again.path(), {"--scenes", "jitter", "--scans", "instant"});
+  EXPECT_TRUE(contains(line, " --scans instant ")) << line;
+  run_all_of(line + " --quiet");
+  expect_same_last_row(folder.file("frames.csv"), again.file("frames.csv"));
 }
 
 TEST(CampaignRecipe, StampsThatJumpComeFromTheCampaignItself) {

@@ -193,6 +193,7 @@ TEST(Campaign, GateFailsOnADoctoredRecord) {
   const campaign::Manifest manifest = campaign::read_manifest(folder.path());
   std::vector<campaign::RunRecord> records = campaign::read_records(folder.path(), manifest);
   records[0].frames[3].quantity[POSE_WALL_YAW].truth += 0.5;
+  records[0].frames[3].quantity[POSE_WALL_YAW].measured.state = POSE_WALL_VALID;
   campaign::write_record(campaign::record_file(folder.path(), records[0].run), records[0], manifest.fingerprint());
   const Ran ran = campaign_in(folder.path(), {"--gate"});
   EXPECT_EQ(ran.exit_status, 3);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "campaign/card_words.hpp"
 #include "campaign/traced_runs.hpp"
 #include "explain/gate_list.hpp"
 #include "results/json_words.hpp"
@@ -146,8 +147,8 @@ std::string ablation_text(const Ablation& ablation) {
                    std::to_string(w.frames_changed), change_text(w.values.valid), change_text(w.values.misleading),
                    change_text(w.values.beyond), row.worst});
   }
-  return fmt::format("{}\n{}; a row without gates that let everything pass\n\n{}", command_of(ablation),
-                     counted(ablation.frames, "frame"), table.text(2));
+  return fmt::format("{}\n{}; a row without gates that let everything pass\n{}\n\n{}", command_of(ablation),
+                     counted(ablation.frames, "frame"), movement_text(ablation.manifest), table.text(2));
 }
 
 std::string ablation_json(const Ablation& ablation) {
@@ -155,6 +156,8 @@ std::string ablation_json(const Ablation& ablation) {
   for (const AblationRow& row : ablation.rows) rows.push_back(row_json(row));
   return json_text({{"command", command_of(ablation)},
                     {"version", pose_wall_version()},
+                    {"motion", "off"},
+                    {"scans", scans_name(ablation.manifest.plan.scans)},
                     {"frames", ablation.frames},
                     {"rows", rows}},
                    2) +

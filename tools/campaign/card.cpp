@@ -33,13 +33,16 @@ void count_reasons(ClassCard& card, const QuantityRecord& record) {
 }
 
 void add_run(ClassCard& card, const RunRecord& record, const AlertLimits& limits) {
+  const bool is_straight = has_straight_scans(record.run.settings);
   ++card.draws;
+  if (is_straight) ++card.straight_runs;
   card.is_cut = card.is_cut || is_cut(record.run);
   for (const FrameRecord& frame : record.frames) {
     card.frames.add(frame, limits);
-    if (frame.phase == Phase::kDriveIn) continue;  // what is wrong there is wrong, but shares are of the scene
+    if (!is_in_shares(frame)) continue;  // what is wrong there is wrong all the same
     for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
       card.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].truth);
+      if (is_straight) card.straight[q].add(frame.quantity[q].measured, frame.quantity[q].truth);
       count_reasons(card, frame.quantity[q]);
     }
   }
@@ -63,7 +66,9 @@ void add_to_diagrams(Card& card, const RunRecord& record) {
 
 Card empty_card(const Manifest& manifest) {
   const AlertLimits& limits = manifest.limits;
-  const auto none = [&limits](const char* name) { return Totals{name, 0, 0, {}, empty_statistics(limits)}; };
+  const auto none = [&limits](const char* name) {
+    return Totals{name, 0, 0, {}, empty_statistics(limits), 0, empty_statistics(limits)};
+  };
   return {manifest,
           0,
           {},
@@ -71,6 +76,7 @@ Card empty_card(const Manifest& manifest) {
           none("adversarial"),
           none("both"),
           none("unobservable"),
+          {},
           {},
           {},
           {},
@@ -89,6 +95,7 @@ ClassCard& class_of(Card& card, const RunRecord& record) {
   one.scene = sim::find_scene(record.run.scene);
   one.sensor = record.run.sensor;
   one.quantities = empty_statistics(card.manifest.limits);
+  one.straight = one.quantities;
   if (one.scene == nullptr) {
     throw std::runtime_error(fmt::format("a record of the scene '{}', which does not exist", record.run.scene));
   }
@@ -132,6 +139,47 @@ std::vector<KindCard> kind_cards(const std::vector<ClassCard>& classes, const Al
   return rows;
 }
 
+bool is_first(const FrameRecord& frame) {
+  return frame.phase == Phase::kFirst;
+}
+
+bool is_scenes(const FrameRecord& frame) {
+  return is_first(frame) || is_in_shares(frame);
+}
+
+void add_frames(FramesCard& row, const RunRecord& record, bool (*counts)(const FrameRecord&)) {
+  std::size_t added = 0;
+  for (const FrameRecord& frame : record.frames) {
+    if (!counts(frame)) continue;
+    ++added;
+    for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+      row.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].truth);
+    }
+  }
+  row.frames += added;
+  if (added > 0) ++row.runs;
+}
+
+std::vector<FramesCard> frames_cards(const std::vector<const RunRecord*>& judged, const AlertLimits& limits) {
+  std::vector<FramesCard> rows;
+  for (const sim::SceneKind kind : {sim::SceneKind::kNominal, sim::SceneKind::kAdversarial}) {
+    std::vector<FramesCard> of_kind;
+    for (const char* name : {"first", "later, standing", "later, moving", "all"}) {
+      of_kind.push_back({kind, name, 0, 0, empty_statistics(limits)});
+    }
+    for (const RunRecord* const record : judged) {
+      if (sim::find_scene(record->run.scene)->kind != kind) continue;
+      add_frames(of_kind[0], *record, is_first);
+      add_frames(of_kind[stands(record->run.settings) ? 1 : 2], *record, is_in_shares);
+      add_frames(of_kind[3], *record, is_scenes);
+    }
+    for (FramesCard& row : of_kind) {
+      if (row.frames > 0) rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 void FrameCounts::add(const FrameRecord& frame, const AlertLimits& limits) {
@@ -146,6 +194,7 @@ void FrameCounts::add(const FrameRecord& frame, const AlertLimits& limits) {
   if (any.raw_beyond_protection) ++raw_beyond_protection;
   if (any.value_beyond_protection) ++value_beyond_protection;
   if (any.misleading) ++misleading;
+  if (met_work_limit(frame)) ++work_limited;
 }
 
 void FrameCounts::merge(const FrameCounts& other) {
@@ -153,6 +202,7 @@ void FrameCounts::merge(const FrameCounts& other) {
   raw_beyond_protection += other.raw_beyond_protection;
   value_beyond_protection += other.value_beyond_protection;
   misleading += other.misleading;
+  work_limited += other.work_limited;
 }
 
 std::vector<QuantityGroup> grouped(const SevenStatistics& quantities) {
@@ -183,6 +233,8 @@ void add_class(Totals& totals, const ClassCard& card) {
   totals.runs += card.draws;
   totals.frames.merge(card.frames);
   merge(totals.quantities, card.quantities);
+  totals.straight_runs += card.straight_runs;
+  merge(totals.straight, card.straight);
 }
 
 Card make_card(const Manifest& manifest, const std::vector<RunRecord>& records, std::size_t events_max) {
@@ -203,6 +255,7 @@ Card make_card(const Manifest& manifest, const std::vector<RunRecord>& records, 
     if (one.scene->kind != sim::SceneKind::kUnobservable) add_class(card.judged, one);
   }
   card.kinds = kind_cards(card.classes, manifest.limits);
+  card.frames = frames_cards(judged, manifest.limits);
   card.events = worst_events(judged, manifest.limits, events_max);
   return card;
 }

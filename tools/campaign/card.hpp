@@ -28,6 +28,7 @@ struct FrameCounts {
   std::size_t raw_beyond_protection = 0;
   std::size_t value_beyond_protection = 0;
   std::size_t misleading = 0;
+  std::size_t work_limited = 0;  // the engine ran out of its work budget
 
   void add(const FrameRecord& frame, const AlertLimits& limits);
   void merge(const FrameCounts& other);
@@ -60,7 +61,9 @@ struct ClassCard {
   std::size_t draws = 0;
   bool is_cut = false;  // a run is shorter than its scene asks for: no floor
   FrameCounts frames;
-  SevenStatistics quantities;  // of the scene, without the way in
+  SevenStatistics quantities;  // of the scene, without the way in and the first frame
+  std::size_t straight_runs = 0;
+  SevenStatistics straight;  // the same, of runs in whose scans no motion is
   EventTimes times;
   std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons{};  // values with a truth that were not valid, by reason
 };
@@ -77,12 +80,24 @@ struct KindCard {
   ValidCounts valid;  // over the classes with a floor
 };
 
+// Some frames of the classes of one kind: those that are first in their run, the later ones of machines that stand, of
+// those that move, and all of them. Frames of the way in are in none.
+struct FramesCard {
+  sim::SceneKind kind;
+  const char* name;
+  std::size_t runs = 0;
+  std::size_t frames = 0;
+  SevenStatistics quantities;
+};
+
 struct Totals {
   const char* name;
   std::size_t classes = 0;
   std::size_t runs = 0;
   FrameCounts frames;
   SevenStatistics quantities;
+  std::size_t straight_runs = 0;  // as of a class
+  SevenStatistics straight;
 };
 
 void add_class(Totals& totals, const ClassCard& card);
@@ -95,7 +110,8 @@ struct Card {
   Totals adversarial;
   Totals judged;  // both of them
   Totals unobservable;
-  std::vector<KindCard> kinds;  // of the judged: nominal by sensor and all, then adversarial
+  std::vector<KindCard> kinds;     // of the judged: nominal by sensor and all, then adversarial
+  std::vector<FramesCard> frames;  // of the judged, by kind; without empty ones
   LevelCurve nominal_curve;
   LevelCurve adversarial_curve;
   std::vector<WorstEvent> events;  // of the judged, as the diagrams

@@ -31,10 +31,11 @@ std::vector<std::string> row_of(const Totals& t, const char* kind, bool with_bou
   for (const std::size_t events : {f.misleading, f.value_beyond_protection, f.raw_beyond_protection}) {
     cells.push_back(with_bounds ? count_with_bound(events, f.frames) : std::to_string(events));
   }
-  ErrorStatistics angles = t.quantities[POSE_WALL_ROLL];
-  angles.merge(t.quantities[POSE_WALL_PITCH]);
-  angles.merge(t.quantities[POSE_WALL_YAW]);
-  cells.insert(cells.end(), {figure(angles.mean_z2()), figure(grouped(t.quantities).back().statistics.mean_z2())});
+  // As the gate looks at them: of scans without motion.
+  ErrorStatistics angles = t.straight[POSE_WALL_ROLL];
+  angles.merge(t.straight[POSE_WALL_PITCH]);
+  angles.merge(t.straight[POSE_WALL_YAW]);
+  cells.insert(cells.end(), {figure(angles.mean_z2()), figure(grouped(t.straight).back().statistics.mean_z2())});
   return cells;
 }
 
@@ -43,7 +44,8 @@ std::vector<std::pair<const sim::SceneChoice*, Totals>> by_scene(const Card& car
   std::vector<std::pair<const sim::SceneChoice*, Totals>> scenes;
   for (const ClassCard& one : card.classes) {
     if (scenes.empty() || scenes.back().first != one.scene) {
-      scenes.emplace_back(one.scene, Totals{one.scene->name, 1, one.draws, one.frames, one.quantities});
+      scenes.emplace_back(one.scene, Totals{one.scene->name, 1, one.draws, one.frames, one.quantities,
+                                            one.straight_runs, one.straight});
     } else {
       add_class(scenes.back().second, one);
     }
@@ -63,7 +65,8 @@ std::string card_summary(const Card& card) {
   for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged}) {
     if (totals->classes > 0) table.add_row(row_of(*totals, "", true));
   }
-  return table.text(2) + "\n" + valid_summary(card) + "\n" + curve_summary(card);
+  return movement_text(card.manifest) + "\n\n" + table.text(2) + "\n" + valid_summary(card) + "\n" +
+         frames_summary(card) + "\n" + curve_summary(card);
 }
 
 void write_card(const std::filesystem::path& folder, const Card& card) {

@@ -46,6 +46,16 @@ Json kind_page(const KindCard& row) {
           {"valid", valid_page(row.quantities, row.valid)}};
 }
 
+Json frames_page(const FramesCard& row) {
+  Json page = {
+      {"kind", sim::scene_kind_name(row.kind)}, {"frames", row.name}, {"runs", row.runs}, {"number", row.frames}};
+  for (const QuantityGroup& group : grouped(row.quantities)) {
+    page["valid"][group.name] = {{"values_with_truth", group.statistics.frames()},
+                                 {"share", state_shares(group.statistics).valid}};
+  }
+  return page;
+}
+
 Json scaled_page(const ScaledCounts& c) {
   const auto share = [](std::size_t part, std::size_t whole) {
     return static_cast<double>(part) / static_cast<double>(whole);
@@ -86,7 +96,8 @@ Json counts(const FrameCounts& f) {
   return {{"frames", f.frames},
           {"misleading", rate_of(f.misleading, f.frames)},
           {"value_beyond_protection", rate_of(f.value_beyond_protection, f.frames)},
-          {"raw_beyond_protection", rate_of(f.raw_beyond_protection, f.frames)}};
+          {"raw_beyond_protection", rate_of(f.raw_beyond_protection, f.frames)},
+          {"work_limited", rate_of(f.work_limited, f.frames)}};
 }
 
 Json totals(const Totals& t) {
@@ -94,7 +105,8 @@ Json totals(const Totals& t) {
           {"runs", t.runs},
           {"counts", counts(t.frames)},
           {"shares", shares(state_shares(t.quantities))},
-          {"quantities", seven(t.quantities)}};
+          {"quantities", seven(t.quantities)},
+          {"no_motion_in_scan", {{"runs", t.straight_runs}, {"quantities", seven(t.straight)}}}};
 }
 
 Json class_page(const ClassCard& card) {
@@ -139,6 +151,8 @@ Json event_page(const WorstEvent& e, const Manifest& manifest) {
 std::string card_json(const Card& card) {
   Json page;
   for (const auto& [name, value] : card.manifest.identity) page["identity"][name] = value;
+  page["motion"] = card.manifest.motion_is_on ? "on" : "off";
+  page["scans"] = scans_name(card.manifest.plan.scans);
   page["command"] = card.manifest.command();
   page["alert_limit_angle_rad"] = card.manifest.limits.angle_rad;
   page["alert_limit_distance_m"] = card.manifest.limits.distance_m;
@@ -151,6 +165,8 @@ std::string card_json(const Card& card) {
                     {"unobservable", totals(card.unobservable)}};
   page["kinds"] = Json::array();
   for (const KindCard& row : card.kinds) page["kinds"].push_back(kind_page(row));
+  page["frames"] = Json::array();
+  for (const FramesCard& row : card.frames) page["frames"].push_back(frames_page(row));
   for (std::size_t i = 0; i < kLevelScales.size(); ++i) {
     page["level_curve"].push_back({{"scale", kLevelScales[i]},
                                    {"nominal", scaled_page(card.nominal_curve[i])},

@@ -22,6 +22,8 @@ std::string head_of(const Card& card) {
                       counted(card.judged.frames.frames + card.unobservable.frames.frames, "frame"), card.runs,
                       counted(card.manifest.runs, "run"), counted(card.classes.size(), "class", "classes"),
                       amount(true, card.manifest.limits.angle_rad), amount(false, card.manifest.limits.distance_m));
+  const std::string movement = movement_text(card.manifest);
+  text += card.manifest.motion_is_on ? movement + "\n\n" : fmt::format("**{}**\n\n", movement);
   if (card.manifest.plan.drive_in_m > 0.0) {
     text += fmt::format(
         "The machine drove {} m before each scene began. States, valid shares, levels, reasons, mean z², the table of "
@@ -35,7 +37,7 @@ std::string head_of(const Card& card) {
 
 std::string totals_of(const Card& card) {
   MarkdownTable table({"over", "classes", "runs", "frames", "valid", "degraded", "held", "invalid", "misleading",
-                       "value > protection", "raw > protection"});
+                       "value > protection", "raw > protection", "work limit"});
   for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged, &card.unobservable}) {
     const Totals& t = *totals;
     if (t.classes == 0) continue;
@@ -44,27 +46,36 @@ std::string totals_of(const Card& card) {
     table.add_row({t.name, std::to_string(t.classes), std::to_string(t.runs), std::to_string(f.frames),
                    percent(s.valid), percent(s.degraded), percent(s.held), percent(s.invalid),
                    count_with_bound(f.misleading, f.frames), count_with_bound(f.value_beyond_protection, f.frames),
-                   count_with_bound(f.raw_beyond_protection, f.frames)});
+                   count_with_bound(f.raw_beyond_protection, f.frames),
+                   fmt::format("{} ({})", f.work_limited, percent(rate(f.work_limited, f.frames)))});
   }
   return "## Totals\n\n"
          "Counts are frames with at least one such value among the seven. In brackets: the 95 % upper bound of the "
          "rate (Clopper-Pearson). Runs are independent; frames of one run are not. *Misleading*: valid, and the error "
-         "exceeds the alert limit or there is nothing to measure. In *unobservable* classes the data of one sensor "
+         "exceeds the alert limit or there is nothing to measure. *Work limit*: the engine ran out of its budget "
+         "(`work_max`). States are of later frames than a run's first. In *unobservable* classes the data of one "
+         "sensor "
          "cannot show the fault. They are listed, and left out of everything else.\n\n" +
          table.text() + "\n";
 }
 
 std::string sigma_of(const Card& card) {
-  MarkdownTable table({"over", "roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"});
+  MarkdownTable table({"over", "runs", "roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"});
+  const auto add_row = [&table](const std::string& name, std::size_t runs, const SevenStatistics& quantities) {
+    std::vector<std::string> cells = {name, std::to_string(runs)};
+    for (const ErrorStatistics& q : quantities) cells.push_back(figure(q.mean_z2()));
+    table.add_row(cells);
+  };
   for (const Totals* totals : {&card.nominal, &card.adversarial}) {
     if (totals->classes == 0) continue;
-    std::vector<std::string> cells = {totals->name};
-    for (const ErrorStatistics& q : totals->quantities) cells.push_back(figure(q.mean_z2()));
-    table.add_row(cells);
+    add_row(fmt::format("{}, no motion in a scan", totals->name), totals->straight_runs, totals->straight);
+    add_row(fmt::format("{}, all", totals->name), totals->runs, totals->quantities);
   }
   return fmt::format(
       "## Mean z² = (raw error / sigma)²\n\n"
-      "1 for a true standard deviation. From {2} nominal runs on it must be from {0:g} to {1:g} in nominal classes.\n\n"
+      "1 for a true standard deviation. No motion is in a scan of one instant, and of a machine that stands and does "
+      "not sway. From {2} such runs of nominal classes on their mean must be from {0:g} to {1:g}. What a moving "
+      "machine does to a scan is in the level and not in sigma.\n\n"
       "{3}\n",
       kMeanZ2Min, kMeanZ2Max, kRunsForMeanZ2, table.text());
 }
@@ -154,8 +165,8 @@ std::string events_of(const Card& card) {
 }  // namespace
 
 std::string card_page(const Card& card) {
-  return head_of(card) + gate_text(gate_faults(card)) + valid_section(card) + totals_of(card) + curve_section(card) +
-         sigma_of(card) +
+  return head_of(card) + gate_text(gate_faults(card)) + valid_section(card) + frames_section(card) + totals_of(card) +
+         curve_section(card) + sigma_of(card) +
          "## Stanford diagrams\n\n![angles](stanford_angles.svg)\n\n![distances](stanford_distances.svg)\n\n" +
          classes_of(card) + quantities_of(card) + events_of(card);
 }

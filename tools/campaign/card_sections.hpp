@@ -21,9 +21,11 @@ std::string level_text(const QuantityGroup& group);
 
 // Of card.md.
 std::string valid_section(const Card& card);
+std::string frames_section(const Card& card);
 std::string curve_section(const Card& card);
-// For the terminal: both as tables.
+// For the terminal, as tables.
 std::string valid_summary(const Card& card);
+std::string frames_summary(const Card& card);
 std::string curve_summary(const Card& card);
 // level_curve.csv: shares, and counts of frames.
 std::string curve_csv(const Card& card);

@@ -77,6 +77,15 @@ std::string gate_text(const std::vector<std::string>& faults) {
   return text + "\n";
 }
 
+std::string movement_text(const Manifest& manifest) {
+  const bool turning = manifest.plan.scans == Scans::kTurning;
+  const char* const scans = turning ? "Scans take time and their points have times; half of the runs drive."
+                                    : "Scans are of one instant, and points have no times.";
+  if (manifest.motion_is_on) return fmt::format("{} Motion is on.", scans);
+  return fmt::format("{} Motion is off: the engine is alone{}.", scans,
+                     turning ? ", and nothing takes the motion out of a scan" : "");
+}
+
 std::string origin_text(const Manifest& manifest) {
   std::string text = fmt::format("To make it again: `{} --output DIR`.\n\n", manifest.command());
   for (const auto& [name, value] : manifest.identity) text += fmt::format("- {}: `{}`\n", name, value);

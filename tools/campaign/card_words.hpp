@@ -27,6 +27,8 @@ std::string times_text(std::vector<std::size_t> times, std::size_t never);
 std::string reasons_text(const ClassCard& card);
 // Whether the gate is passed, and a point for each demand that does not hold.
 std::string gate_text(const std::vector<std::string>& faults);
+// What the engine was given: scans that take time or not, with the motion library or not.
+std::string movement_text(const Manifest& manifest);
 // The command that makes the campaign again, and what decided its records.
 std::string origin_text(const Manifest& manifest);
 

@@ -30,11 +30,16 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
+std::string set_words(const std::vector<std::string>& settings) {
+  std::string words;
+  for (const std::string& setting : settings) words += " --set " + shell_word(setting);
+  return words;
+}
+
 std::string engine_words(const EngineChoice& choice) {
   std::string words;
   if (!choice.config_file.empty()) words += " --config " + shell_word(choice.config_file);
-  for (const std::string& setting : choice.settings) words += " --set " + shell_word(setting);
-  return words;
+  return words + set_words(choice.settings);
 }
 
 std::string verb_words(const PlanRequest& request) {
@@ -45,6 +50,10 @@ std::string drive_in_words(double drive_in_m) {
   return drive_in_m > 0.0 ? fmt::format(" --drive-in {}", drive_in_m) : "";
 }
 
+std::string scans_words(Scans scans) {
+  return scans == Scans::kTurning ? "" : fmt::format(" --scans {}", scans_name(scans));
+}
+
 std::string campaign_command(const PlanRequest& request, const EngineChoice& choice) {
   std::string words = fmt::format("{} --size {} --seed {}", verb_words(request), request.size, request.seed);
   if (request.kind != "all") words += " --kind " + request.kind;
@@ -52,7 +61,7 @@ std::string campaign_command(const PlanRequest& request, const EngineChoice& cho
   if (!request.sensors.empty()) words += fmt::format(" --sensors {}", fmt::join(request.sensors, ","));
   if (request.draws) words += fmt::format(" --draws {}", *request.draws);
   if (request.frames) words += fmt::format(" --frames {}", *request.frames);
-  words += drive_in_words(request.drive_in_m);
+  words += drive_in_words(request.drive_in_m) + (request.motion ? "" : scans_words(request.scans));
   if (request.first_draw != 0) words += fmt::format(" --first-draw {}", request.first_draw);
   return words + engine_words(choice);
 }
@@ -67,7 +76,8 @@ std::vector<std::pair<std::string, std::string>> request_words(const PlanRequest
           {"first draw", std::to_string(request.first_draw)},
           {"frames", number_or(request.frames, "those of size and scene")},
           {"seed", std::to_string(request.seed)},
-          {"driven in", fmt::format("{} m", request.drive_in_m)}};
+          {"driven in", fmt::format("{} m", request.drive_in_m)},
+          {"scans", scans_name(request.scans)}};
 }
 
 }  // namespace pose_wall::tools::campaign

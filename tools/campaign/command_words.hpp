@@ -22,6 +22,9 @@ struct EngineChoice {
 // As a shell reads it: in quotes where it must be.
 std::string shell_word(const std::string& word);
 
+// " --set KEY=VALUE" for each.
+std::string set_words(const std::vector<std::string>& settings);
+
 // " --config FILE" and " --set KEY=VALUE" as often as they are there.
 std::string engine_words(const EngineChoice& choice);
 
@@ -30,6 +33,9 @@ std::string verb_words(const PlanRequest& request);
 
 // " --drive-in METRES"; nothing where the machine does not drive in.
 std::string drive_in_words(double drive_in_m);
+
+// " --scans instant"; nothing for scans that take time.
+std::string scans_words(Scans scans);
 
 // Makes the campaign again, but for its folder.
 std::string campaign_command(const PlanRequest& request, const EngineChoice& choice);

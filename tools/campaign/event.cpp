@@ -25,6 +25,11 @@ class Events {
     any_ = true;
   }
   void add_interval(double from_s, double to_s) { add(from_s < to_s, from_s, to_s); }
+  // It may begin in the midst of a scan.
+  void add_within_scans(double from_s, double to_s, double scan_s) {
+    const double scans_from_s = (std::floor((from_s - scan_s) * rate_hz_) + 1.0) / rate_hz_;
+    add(from_s < to_s, std::min(from_s, std::max(scans_from_s, 0.0)), to_s);
+  }
 
   std::optional<Event> whole() const { return any_ ? std::optional<Event>(Event{first_, after_}) : std::nullopt; }
 
@@ -45,9 +50,9 @@ std::optional<Event> event_of(const sim::Setup& setup) {
   const sim::Machine& machine = setup.machine;
   Events events(q.rate_hz);
   if (faults.lost_side != static_cast<double>(sim::kSideNone))
-    events.add_interval(faults.lost_from_s, faults.lost_to_s);
+    events.add_within_scans(faults.lost_from_s, faults.lost_to_s, q.scan_s);
   events.add_interval(q.freeze_from_s, q.freeze_to_s);
-  events.add_interval(q.partial_from_s, q.partial_to_s);
+  events.add_within_scans(q.partial_from_s, q.partial_to_s, q.scan_s);
   events.add_interval(q.stamp_still_from_s, q.stamp_still_to_s);
   events.add(q.stamp_jump_s != 0.0, q.stamp_jump_at_s, q.stamp_jump_at_s);
   events.add(machine.turn_step_deg != 0.0, machine.turn_step_at_s, machine.turn_step_at_s);

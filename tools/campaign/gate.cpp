@@ -8,10 +8,6 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-double rate(std::size_t events, std::size_t frames) {
-  return frames == 0 ? 0.0 : static_cast<double>(events) / static_cast<double>(frames);
-}
-
 void demand_bounds(Faults& faults, const Card& card) {
   const FrameCounts& nominal = card.nominal.frames;
   const FrameCounts& adversarial = card.adversarial.frames;
@@ -36,10 +32,33 @@ void demand_bounds(Faults& faults, const Card& card) {
   demand_rare("value", adversarial.value_beyond_protection);
 }
 
+void demand_work_left(Faults& faults, const std::string& name, const FrameCounts& frames, double allowed) {
+  const auto limited = static_cast<double>(frames.work_limited);
+  faults.demand(limited <= allowed,
+                "{}: frames ended by the work budget (work_max): {} of {}; at most {:.4g} % are allowed", name,
+                frames.work_limited, frames.frames, 100.0 * allowed / static_cast<double>(frames.frames));
+}
+
+// A class has few runs, and a kind many classes: a road that is always too dear must not hide among them. One run of a
+// class may be lost, as for its floors.
+void demand_budget(Faults& faults, const Card& card) {
+  const auto share_of = [](const FrameCounts& frames) { return kWorkLimitedMax * static_cast<double>(frames.frames); };
+  for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged}) {
+    const std::string name = totals == &card.judged ? "all classes" : fmt::format("{} classes", totals->name);
+    if (totals->classes > 0) demand_work_left(faults, name, totals->frames, share_of(totals->frames));
+  }
+  for (const ClassCard& one : card.classes) {
+    if (one.scene->kind == sim::SceneKind::kUnobservable) continue;
+    const double of_one_run = static_cast<double>(one.frames.frames) / static_cast<double>(one.draws);
+    demand_work_left(faults, fmt::format("{} {}", one.scene->name, one.sensor), one.frames,
+                     share_of(one.frames) + of_one_run);
+  }
+}
+
 void demand_sigma(Faults& faults, const Card& card) {
-  if (card.nominal.runs < kRunsForMeanZ2) return;
+  if (card.nominal.straight_runs < kRunsForMeanZ2) return;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    const double z2 = card.nominal.quantities[q].mean_z2();
+    const double z2 = card.nominal.straight[q].mean_z2();
     faults.demand(z2 >= kMeanZ2Min && z2 <= kMeanZ2Max,
                   "nominal classes: mean z² of {} is {:.2f}; it must be within {:g} and {:g}",
                   pose_wall_quantity_name(q), z2, kMeanZ2Min, kMeanZ2Max);
@@ -68,11 +87,16 @@ void demand_valid_shares(Faults& faults, const Card& card) {
 
 }  // namespace
 
+double rate(std::size_t events, std::size_t frames) {
+  return frames == 0 ? 0.0 : static_cast<double>(events) / static_cast<double>(frames);
+}
+
 std::vector<std::string> gate_faults(const Card& card) {
   Faults faults;
   faults.demand(card.runs == card.manifest.runs, "the campaign is not finished: runs done {} of {}", card.runs,
                 card.manifest.runs);
   demand_bounds(faults, card);
+  demand_budget(faults, card);
   demand_sigma(faults, card);
   demand_valid_shares(faults, card);
   return faults.take();

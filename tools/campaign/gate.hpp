@@ -14,11 +14,17 @@ namespace pose_wall::tools::campaign {
 
 // Rates of frames. Errors beyond the protection level in nominal classes: none. In adversarial ones: below this.
 inline constexpr double kAdversarialRateMax = 1e-3;
-// Mean z² of each quantity over the nominal classes.
+// Frames in which the engine runs out of its work budget, of each kind and in all.
+inline constexpr double kWorkLimitedMax = 0.005;
+// Mean z² of each quantity over the runs of nominal classes in whose scans no motion is: sigma is that of the estimate,
+// and what a moving machine does to a scan is in the level alone.
 inline constexpr double kMeanZ2Min = 0.5;
 inline constexpr double kMeanZ2Max = 1.3;
 // Runs that it takes to ask for that: each has only one rock, and the mean over fewer scatters more than these bounds.
 inline constexpr std::size_t kRunsForMeanZ2 = 200;
+
+// Part of the whole; 0 of nothing.
+double rate(std::size_t events, std::size_t frames);
 
 // One line per demand that does not hold; empty when the gate is passed.
 std::vector<std::string> gate_faults(const Card& card);

@@ -39,7 +39,7 @@ void ScaledCounts::add(const FrameRecord& frame, double scale, const AlertLimits
     const Judged judged = judge(v.measured, v.truth, is_angle(q), limit_of(q, limits));
     any_misleading |= judged.misleading;
     any_beyond |= judged.value_beyond_protection || judged.raw_beyond_protection;
-    if (!std::isfinite(v.truth) || frame.phase == Phase::kDriveIn) continue;
+    if (!std::isfinite(v.truth) || !is_in_shares(frame)) continue;
     ++(is_angle(q) ? angles : distances);
     if (valid) ++(is_angle(q) ? valid_angles : valid_distances);
   }

@@ -35,11 +35,18 @@ std::string settings_text(const LoadedConfig& loaded) {
   return text.empty() ? "defaults" : text.substr(0, text.size() - 1);
 }
 
+bool moves(const api::Config& config) {
+  char motion[POSE_WALL_TEXT_MAX] = {};
+  pose_wall_config_get_text(config.get(), "motion", motion, sizeof(motion));
+  return std::string(motion) == "on";
+}
+
 // Of all runs, drawn sizes included by way of the program that draws them.
 std::string runs_text(const std::vector<Run>& runs) {
   std::string text;
   for (const Run& run : runs) {
-    text += fmt::format("{} {} {} {} {} {}\n", run.scene, run.sensor, run.draw, run.seed, run.frames, run.drive_in_m);
+    text += fmt::format("{} {} {} {} {} {}{}\n", run.scene, run.sensor, run.draw, run.seed, run.frames, run.drive_in_m,
+                        set_words(run.settings));
   }
   return fmt::format("{}, {}, {}", counted(runs.size(), "run"), counted(frames_of(runs), "frame"),
                      fingerprint_text(fingerprint(text)));
@@ -64,7 +71,8 @@ Json plan_page(const PlanRequest& plan) {
           {"first_draw", plan.first_draw},
           {"frames", number_page(plan.frames)},
           {"seed", plan.seed},
-          {"drive_in_m", plan.drive_in_m}};
+          {"drive_in_m", plan.drive_in_m},
+          {"scans", scans_name(plan.scans)}};
 }
 
 PlanRequest plan_from(const Json& page) {
@@ -79,6 +87,7 @@ PlanRequest plan_from(const Json& page) {
   plan.frames = number_from(page.at("frames"));
   plan.seed = page.at("seed");
   plan.drive_in_m = page.value("drive_in_m", 0.0);
+  plan.scans = scans_named(page.value("scans", scans_name(Scans::kInstant)));  // what older versions did
   return plan;
 }
 
@@ -137,6 +146,7 @@ Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs,
   manifest.frames = frames_of(runs);
   manifest.plan = request;
   manifest.engine = choice;
+  manifest.motion_is_on = moves(loaded.config);
   return manifest;
 }
 
@@ -177,7 +187,9 @@ void write_manifest(const std::filesystem::path& folder, const Manifest& manifes
   page["frames"] = manifest.frames;
   page["request"] = plan_page(manifest.plan);
   page["part"] = part_page(manifest);
-  page["engine"] = {{"config", manifest.engine.config_file}, {"set", manifest.engine.settings}};
+  page["engine"] = {{"config", manifest.engine.config_file},
+                    {"set", manifest.engine.settings},
+                    {"motion", manifest.motion_is_on ? "on" : "off"}};
   page["command"] = manifest.command();
   write_whole_file(file_in(folder), page.dump(2) + "\n");
 }
@@ -206,6 +218,7 @@ Manifest read_manifest(const std::filesystem::path& folder) {
     take_part(page.value("part", Json()), &manifest);
     manifest.engine.config_file = page.at("engine").at("config");
     page.at("engine").at("set").get_to(manifest.engine.settings);
+    manifest.motion_is_on = page.at("engine").value("motion", "on") == "on";
     return manifest;
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(fmt::format("{}: not as this version writes it ({}); another folder is needed, or --fresh",

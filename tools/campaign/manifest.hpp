@@ -28,6 +28,7 @@ struct Manifest {
   std::optional<Part> part;   // the folder's, of the campaign's runs; none: all of them
   std::size_t part_runs = 0;  // of the part
   EngineChoice engine;
+  bool motion_is_on = true;  // the engine's key `motion`
 
   std::string command() const { return campaign_command(plan, engine); }
   // Stands in each record.

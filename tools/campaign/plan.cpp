@@ -12,6 +12,7 @@
 
 #include "campaign/event.hpp"
 #include "campaign/fingerprint.hpp"
+#include "sim/parameters.hpp"
 #include "sim/pose.hpp"
 #include "sim/scenes.hpp"
 #include "terminal/did_you_mean.hpp"
@@ -73,7 +74,9 @@ Run make_run(const PlanRequest& request, const Size& size, const std::string& sc
           draw,
           run_seed(request.seed, scene, sensor, draw),
           request.frames.value_or(size.frames),
-          request.drive_in_m};
+          request.drive_in_m,
+          0,
+          movement_of({scene, sensor, draw, run_seed(request.seed, scene, sensor, draw)}, request.scans)};
   const sim::Setup setup = setup_of(run);
   run.drive_in_frames = sim::drive_in_frames(setup);
   const std::uint32_t watched = frames_to_watch(setup);
@@ -98,6 +101,7 @@ std::uint32_t draws_of(const PlanRequest& request, const Size& size, const std::
 // Rock that repeats could look the same at two places of the way.
 sim::Setup setup_of(const Run& run) {
   sim::Setup setup = sim::make_setup(run.scene, run.sensor, true, run.seed);
+  for (const std::string& setting : run.settings) sim::set_parameter(setup, setting);
   if (run.drive_in_m > 0.0) {
     setup.machine.drive_in_m = run.drive_in_m;
     setup.rock.rock_repeats = 0.0;

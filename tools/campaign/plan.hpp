@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/movement.hpp"
 #include "sim/setup.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -19,13 +20,14 @@ struct Run {
   std::string scene;
   std::string sensor;
   std::uint32_t draw = 0;
-  std::uint64_t seed = 0;             // of `pose_wall sim --random`: gives the same frames
-  std::uint32_t frames = 0;           // of the scene
-  double drive_in_m = 0.0;            // driven before the scene begins
-  std::uint32_t drive_in_frames = 0;  // on this way
+  std::uint64_t seed = 0;               // of `pose_wall sim --random`: gives the same frames
+  std::uint32_t frames = 0;             // of the scene
+  double drive_in_m = 0.0;              // driven before the scene begins
+  std::uint32_t drive_in_frames = 0;    // on this way
+  std::vector<std::string> settings{};  // KEY=VALUE of the simulator over what the scene draws: see movement_of
 };
 
-// The scene as this run draws it.
+// The scene as this run draws it, with the run's settings and its way in.
 sim::Setup setup_of(const Run& run);
 
 struct PlanRequest {
@@ -39,6 +41,7 @@ struct PlanRequest {
   std::uint32_t first_draw = 0;
   std::uint64_t seed = 1;
   double drive_in_m = 0.0;  // driven before each scene begins
+  Scans scans = Scans::kTurning;
 };
 
 std::vector<std::string> size_names();

@@ -10,9 +10,10 @@ namespace {
 
 std::string by_files(const WorstEvent& event, const Manifest& manifest) {
   return fmt::format(
-      "pose_wall sim --scene {} --sensor {} --random --seed {} --frames {} --output DIR && pose_wall run --config "
+      "pose_wall sim --scene {} --sensor {} --random --seed {}{} --frames {} --output DIR && pose_wall run --config "
       "DIR/pose_wall.yaml{} --output DIR/out.csv DIR/frames",
-      event.run.scene, event.run.sensor, event.run.seed, event.frame + 1, engine_words(manifest.engine));
+      event.run.scene, event.run.sensor, event.run.seed, set_words(event.run.settings), event.frame + 1,
+      engine_words(manifest.engine));
 }
 
 }  // namespace
@@ -20,7 +21,8 @@ std::string by_files(const WorstEvent& event, const Manifest& manifest) {
 std::string run_recipe(const Run& run, std::uint32_t frames, const Manifest& manifest) {
   return fmt::format("{} --seed {} --scenes {} --sensors {} --first-draw {} --draws 1 --frames {}{}{} --output DIR",
                      verb_words(manifest.plan), manifest.plan.seed, run.scene, run.sensor, run.draw, frames,
-                     drive_in_words(run.drive_in_m), engine_words(manifest.engine));
+                     drive_in_words(run.drive_in_m) + (manifest.plan.motion ? "" : scans_words(manifest.plan.scans)),
+                     engine_words(manifest.engine));
 }
 
 std::string recipe(const WorstEvent& event, const Manifest& manifest) {

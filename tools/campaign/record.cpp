@@ -4,6 +4,7 @@
 #include "campaign/record.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <sstream>
@@ -17,7 +18,7 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-constexpr std::array<const char*, 5> kPhases = {"", "before", "event", "after", "drive_in"};
+constexpr std::array<const char*, 6> kPhases = {"", "before", "event", "after", "drive_in", "first"};
 
 std::uint32_t bit_of(const std::string& reason) {
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
@@ -26,10 +27,16 @@ std::uint32_t bit_of(const std::string& reason) {
   throw CsvError(fmt::format("'{}' is no reason", reason));
 }
 
+std::vector<std::string> parts_of(const std::string& cell) {
+  std::vector<std::string> parts;
+  std::istringstream words(cell);
+  for (std::string word; std::getline(words, word, '|');) parts.push_back(word);
+  return parts;
+}
+
 std::uint32_t reasons_of(const std::string& names) {
   std::uint32_t bits = 0;
-  std::istringstream words(names);
-  for (std::string word; std::getline(words, word, '|');) bits |= bit_of(word);
+  for (const std::string& name : parts_of(names)) bits |= bit_of(name);
   return bits;
 }
 
@@ -47,14 +54,15 @@ Phase phase_of(const std::string& name) {
   throw CsvError(fmt::format("'{}' is no phase of a run", name));
 }
 
-constexpr std::size_t kFirstQuantity = 7;  // columns before it
+constexpr std::size_t kFirstQuantity = 9;  // columns before it
 constexpr std::size_t kPerQuantity = 7;
 
 FrameRecord frame_of(const CsvTable& table, std::size_t row) {
   FrameRecord frame;
-  frame.frame = whole_number<std::uint32_t>(table.cell(row, 4));
-  frame.stamp_ns = whole_number<std::int64_t>(table.cell(row, 5));
-  frame.phase = phase_of(table.cell(row, 6));
+  frame.frame = whole_number<std::uint32_t>(table.cell(row, 5));
+  frame.stamp_ns = whole_number<std::int64_t>(table.cell(row, 6));
+  frame.phase = phase_of(table.cell(row, 7));
+  frame.reasons = reasons_of(table.cell(row, 8));
   std::size_t column = kFirstQuantity;
   for (QuantityRecord& q : frame.quantity) {
     q.truth = table.number(row, column);
@@ -72,6 +80,7 @@ RunRecord record_of(const CsvTable& table) {
   RunRecord record;
   record.run = {table.cell(0, 0), table.cell(0, 1), whole_number<std::uint32_t>(table.cell(0, 2)),
                 whole_number<std::uint64_t>(table.cell(0, 3))};
+  record.run.settings = parts_of(table.cell(0, 4));
   for (std::size_t row = 0; row < table.rows(); ++row) {
     record.frames.push_back(frame_of(table, row));
     ++(record.frames.back().phase == Phase::kDriveIn ? record.run.drive_in_frames : record.run.frames);
@@ -80,6 +89,16 @@ RunRecord record_of(const CsvTable& table) {
 }
 
 }  // namespace
+
+bool is_in_shares(const FrameRecord& frame) {
+  return frame.phase != Phase::kDriveIn && frame.phase != Phase::kFirst;
+}
+
+bool met_work_limit(const FrameRecord& frame) {
+  std::uint32_t reasons = frame.reasons;
+  for (const QuantityRecord& q : frame.quantity) reasons |= q.reasons;
+  return (reasons & POSE_WALL_R_WORK_LIMIT) != 0;
+}
 
 bool same_outcome(const FrameRecord& a, const FrameRecord& b) {
   const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
@@ -97,7 +116,8 @@ Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& 
 }
 
 std::vector<std::string> record_head() {
-  std::vector<std::string> head = {"scene", "sensor", "draw", "seed", "frame", "stamp_ns", "phase"};
+  std::vector<std::string> head = {"scene", "sensor",   "draw",  "seed",        "set",
+                                   "frame", "stamp_ns", "phase", "frame_reason"};
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const std::string name = pose_wall_quantity_name(q);
     head.insert(head.end(), {name + "_truth", name, name + "_raw", name + "_sigma", name + "_pl", name + "_state",
@@ -113,9 +133,11 @@ std::string record_lines(const RunRecord& record) {
                                       record.run.sensor,
                                       std::to_string(record.run.draw),
                                       std::to_string(record.run.seed),
+                                      fmt::format("{}", fmt::join(record.run.settings, "|")),
                                       std::to_string(frame.frame),
                                       std::to_string(frame.stamp_ns),
-                                      kPhases[static_cast<std::size_t>(frame.phase)]};
+                                      kPhases[static_cast<std::size_t>(frame.phase)],
+                                      reason_names(frame.reasons)};
     for (const QuantityRecord& q : frame.quantity) {
       for (const double number :
            {q.truth, q.measured.value, q.measured.raw, q.measured.sigma, q.measured.protection_level}) {

@@ -18,8 +18,9 @@
 
 namespace pose_wall::tools::campaign {
 
-// Where a frame stands to its run's event; kDriveIn: on the way to where the scene begins.
-enum class Phase { kNone, kBefore, kEvent, kAfter, kDriveIn };
+// Where a frame stands to its run's event; kDriveIn: on the way to where the scene begins; kFirst: the first that its
+// engine ever sees, of which no motion is known.
+enum class Phase { kNone, kBefore, kEvent, kAfter, kDriveIn, kFirst };
 
 struct QuantityRecord {
   double truth;
@@ -31,8 +32,14 @@ struct FrameRecord {
   std::uint32_t frame = 0;
   std::int64_t stamp_ns = 0;
   Phase phase = Phase::kNone;
+  std::uint32_t reasons = 0;  // of the frame
   std::array<QuantityRecord, POSE_WALL_QUANTITIES> quantity{};
 };
+
+// Whether shares count it: what an engine tells on the way in, or of its first frame, is told apart.
+bool is_in_shares(const FrameRecord& frame);
+// Whether the engine ran out of its work budget (work_max) in it.
+bool met_work_limit(const FrameRecord& frame);
 
 // Whether values, levels and states are the same.
 bool same_outcome(const FrameRecord& a, const FrameRecord& b);

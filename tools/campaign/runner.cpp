@@ -22,6 +22,7 @@ namespace {
 
 Phase phase_of(std::uint32_t frame, const Run& run, const std::optional<Event>& event) {
   if (frame < run.drive_in_frames) return Phase::kDriveIn;
+  if (frame == 0) return Phase::kFirst;
   if (!event) return Phase::kNone;
   const std::uint32_t of_scene = frame - run.drive_in_frames;
   if (of_scene < event->first) return Phase::kBefore;
@@ -37,6 +38,7 @@ void demand_ok(std::int32_t status, const Run& run) {
 FrameRecord record_of(const pose_wall_result& result, const TruthRow& truth) {
   FrameRecord record;
   record.stamp_ns = result.stamp_ns;
+  record.reasons = result.frame_reasons;
   for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const pose_wall_value& v = result.quantity[q];
     record.quantity[q] = {truth.value[q], {v.value, v.raw, v.sigma, v.protection_level, v.state}, v.reasons};

@@ -51,9 +51,10 @@ std::string limit_of_table(const pose_wall_trace_info& gate, const GateCounts& c
 std::string head_of(const Sweep& sweep) {
   const pose_wall_trace_info& gate = gate_of(sweep);
   const std::string key = *gate.key != '\0' ? fmt::format("; key {}", gate.key) : "";
-  return fmt::format("{}: {}\n{}{}{}; {} where it does not hold{}; from: {}\n{}\n\n", gate.name, gate.asks,
+  return fmt::format("{}: {}\n{}{}{}; {} where it does not hold{}; from: {}\n{}\n{}\n\n", gate.name, gate.asks,
                      explain::sense_name(gate.sense), *gate.unit != '\0' ? ", in " : "", gate.unit,
-                     explain::effect_name(gate.effect), key, gate.origin, command_of(sweep));
+                     explain::effect_name(gate.effect), key, gate.origin, command_of(sweep),
+                     movement_text(sweep.manifest));
 }
 
 std::string foot_of(const Sweep& sweep) {
@@ -114,6 +115,8 @@ std::string sweep_json(const Sweep& sweep) {
   return json_text(
              {{"command", command_of(sweep)},
               {"version", pose_wall_version()},
+              {"motion", "off"},
+              {"scans", scans_name(sweep.manifest.plan.scans)},
               {"gate", gate.name},
               {"asks", gate.asks},
               {"sense", explain::sense_name(gate.sense)},

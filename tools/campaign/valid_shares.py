@@ -4,7 +4,8 @@
 """Prints valid_shares.def from the frames of campaigns, the runs of all folders together.
 
 Share: valid values of the values that have a truth, rounded down. Spread: standard deviation of the runs' shares, as if
-one run more had been off by a half, rounded up. A run counts once because its frames share their rock.
+one run more had been off by a half, rounded up. A run counts once because its frames share their rock. First frames of
+runs are left out, as on the card.
 
 usage: valid_shares.py DIR... > valid_shares.def"""
 
@@ -35,6 +36,8 @@ def classes_of(folders):
     for folder in folders:
         with open(folder / "frames.csv", encoding="ascii") as file:
             for row in csv.DictReader(file):
+                if row["phase"] == "first":
+                    continue
                 one = classes[row["scene"], row["sensor"]]
                 for group, names in GROUPS.items():
                     for name in names:
@@ -50,6 +53,8 @@ def main(folders):
     for folder, one in zip(folders, campaigns):
         if one["request"].get("drive_in_m", 0.0) > 0.0:
             sys.exit(f"{folder}: measured with --drive-in; floors are of engines that begin with the scene")
+        if one["request"].get("scans") != "turning" or one["engine"].get("motion") != "on":
+            sys.exit(f"{folder}: measured without scans that take time or without motion; floors are of both")
     classes = classes_of(folders)
     kinds = {(one["scene"], one["sensor"]): one["kind"]
              for folder in folders for one in json.loads((folder / "card.json").read_text())["classes"]}

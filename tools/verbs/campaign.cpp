@@ -52,6 +52,7 @@ struct CampaignOptions {
   std::size_t events = 30;
   std::string part;                // NUMBER/PARTS, or none
   std::vector<std::string> merge;  // folders of parts
+  std::string scans;               // or none
   bool list = false;
   bool fresh = false;
   bool card_only = false;
@@ -159,12 +160,19 @@ int tell_interrupted(const CampaignOptions& options) {
   return kExitInterrupted;
 }
 
+// Of runs by the engine alone: that of the gates has no motion library beside it.
+campaign::Manifest manifest_of_gates(const CampaignOptions& options, const std::vector<campaign::Run>& runs) {
+  campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  manifest.motion_is_on = false;
+  return manifest;
+}
+
 // Nothing is kept: the table is all there is of it.
 int run_sweep(const CampaignOptions& options) {
   check_settings(options.engine, options.quiet);
   const campaign::SweepRequest request = campaign::parse_sweep(options.sweep);
   const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
-  const campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  const campaign::Manifest manifest = manifest_of_gates(options, runs);
   const campaign::Sweep sweep = campaign::run_sweep(request, manifest, runs, {options.jobs, !options.quiet});
   fmt::print("{}", options.json ? campaign::sweep_json(sweep) : campaign::sweep_text(sweep));
   return kExitDone;
@@ -173,7 +181,7 @@ int run_sweep(const CampaignOptions& options) {
 int run_ablation(const CampaignOptions& options) {
   check_settings(options.engine, options.quiet);
   const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
-  const campaign::Manifest manifest = campaign::make_manifest(options.plan, runs, options.engine);
+  const campaign::Manifest manifest = manifest_of_gates(options, runs);
   const campaign::Ablation ablation =
       campaign::run_ablation(options.ablate, manifest, runs, {options.jobs, !options.quiet});
   fmt::print("{}", options.json ? campaign::ablation_json(ablation) : campaign::ablation_text(ablation));
@@ -251,7 +259,7 @@ void demand_only_what_goes_along(const CLI::App& verb, const CampaignOptions& op
   if (prints_table(options)) {
     demand_only(verb,
                 {options.sweep.empty() ? "--ablate" : "--sweep", "--size", "--scenes", "--kind", "--sensors", "--draws",
-                 "--first-draw", "--frames", "--seed", "--jobs", "--config", "--set", "--json", "--quiet"},
+                 "--first-draw", "--frames", "--scans", "--seed", "--jobs", "--config", "--set", "--json", "--quiet"},
                 "prints a table and leaves no records");
   }
 }
@@ -264,6 +272,9 @@ void demand_words_go_together(const CLI::App& verb, const CampaignOptions& optio
   if (options.plan.motion && verb.get_option("--drive-in")->count() > 0) {
     throw std::invalid_argument(
         "--drive-in applies to scenes; in the classes of --motion the machine drives by itself");
+  }
+  if (options.plan.motion && !options.scans.empty()) {
+    throw std::invalid_argument("--scans applies to scenes; each class of --motion has its own");
   }
   if (options.list && !options.plan.motion) {
     throw std::invalid_argument("--list needs --motion; `pose_wall sim --list` has the scenes");
@@ -280,6 +291,13 @@ void demand_words_go_together(const CLI::App& verb, const CampaignOptions& optio
   if (leaves_records && options.output.empty()) throw std::invalid_argument("--output is required: a folder");
 }
 
+// Without the motion library nothing takes a machine's motion out of a scan.
+void take_scans(CampaignOptions& options) {
+  const bool is_instant = prints_table(options) && options.scans.empty();
+  if (!options.scans.empty()) options.plan.scans = campaign::scans_named(options.scans);
+  if (is_instant) options.plan.scans = campaign::Scans::kInstant;
+}
+
 // "rough, props" is two names, and no blank in front of the second.
 std::string trimmed(std::string name) {
   const char* const blanks = " \t\n";
@@ -290,7 +308,8 @@ std::string trimmed(std::string name) {
 
 constexpr double kDriveInMost_m = 100.0;  // judgement, 2026-11-27: 1250 frames a run, a minute or more
 
-void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
+void add_plan_options(CLI::App& verb, CampaignOptions& options) {
+  campaign::PlanRequest& plan = options.plan;
   verb.add_option("--size", plan.size,
                   "small (each scene once, seconds), medium (minutes) or large (more than 30,000 frames)")
       ->type_name("SIZE")
@@ -314,6 +333,10 @@ void add_plan_options(CLI::App& verb, campaign::PlanRequest& plan) {
                   "Metres that the machine drives before each scene begins, so that the engine knows the road")
       ->type_name("METRES")
       ->check(number_within(0.0, kDriveInMost_m));
+  verb.add_option("--scans", options.scans,
+                  "turning: a scan takes the sensor's turn, points have times, and every second run drives (default); "
+                  "instant: a scan is of one instant (default of --sweep and --ablate, which know no motion)")
+      ->check(one_of(campaign::scans_names()));
   verb.add_option("--seed", plan.seed, "The same seed gives the same draws")
       ->capture_default_str()
       ->check(whole_number());
@@ -364,7 +387,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("campaign", "Measure many random scenes; write the integrity card");
   verb->add_option("-o,--output", options->output,
                    "Folder for records and card; an interrupted campaign continues there");
-  add_plan_options(*verb, options->plan);
+  add_plan_options(*verb, *options);
   verb->add_option("-j,--jobs", options->jobs, "Runs at a time")
       ->capture_default_str()
       ->check(whole_number_within(1, 1024));
@@ -392,6 +415,7 @@ void add_campaign(CLI::App& app, int& exit_code) {
       fmt::print("{}", campaign::motion_class_list());
       return;
     }
+    take_scans(*options);
     sort_names(&options->plan.scenes);
     sort_names(&options->plan.sensors);
     exit_code = prints_table(*options) ? table_verb(*options) : run_verb(*options);
