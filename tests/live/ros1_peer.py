@@ -28,17 +28,23 @@ sys.path[:0] = [str(ROOT / "tests/live")]
 
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
-try:
-    import genpy.dynamic
-    import rosbag
-    import rospy
-    from geometry_msgs.msg import TransformStamped, Vector3Stamped
-    from sensor_msgs.msg import LaserScan, PointCloud2, PointField
-    from std_msgs.msg import Float32MultiArray
-    from tf2_msgs.msg import TFMessage
-except ImportError as missing:
-    print(f"SKIPPED: {missing} (packages python3-rospy python3-sensor-msgs python3-tf2-msgs and others)")
-    sys.exit(0)
+# rostopic reads by the packages of the messages, diagnostic_msgs among them.
+live_peer.need("python3-rospy python3-rosbag python3-rosmaster python3-rostopic python3-std-msgs python3-geometry-msgs "
+               "python3-sensor-msgs python3-tf2-msgs python3-diagnostic-msgs",
+               programs=("rosmaster", "rostopic", "rosbag"),
+               modules=("genpy", "rosbag", "rospy", "std_msgs", "geometry_msgs", "sensor_msgs", "tf2_msgs",
+                        "diagnostic_msgs"))
+
+# pylint: disable=wrong-import-position
+import genpy.dynamic  # noqa: E402
+import rosbag  # noqa: E402
+import rospy  # noqa: E402
+from geometry_msgs.msg import TransformStamped, Vector3Stamped  # noqa: E402
+from sensor_msgs.msg import LaserScan, PointCloud2, PointField  # noqa: E402
+from std_msgs.msg import Float32MultiArray  # noqa: E402
+from tf2_msgs.msg import TFMessage  # noqa: E402
+
+# pylint: enable=wrong-import-position
 
 if sys.argv[1:] == ["drive"]:  # called by the test, with its environment
     URI = os.environ["ROS_MASTER_URI"]
@@ -409,4 +415,4 @@ if __name__ == "__main__":
         driver_of_the_test = Peer()
         driver_of_the_test.thread.start()
         driver_of_the_test.thread.join()
-    unittest.main()
+    live_peer.main()

@@ -317,4 +317,4 @@ class Discovery(Ros2):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    live_peer.main()
