@@ -92,6 +92,11 @@ class Program:
         self.reader.join(patience_s)
         return time.monotonic() - begin
 
+    def stops_by_itself(self):
+        """Asked to end. The daemon gives its parts a second; then it ends by force, with another status."""
+        self.stop()
+        return self.process.returncode == 0
+
     def kill(self):
         if self.process.poll() is None:
             self.process.kill()
@@ -113,6 +118,16 @@ def fact(of_program, part, name):
     for line in reversed(list(of_program.lines)):
         if f" {part}" in line and f"; {name} " in line:
             return int(line.split(f"; {name} ")[1].split(";")[0])
+    return -1
+
+
+def lost_frames(of_program):
+    """Of those that the daemon took: pushed, less measured, less dropped with a reason. 0 once it has stopped."""
+    for line in reversed(list(of_program.lines)):
+        if "; frames pushed " in line:
+            counts = dict(part.rsplit(" ", 1) for part in line.split("; ") if part.rsplit(" ", 1)[-1].isdigit())
+            dropped = sum(int(count) for name, count in counts.items() if name.startswith("dropped"))
+            return int(counts["frames pushed"]) - int(counts["frames measured"]) - dropped
     return -1
 
 
