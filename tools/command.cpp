@@ -19,6 +19,7 @@
 #include "language/language.hpp"
 #include "pose_wall.h"
 #include "terminal/did_you_mean.hpp"
+#include "terminal/interrupt.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -126,7 +127,10 @@ CommandGrammar command_grammar() {
   return grammar_of(app);
 }
 
+// The exit status of the verb that the words name. Whichever it is, and however it came to its end: after Ctrl-C it is
+// that of an interrupt, also before a first result. Bad usage stays bad usage.
 int run_command(int argc, const char* const* argv) {
+  const InterruptWatch watch;
   choose_language_by(argc, argv, "pose_wall");
   CLI::App app(tr(kDescription), "pose_wall");
   int exit_code = kExitDone;
@@ -136,11 +140,13 @@ int run_command(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return report_parse_error(app, error);
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "pose_wall {}: {}\n", app.get_subcommands().front()->get_name(), tr("interrupted"));
   } catch (const std::exception& error) {
     fmt::print(stderr, "pose_wall {}: {}\n", app.get_subcommands().front()->get_name(), error.what());
     return kExitUsage;
   }
-  return exit_code;
+  return InterruptWatch::is_interrupted() ? kExitInterrupted : exit_code;
 }
 
 }  // namespace pose_wall::tools

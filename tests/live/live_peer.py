@@ -1,17 +1,51 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""For the tests that look at pose_walld from outside: starts it, waits for what it logs, finds free ports."""
+"""For the tests that look at pose_walld from outside: starts it, waits for what it logs, finds free ports; says what is
+missing, so that a test is skipped by name."""
 
 import contextlib
+import importlib.util
 import os
 import pathlib
+import shutil
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
 import time
+import unittest
+
+SKIPPED = 77  # as live.cmake has it
 
 PATIENCE_S = 30  # long enough for the slowest machine; what is waited for comes far sooner
+
+
+def program(name):
+    """Where it lies; empty where it is not installed. Debian keeps daemons out of people's path."""
+    return shutil.which(name) or shutil.which(name, path="/usr/sbin") or ""
+
+
+def has_module(name):
+    return importlib.util.find_spec(name) is not None
+
+
+def need(packages, programs=(), modules=()):
+    """Ends the test as skipped, with the names, unless all of these are there. One of them says nothing of the others:
+    each script of tools/ brings other packages, and so do people."""
+    missing = [name for name in programs if not program(name)] + [name for name in modules if not has_module(name)]
+    if missing:
+        print(f"SKIPPED: there is no {', no '.join(missing)} (packages {packages})")
+        sys.exit(SKIPPED)
+
+
+def main(**options):
+    """unittest's, but what failed is never hidden by a part that was skipped for want of a package."""
+    result = unittest.main(exit=False, **options).result
+    missing = [(str(test), why) for test, why in result.skipped if why.startswith("SKIPPED:")]
+    for test, why in missing:
+        print(f"{why}: {test}")
+    sys.exit(1 if not result.wasSuccessful() else SKIPPED if missing else 0)
 
 
 def free_port(kind=socket.SOCK_STREAM):
@@ -58,6 +92,11 @@ class Program:
         self.reader.join(patience_s)
         return time.monotonic() - begin
 
+    def stops_by_itself(self):
+        """Asked to end. The daemon gives its parts a second; then it ends by force, with another status."""
+        self.stop()
+        return self.process.returncode == 0
+
     def kill(self):
         if self.process.poll() is None:
             self.process.kill()
@@ -72,6 +111,24 @@ def running(*words, **options):
         yield program
     finally:
         program.kill()
+
+
+def fact(of_program, part, name):
+    """The newest count of a part, as the log's status lines tell it."""
+    for line in reversed(list(of_program.lines)):
+        if f" {part}" in line and f"; {name} " in line:
+            return int(line.split(f"; {name} ")[1].split(";")[0])
+    return -1
+
+
+def lost_frames(of_program):
+    """Of those that the daemon took: pushed, less measured, less dropped with a reason. 0 once it has stopped."""
+    for line in reversed(list(of_program.lines)):
+        if "; frames pushed " in line:
+            counts = dict(part.rsplit(" ", 1) for part in line.split("; ") if part.rsplit(" ", 1)[-1].isdigit())
+            dropped = sum(int(count) for name, count in counts.items() if name.startswith("dropped"))
+            return int(counts["frames pushed"]) - int(counts["frames measured"]) - dropped
+    return -1
 
 
 def simulated_road(pose_wall, frames=20, sensor="os1-64"):

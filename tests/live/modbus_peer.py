@@ -20,15 +20,14 @@ sys.dont_write_bytecode = True  # the sources stay as they are
 ROOT, POSE_WALL, POSE_WALLD = pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1), sys.argv.pop(1)
 sys.path[:0] = [str(ROOT / "tests/live"), str(ROOT / "tests/checks"), str(ROOT / "tools/plc")]
 
-try:
-    from pymodbus.client import ModbusTcpClient
-except ImportError:
-    print("SKIPPED: there is no pymodbus (package python3-pymodbus)")
-    sys.exit(0)
-import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
+
+live_peer.need("python3-pymodbus python3-serial-asyncio", modules=("pymodbus", "serial_asyncio"))
+
+import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text_run  # noqa: E402  pylint: disable=wrong-import-position
+from pymodbus.client import ModbusTcpClient  # noqa: E402  pylint: disable=wrong-import-position
 
 IMAGES = 10_000  # as many of each version
 PLACE = {1: (0, 120), 2: (1000, 124), 3: (2000, 66)}  # version: first register, registers
@@ -189,7 +188,9 @@ class ObstacleStop(unittest.TestCase):
         began = time.monotonic()
         daemon.process.stdin.write("\n")
         daemon.process.stdin.flush()
-        while time.monotonic() - began < 1.5:
+        def is_all_told():
+            return len(beats) > 25 and 1 in stale and max(age for age in [0, *ages] if age < 65535) > 1000
+        while not is_all_told() and time.monotonic() - began < live_peer.PATIENCE_S:
             word, allowed_mm_s, reasons, age_ms = client.read_input_registers(3000, 4, slave=1).registers
             controller.now_ms = int(1000 * (time.monotonic() - began))
             controller.call(block, dwRegister=word)
@@ -200,7 +201,7 @@ class ObstacleStop(unittest.TestCase):
             self.assertTrue(block["xStop"])
             time.sleep(0.01)
         self.assertEqual(block["udiFault"], 0, "the daemon answers")
-        self.assertGreater(len(beats), 25, "every 20 ms")
+        self.assertGreater(len(beats), 25, "it goes on")
         self.assertIn(1, stale, "the only frame is stale by now")
         self.assertGreater(max(age for age in ages if age < 65535), 1000)
         daemon.kill()
@@ -210,4 +211,4 @@ class ObstacleStop(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    live_peer.main()

@@ -25,11 +25,8 @@ sys.path[:0] = [str(ROOT / "tests/live")]
 
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
-BROKER = shutil.which("mosquitto") or shutil.which("mosquitto", path="/usr/sbin")
-SUBSCRIBER = shutil.which("mosquitto_sub")
-if not BROKER or not SUBSCRIBER:
-    print("SKIPPED: there is no mosquitto (packages mosquitto mosquitto-clients)")
-    sys.exit(0)
+live_peer.need("mosquitto mosquitto-clients", programs=("mosquitto", "mosquitto_sub"))
+BROKER, SUBSCRIBER = live_peer.program("mosquitto"), live_peer.program("mosquitto_sub")
 
 
 class Subscriber:
@@ -225,4 +222,4 @@ class Mqtt(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    live_peer.main()

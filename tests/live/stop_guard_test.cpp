@@ -172,19 +172,23 @@ TEST_F(StopGuardTest, AnEndInOrderSaysStopAsItsLastWord) {
 // fall. Its longest time between reads is 0.8 s.
 TEST_F(StopGuardTest, TheHeartbeatGoesOnWithinAControllersWatchdogAndDoesNotSeemToFall) {
   ASSERT_TRUE(is_brought_to_drive());
-  const auto beats_of_a_second = [this](int frames) {
+  // Waits for 50 beats, a second's on a machine that is idle, with so many frames between them. How many there may be
+  // is exact; how many there are at least hangs on what else the machine has to do.
+  const auto beats_with = [this](int frames) {
+    constexpr std::uint64_t kBeats = 50;
     const std::uint64_t before = guard_->stop_now().rounds;
     const std::int64_t began_ns = monotonic_ns();
-    for (int k = 0; k < 10; ++k) {
-      if (k < frames) show();
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
+    int shown = 0;
+    EXPECT_TRUE(becomes_true([&] {
+      if (shown < frames) show();
+      shown = std::min(shown + 1, frames);
+      return guard_->stop_now().rounds - before >= kBeats;
+    }));
     const std::uint64_t beats = guard_->stop_now().rounds - before;
     EXPECT_LE(beats, static_cast<std::uint64_t>((monotonic_ns() - began_ns) / StopGuard::kTick_ns + frames + 1));
-    return beats;
   };
-  EXPECT_GE(beats_of_a_second(10), 15U) << "50 and more on a machine that is idle; the watchdog needs 5";
-  EXPECT_GE(beats_of_a_second(0), 10U) << "the frames have stopped, and the heartbeat tells that the guard has not";
+  beats_with(10);
+  beats_with(0);  // the frames have stopped, and the heartbeat tells that the guard has not
   EXPECT_FALSE(drives()) << "it is the state that stops the machine then";
   // Up to one frame in half a tick: then there are only frames, and below that at most as many ticks as frames.
   constexpr std::int64_t kSeldom_ns = 800'000'000;  // between two reads
@@ -207,8 +211,7 @@ TEST_F(StopGuardTest, FramesThatComeSlowerThanThePeriodStopAndTheHealthNamesTheK
 
 TEST_F(StopGuardTest, FramesThatComeLateAreToldFromSilence) {
   ASSERT_TRUE(is_brought_to_drive());
-  std::this_thread::sleep_for(std::chrono::milliseconds(600));
-  EXPECT_EQ(guard_->health().summary, "stops the machine: no frame comes");
+  ASSERT_TRUE(becomes_true([&] { return guard_->health().summary == "stops the machine: no frame comes"; }));
   EXPECT_TRUE(becomes_true([&] {
     show({}, kSecond_ns / 1000);  // by its stamp it waited since before the silence
     return guard_->health().summary == "stops the machine: frames come late, by their stamps";

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
@@ -26,6 +27,7 @@
 #include "pose_wall_runtime.h"
 #include "ran_command.hpp"
 #include "support/room.hpp"
+#include "terminal/interrupt.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::test {
@@ -147,6 +149,15 @@ TEST_F(ReplayBox, AGoodBoxComesOutAgain) {
   EXPECT_EQ(ran.exit_status, 0) << ran.printed;
   EXPECT_TRUE(contains(ran.printed, "6 events (0 to 5): 6 frames, 0 silences")) << ran.printed;
   EXPECT_TRUE(contains(ran.printed, "6 bit for bit as recorded, 0 otherwise")) << ran.printed;
+}
+
+TEST_F(ReplayBox, AnInterruptEndsItAtTheEventAtWork) {
+  const InterruptWatch watch;
+  ASSERT_EQ(std::raise(SIGINT), 0);
+  const std::string table = folder_.file("events.csv");
+  EXPECT_EQ(command({"replay-box", "--quiet", "--table", table, path_}).exit_status, 130);
+  std::ifstream stream(table);
+  EXPECT_EQ(CsvTable::parse(stream).rows(), 1U) << "of six";
 }
 
 TEST_F(ReplayBox, TheLastBitOfOneValueIsNamed) {

@@ -52,7 +52,7 @@ class Workers {
   }
 
   void count_frame(const std::string& note) {
-    if (InterruptWatch::is_interrupted()) throw Interrupted();
+    stop_if_interrupted();
     const std::lock_guard lock(mutex_);
     ++done_;
     bar_.advance(note);
@@ -77,7 +77,6 @@ class Workers {
 }  // namespace
 
 void work_on(const std::vector<Run>& runs, const Crew& crew, const std::function<RunWork()>& make_worker) {
-  const InterruptWatch watch;
   Workers(runs, crew, make_worker).run();
 }
 

@@ -5,19 +5,12 @@
 
 #pragma once
 
-#include <exception>
 #include <functional>
 #include <vector>
 
 #include "campaign/plan.hpp"
 
 namespace pose_wall::tools::campaign {
-
-// Ctrl-C came; the records of the runs that were done by then are there.
-class Interrupted : public std::exception {
- public:
-  const char* what() const noexcept override { return "interrupted"; }
-};
 
 struct Crew {
   unsigned jobs = 1;
@@ -28,7 +21,7 @@ struct Crew {
 using RunWork = std::function<void(const Run&, const std::function<void()>& on_frame)>;
 
 // `make_worker` is called once a thread. What goes wrong in one run ends them all; the first such error is thrown.
-// Ctrl-C ends them with the frame they are at: Interrupted.
+// Ctrl-C ends them with the frame they are at: Interrupted. The records of the runs that were done by then are there.
 void work_on(const std::vector<Run>& runs, const Crew& crew, const std::function<RunWork()>& make_worker);
 
 }  // namespace pose_wall::tools::campaign

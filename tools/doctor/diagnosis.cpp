@@ -98,8 +98,13 @@ std::string guess_text(const std::string& axis) {
 
 Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::optional<double> height_m,
                    const Look& look) {
-  Diagnosis d{recording.sensor.facts(), look_at_stamps(recording), {}, {}, {}, Proposal(told), {}};
+  Diagnosis d{
+      recording.sensor.facts(), look_at_stamps(recording), look_at_times(recording), {}, {}, {}, Proposal(told), {}};
   d.proposal.take_class(d.sensor.model, d.sensor.title, d.sensor.config);
+  // By times that are wrong otherwise less motion is left in a scan than without any.
+  if (d.times.fault == TimeFault::kMoved && !d.proposal.is_told("motion")) {
+    d.proposal.set("motion", "off", times_doubt(d.times));
+  }
   if (!recording.kept.empty()) {
     const bool is_told = d.proposal.is_told("extrinsic_roll") || d.proposal.is_told("extrinsic_pitch");
     d.mount = choose_mount(d.proposal.config(), is_told, height_m, recording.kept);

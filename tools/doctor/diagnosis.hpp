@@ -45,6 +45,7 @@ std::string rule_text();
 struct Diagnosis {
   SensorFacts sensor;
   StampHealth stamps;
+  ScanTimeFacts times;
   std::optional<MountChoice> mount;  // none: no frame to look at
   Ahead ahead;
   std::optional<Preview> preview;  // none: no frame to look at

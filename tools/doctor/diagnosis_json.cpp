@@ -129,6 +129,13 @@ std::string diagnosis_json(const Diagnosis& d) {
                {"confirm", v.confirm},
                {"sensor", sensor(d.sensor)},
                {"frames", stamps(d.stamps)}};
+  if (d.times.scans > 0) {
+    json["times"] = {{"scans", d.times.scans},
+                     {"spread_s", d.times.spread_s},
+                     {"turn_s", d.times.turn_s},
+                     {"fault", time_fault_name(d.times.fault)},
+                     {"faulty", d.times.faulty}};
+  }
   if (d.mount) {
     json["floor"] = floor_json(*d.mount);
     if (d.mount->story.floor.is_found()) {

@@ -34,6 +34,7 @@ void add_frame(Recording& recording, SourcedFrame& sourced, FrameStamps& stamps)
     if (status == POSE_WALL_OK) {
       note = note_of(sourced.frame->cloud, kept);
       note.rings = told_rings(*sourced.frame);
+      recording.times.add(*sourced.frame);
     } else {
       error = pose_wall_status_text(status);
     }

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "info/scan_times.hpp"
 #include "info/sensor_look.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "pose_wall.h"
@@ -46,6 +47,7 @@ struct Recording {
   std::vector<FrameNote> notes;
   std::vector<KeptFrame> kept;
   SensorLook sensor;                // by all readable frames
+  ScanTimeLook times;               // likewise
   std::vector<std::string> errors;  // inputs that gave nothing, and frames that could not be read
   bool interrupted = false;
 

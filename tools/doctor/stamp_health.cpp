@@ -35,6 +35,14 @@ void count_frames(const Recording& recording, StampHealth& health) {
 
 }  // namespace
 
+ScanTimeFacts look_at_times(const Recording& recording) {
+  std::vector<std::int64_t> stamps_ns;
+  for (const FrameNote& note : recording.notes) {
+    if (note.error.empty() && note.has_own_stamp) stamps_ns.push_back(note.stamp_ns);
+  }
+  return recording.times.facts(recording.sensor.facts(), stamps_ns);
+}
+
 StampHealth look_at_stamps(const Recording& recording) {
   std::vector<std::int64_t> stamps_ns;
   for (const FrameNote& note : recording.notes) {

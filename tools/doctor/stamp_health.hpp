@@ -25,4 +25,7 @@ struct StampHealth : StampSteps {
 
 StampHealth look_at_stamps(const Recording& recording);
 
+// Whether the times of the scans fit. Stamps that --rate made say nothing of them.
+ScanTimeFacts look_at_times(const Recording& recording);
+
 }  // namespace pose_wall::tools::doctor

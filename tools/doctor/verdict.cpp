@@ -153,6 +153,10 @@ void doubt_recording(const Diagnosis& d, Reasons& buts) {
   if (s.repeated > 0) buts.push_back(say("frames that repeat the one before: {}", s.repeated));
   if (s.still + s.back > 0) buts.push_back(say("repeated stamps: {}, backward steps: {}", s.still, s.back));
   if (s.gaps > 0) buts.push_back(say("gaps between frames: {}, the longest {:.2f} s", s.gaps, s.longest_s));
+  if (const std::string doubt = times_doubt(d.times); !doubt.empty()) {
+    const std::string advice = times_advice(d.times);
+    buts.push_back(advice.empty() ? say("times: {}", doubt) : say("times: {}. {}", doubt, advice));
+  }
   if (d.sensor.config.empty() && d.sensor.returns > 0.0) {
     buts.push_back(tr("no file of config/ is made for this sensor, so its gates are the defaults"));
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "drive/sight.hpp"
+#include "language/language.hpp"
 #include "planar/built_map.hpp"
 #include "planar/plane_pose.hpp"
 #include "planar/scan_trail.hpp"

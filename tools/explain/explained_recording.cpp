@@ -52,7 +52,6 @@ void tell_unreadable(ProgressBar& bar, const FrameOutcome& outcome) {
 
 std::optional<Explained> explain_one(const RecordingRun& run, FrameSequence& inputs, std::uint64_t frame) {
   FrameRunner runner(run.loaded.config, run.rate_hz, run.loaded.motion);
-  const InterruptWatch watch;
   ProgressBar bar(static_cast<std::size_t>(frame) + 1, run.shows_progress);
   RivalsSeen rivals;
   for (std::uint64_t i = 0; !InterruptWatch::is_interrupted(); ++i) {
@@ -79,7 +78,6 @@ std::optional<Explained> explain_one(const RecordingRun& run, FrameSequence& inp
 ExplainedRecording explain_all(const RecordingRun& run, FrameSequence& inputs) {
   ExplainedRecording all{Digest(*run.loaded.config.get()), std::nullopt, false};
   FrameRunner runner(run.loaded.config, run.rate_hz, run.loaded.motion);
-  const InterruptWatch watch;
   ProgressBar bar(inputs.frames(), run.shows_progress);
   RivalsSeen rivals;
   for (std::uint64_t i = 0; !(all.interrupted = InterruptWatch::is_interrupted()); ++i) {

@@ -42,6 +42,15 @@ Json sensor_json(const SensorFacts& sensor) {
           {"azimuth_span_deg", sensor.azimuth_span_deg}};
 }
 
+Json times_json(const ScanTimeFacts& times) {
+  if (times.scans == 0) return nullptr;
+  return {{"scans", times.scans},
+          {"spread_s", times.spread_s},
+          {"turn_s", times.turn_s},
+          {"fault", time_fault_name(times.fault)},
+          {"faulty", times.faulty}};
+}
+
 Json ranges_json(const RangeFacts& ranges) {
   return {{"min", ranges.min_m}, {"near", ranges.near_m}, {"median", ranges.median_m},
           {"far", ranges.far_m}, {"max", ranges.max_m},   {"doubtful_unit", is_unit_doubtful(ranges)}};
@@ -89,6 +98,7 @@ std::string facts_json(const std::string& input, const SourceAbout& about, const
   page["stamps"] = stamps_json(facts.stamps());
   const SensorFacts sensor = facts.sensor();
   page["ranges_m"] = facts.has_returns() ? ranges_json(sensor.ranges) : Json(nullptr);
+  page["times"] = times_json(facts.scan_times());
   page["zero_share"] = facts.zero_share();
   page["not_finite_share"] = facts.not_finite_share();
   page["sensor"] = facts.has_returns() ? sensor_json(sensor) : Json(nullptr);

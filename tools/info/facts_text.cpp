@@ -64,6 +64,13 @@ void add_sensor(Facts& rows, const SensorFacts& sensor) {
   rows.add(tr("looks like"), class_text(sensor));
 }
 
+void add_times(Facts& rows, const ScanTimeFacts& times) {
+  const std::string doubt = times_doubt(times);
+  if (doubt.empty()) return;
+  const std::string advice = times_advice(times);
+  rows.add(tr("times?"), advice.empty() ? doubt : fmt::format("{}. {}", doubt, advice));
+}
+
 std::string points_text(std::vector<std::uint32_t> points) {
   std::sort(points.begin(), points.end());
   return say("{} min, {} median, {} max a frame", points.front(), points[points.size() / 2], points.back());
@@ -116,6 +123,7 @@ std::string facts_text(const SourceAbout& about, const InputFacts& facts) {
     rows.add(tr("no return"), say("{:.1f} % at zero, {:.1f} % not finite", 100.0 * facts.zero_share(),
                                   100.0 * facts.not_finite_share()));
     if (facts.has_returns()) add_sensor(rows, facts.sensor());
+    add_times(rows, facts.scan_times());
   }
   std::string text = rows.text();
   if (!about.topics.empty()) text += '\n' + topics_text(about);

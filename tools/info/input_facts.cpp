@@ -108,6 +108,7 @@ void InputFacts::add(const SourcedFrame& sourced) {
   points_.push_back(frame.cloud.width * frame.cloud.height);
   count_points(frame.cloud);
   sensor_.add(returns_of(frame.cloud), told_rings(frame));
+  times_.add(frame);
 }
 
 void InputFacts::count_points(const pose_wall_cloud& cloud) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "frames/frame_source.hpp"
+#include "info/scan_times.hpp"
 #include "info/sensor_look.hpp"
 #include "info/stamp_steps.hpp"
 
@@ -59,6 +60,7 @@ class InputFacts {
   double zero_share() const;
   double not_finite_share() const;
   SensorFacts sensor() const { return sensor_.facts(); }  // by all frames
+  ScanTimeFacts scan_times() const { return times_.facts(sensor(), stamps_); }
   bool has_returns() const { return !sensor_.is_empty(); }
 
  private:
@@ -76,6 +78,7 @@ class InputFacts {
   std::vector<std::int64_t> stamps_;
   std::uint64_t all_points_ = 0, zero_ = 0, not_finite_ = 0;
   SensorLook sensor_;
+  ScanTimeLook times_;
 };
 
 // For people, and for programs.

@@ -11,6 +11,7 @@ namespace {
 
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+int watches = 0;  // of the thread that reads the command line alone
 
 extern "C" void note_interrupt(int) {
   interrupted = true;
@@ -20,17 +21,22 @@ extern "C" void note_interrupt(int) {
 }  // namespace
 
 InterruptWatch::InterruptWatch() {
+  if (watches++ > 0) return;
   interrupted = false;
   before_ = std::signal(SIGINT, note_interrupt);
   if (before_ == SIG_IGN) std::signal(SIGINT, SIG_IGN);
 }
 
 InterruptWatch::~InterruptWatch() {
-  if (before_ != SIG_ERR) std::signal(SIGINT, before_);
+  if (--watches == 0 && before_ != SIG_ERR) std::signal(SIGINT, before_);
 }
 
 bool InterruptWatch::is_interrupted() {
   return interrupted;
+}
+
+void stop_if_interrupted() {
+  if (InterruptWatch::is_interrupted()) throw Interrupted();
 }
 
 }  // namespace pose_wall::tools

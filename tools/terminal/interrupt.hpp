@@ -5,10 +5,12 @@
 
 #pragma once
 
+#include <exception>
+
 namespace pose_wall::tools {
 
 // While it lives, the first Ctrl-C is only noted; a second one ends the program as ever. Where the program was started
-// with Ctrl-C ignored (in the background), it stays ignored. One at a time.
+// with Ctrl-C ignored (in the background), it stays ignored. A watch within another sees what that one has seen.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -20,7 +22,16 @@ class InterruptWatch {
   static bool is_interrupted();
 
  private:
-  void (*before_)(int);
+  void (*before_)(int) = nullptr;
 };
+
+// Thrown where work has no other way to end early.
+class Interrupted : public std::exception {
+ public:
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+// Throws Interrupted after Ctrl-C.
+void stop_if_interrupted();
 
 }  // namespace pose_wall::tools

@@ -12,6 +12,7 @@
 #include "frames/load_frame.hpp"
 #include "language/language.hpp"
 #include "quantities.hpp"
+#include "terminal/interrupt.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -116,6 +117,7 @@ Efficiency efficiency_of(const CsvTable& results, const CsvTable& truth, const C
   }
   Efficiency out;
   for (const auto& [result_row, truth_row] : comparison.rows) {
+    stop_if_interrupted();
     const View view = views.at(result_row);
     if (!std::isfinite(view.floor_distance_m)) continue;
     const std::array<double, kTruthQuantities> values = truth_at(truth, truth_row);

@@ -34,6 +34,7 @@
 #include "config_file/config_place.hpp"
 #include "config_file/load_config.hpp"
 #include "terminal/counted.hpp"
+#include "terminal/interrupt.hpp"
 #include "verbs/complaint.hpp"
 #include "verbs/one_of.hpp"
 #include "verbs/output_folder.hpp"
@@ -193,7 +194,7 @@ int table_verb(const CampaignOptions& options) {
   try {
     return done_or_complaint("campaign",
                              [&] { return options.sweep.empty() ? run_ablation(options) : run_sweep(options); });
-  } catch (const campaign::Interrupted&) {
+  } catch (const Interrupted&) {
     fmt::print(stderr, "interrupted: --sweep and --ablate keep nothing; start it again\n");
     return kExitInterrupted;
   }
@@ -228,7 +229,7 @@ int run_verb(const CampaignOptions& options) {
       const campaign::Manifest manifest = run_campaign(options);
       return manifest.part ? end_part(options, manifest) : make_card(options, manifest);
     });
-  } catch (const campaign::Interrupted&) {
+  } catch (const Interrupted&) {
     return tell_interrupted(options);
   }
 }

@@ -21,8 +21,10 @@
 #include "results/result_output.hpp"
 #include "terminal/colours.hpp"
 #include "terminal/counted.hpp"
+#include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
+#include "verbs/frame_work.hpp"
 #include "verbs/one_of.hpp"
 #include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
@@ -43,13 +45,13 @@ std::string scene_name(const DemoVerb& verb) {
   return verb.demo.scene.empty() ? "heading" : verb.demo.scene;
 }
 
-// Processes all frames; the last one is returned for the picture.
+// Processes all frames, or those until Ctrl-C; the last one is returned for the picture.
 DemoFrame process_frames(const DemoVerb& verb, DemoRun& run, ResultOutput& output, std::vector<TruthRow>& truth) {
   const LiveTable table(wants_colours(1));
   if (!verb.quiet) fmt::print("{}", table.head());
   const std::uint32_t stride = std::max(1u, verb.frames / kRowsShown);
   DemoFrame frame;
-  for (std::uint32_t i = 0; i < verb.frames; ++i) {
+  for (std::uint32_t i = 0; i < verb.frames && !InterruptWatch::is_interrupted(); ++i) {
     frame = run.next();
     truth.push_back(frame.truth);
     if (!output.write(frame.outcome)) throw OutputError(output.name() + " cannot be written to the end");
@@ -85,10 +87,12 @@ int demo(const DemoVerb& verb) {
   std::vector<TruthRow> truth;
   const DemoFrame last = process_frames(verb, run, output, truth);
   write_truth_csv(folder / "truth.csv", truth);
+  if (truth.empty()) return tell_interrupted(0);
   write_whole_file(folder / "demo.svg",
                    run.picture(last, say("simulated roadway '{}', sensor {}, frame {}, {:.1f} s", scene_name(verb),
                                          verb.demo.sensor, last.outcome.frame, last.time_s)));
 
+  if (truth.size() < verb.frames) return tell_interrupted(truth.size());
   if (!verb.quiet) print_end(run, folder);
   return kExitDone;
 }

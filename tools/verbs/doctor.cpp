@@ -153,7 +153,6 @@ int examine(const DoctorOptions& options) {
   const LoadedConfig told = options.frames.load();
   FrameSequence inputs = options.frames.open();
   const std::unique_ptr<OutputFile> output = open_output(options, inputs);
-  const InterruptWatch watch;
   const doctor::Recording recording = read_all(options, inputs);
   for (const std::string& error : recording.errors) fmt::print(stderr, "pose_wall doctor: {}\n", error);
   if (recording.interrupted) return tell_interrupt(recording.notes.size());

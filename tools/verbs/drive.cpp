@@ -95,7 +95,6 @@ int drive_story(const DriveOptions& options) {
   const sim::SensorModel& model = drive_sensor(options.sensor);
   const sim::Network network(sim::find_network_kind(options.network)->plan, options.seed);
   const bool is_shown = !options.quiet && is_terminal(2);
-  const InterruptWatch watch;
   TaughtRoads roads;
   {
     ShareBar bar(is_shown);

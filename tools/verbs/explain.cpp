@@ -64,7 +64,6 @@ std::string command_of(const FrameOptions& frames) {
 
 // Nothing after Ctrl-C.
 std::optional<explain::FoundFrame> found_frame(const ExplainOptions& options, FrameSequence& inputs) {
-  const InterruptWatch watch;
   ProgressBar bar(inputs.frames(), options.shows_progress());
   return explain::find_frame(options.choice, inputs, options.frames.rate_hz, [&](const std::string& name) {
     bar.advance(name);

@@ -21,6 +21,7 @@
 #include "language/language.hpp"
 #include "planar/carmen_facts.hpp"
 #include "planar/carmen_scans.hpp"
+#include "terminal/frames_text.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/frame_options.hpp"
@@ -91,6 +92,10 @@ Looked look_at(const std::string& input, const InfoOptions& options) {
   if (!frames.errors().empty()) return {};
   InputFacts facts;
   gather(frames, input, options, facts);
+  if (InterruptWatch::is_interrupted()) {
+    fmt::print(stderr, "pose_wall info: {}: {}\n", input, say("interrupted after {}", frames_text(facts.frames())));
+    if (facts.frames() == 0) return {};
+  }
   for (const std::string& error : facts.errors()) fmt::print(stderr, "pose_wall info: {}\n", error);
   const SourceAbout about = frames.about();
   // Of a bag the topics are worth a table even where no cloud could be read.
@@ -140,7 +145,6 @@ std::string next_text(const InfoOptions& options, const std::vector<Looked>& loo
 int info(const InfoOptions& options) {
   expect_use(options);
   if (options.json) choose_language(Language::kEnglish);  // programs read it
-  const InterruptWatch watch;
   int exit_code = kExitDone;
   std::string pages;
   std::vector<Looked> all;

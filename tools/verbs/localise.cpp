@@ -302,7 +302,6 @@ int localise_scans(LocaliseOptions options) {
     if (!options.frames.quiet) fmt::print(stderr, "{}\n", note);
   }
 
-  const InterruptWatch watch;
   MapLocaliser localiser(map, settings);
   if (start) localiser.place(*start);
   LocaliseWork work;

@@ -220,7 +220,6 @@ int map_scans(MapOptions options) {
   const std::unique_ptr<OutputFile> poses = open_outputs(options, *source);
   print_start(options, *source);
 
-  const InterruptWatch watch;
   MapWork work{ScanTrail(settings_for(settings, source->scans()))};
   add_scans(options, *source, &work);
   if (work.trail.scans().empty()) {

@@ -116,7 +116,6 @@ int motion(const MotionOptions& options) {
 
   const auto started = std::chrono::steady_clock::now();
   MotionSummary summary;
-  const InterruptWatch watch;
   std::string fault = process_frames(options, inputs, runner, outputs, summary);
   if (fault.empty()) fault = write_map(runner, outputs);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();

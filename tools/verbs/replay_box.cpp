@@ -18,6 +18,7 @@
 #include "pose_wall_box.h"
 #include "results/row_output.hpp"
 #include "terminal/counted.hpp"
+#include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
 #include "verbs/verbs.hpp"
@@ -107,6 +108,7 @@ int replay(const ReplayOptions& options) {
   const auto progress = [&](std::uint64_t done, std::uint64_t of) {
     if (!bar) bar = std::make_unique<ProgressBar>(of, !options.quiet && is_terminal(2), "events");
     bar->advance(fmt::format("event {}", done));
+    stop_if_interrupted();
   };
   const BoxReplay result = replay_box(options.file, progress, [&](const BoxEvent& event) {
     if (table) is_written = table->write(csv_line(cells_of(event))) && is_written;

@@ -63,7 +63,6 @@ struct Shown {
 };
 
 Shown process_frames(const ReportOptions& options, FrameSequence& inputs, FrameRunner& runner, report::PageData& data) {
-  const InterruptWatch watch;
   ProgressBar bar(inputs.frames(), !options.frames.quiet && is_terminal(2));
   Shown shown;
   while (std::optional<SourcedFrame> frame = inputs.next()) {
@@ -142,6 +141,8 @@ int report_frames(const ReportOptions& options) {
   const auto started = std::chrono::steady_clock::now();
   const Shown shown = process_frames(options, inputs, runner, data);
   if (shown.summary.frames() == shown.summary.unreadable()) {
+    if (!shown.complete)
+      throw std::runtime_error(say("interrupted before the first frame; {} is not written", options.output));
     fmt::print(stderr, "{}", say("pose_wall report: no frame could be read; {} is not written\n", options.output));
     return kExitUnreadable;
   }

@@ -130,7 +130,6 @@ int run(const RunOptions& options) {
   const auto started = std::chrono::steady_clock::now();
   Closing closing{RunSummary(alert_limits_of(loaded.config)),
                   NextSteps(loaded.config, options.frames.config_file, options.frames.shell_words())};
-  const InterruptWatch watch;
   const std::string fault = process_frames(options, inputs, runner, {output, annotated}, closing);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!fault.empty()) fmt::print(stderr, "pose_wall run: {}\n", fault);

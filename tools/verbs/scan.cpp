@@ -193,21 +193,20 @@ int scan_inputs(const ScanOptions& options) {
   if (!options.frames.quiet) {
     for (const std::string& note : source->notes()) fmt::print(stderr, "{}\n", note);
   }
-  const InterruptWatch watch;
   ScanCounts counts;
   const std::string fault = write_scans(options, *source, &rows, picture ? &*picture : nullptr, &counts);
   if (!fault.empty()) fmt::print(stderr, "pose_wall scan: {}\n", fault);
   if (!options.frames.quiet && counts.scans > 0) fmt::print(stderr, "\n{}", counts_text(counts));
-  if (counts.scans == 0) fmt::print(stderr, "{}", say("pose_wall scan: there is no scan\n"));
-  const bool lacks_picture = picture && !counts.is_drawn;
-  if (lacks_picture && counts.scans > 0 && !InterruptWatch::is_interrupted()) {
-    fmt::print(stderr, "{}",
-               say("pose_wall scan: --drawn {}: there is no scan from this number on, so {} is not written\n",
-                   options.drawn, options.picture));
-  }
   if (InterruptWatch::is_interrupted()) {
     fmt::print(stderr, "{}", say("interrupted after {} scans, each whole\n", counts.scans));
     return kExitInterrupted;
+  }
+  if (counts.scans == 0) fmt::print(stderr, "{}", say("pose_wall scan: there is no scan\n"));
+  const bool lacks_picture = picture && !counts.is_drawn;
+  if (lacks_picture && counts.scans > 0) {
+    fmt::print(stderr, "{}",
+               say("pose_wall scan: --drawn {}: there is no scan from this number on, so {} is not written\n",
+                   options.drawn, options.picture));
   }
   const bool is_done =
       fault.empty() && source->errors().empty() && counts.unreadable == 0 && counts.scans > 0 && !lacks_picture;

@@ -105,7 +105,6 @@ struct Written {
 
 // Ctrl-C ends it after the frame at work. Those that are there have their truth.
 Written write_frames(const SimOptions& options, const sim::Simulator& simulator) {
-  const InterruptWatch watch;
   ProgressBar bar(options.frames, !options.quiet && is_terminal(2));
   std::vector<TruthRow> truth;
   std::uint32_t i = 0;
