@@ -272,9 +272,9 @@ typedef struct pose_wall_cloud {
   pose_wall_field y;
   pose_wall_field z;
   pose_wall_field intensity; /* any type; used only with intensity_weight > 0 */
-  pose_wall_field
-      time; /* when each point was measured, any type; read with an odometry, and by pose_wall_motion. Counts from the
-               smallest of the cloud, in the one of s, ms, us and ns by which the scan takes 0.01 to 1 s */
+  pose_wall_field time; /* when each point was measured, any type; read with an odometry, and by pose_wall_motion. In
+                           the one of s, ms, us and ns by which the scan takes 0.01 to 1 s. Times from 0 to 1 s count
+                           from stamp_ns, others from the smallest of the cloud */
   const struct pose_wall_inputs* inputs; /* the machine's own data of this frame, or NULL */
   pose_wall_field ring;                  /* which of the sensor's rings, any type, from 0. Read by pose_wall_motion */
 } pose_wall_cloud;
@@ -307,7 +307,9 @@ typedef struct pose_wall_odometry {
   double drift[POSE_WALL_ODOMETRY_DIRECTIONS]; /* likewise, the part that is no variance: m, rad; never falls */
   double velocity_m_s[3];                      /* in base, during this scan: removes the skew of a cloud with times */
   double turn_rate_rad_s[3];                   /* likewise */
-  double rate_level[POSE_WALL_ODOMETRY_DIRECTIONS]; /* levels of these two: m/s, rad/s; 0 to infinite */
+  /* k standard deviations of these two: m/s, rad/s; 0 to infinite. The engine adds them to its levels as variances add
+   * up. Of a hard bound say twice as much; what is small beside the cloud's noise needs more. */
+  double rate_level[POSE_WALL_ODOMETRY_DIRECTIONS];
 } pose_wall_odometry;
 
 /* The machine's own data since the last frame. All of it is optional, and measurements win over all of it. The engine
@@ -326,7 +328,7 @@ typedef struct pose_wall_odometry {
  * uncertainty of the wall's own direction. Beyond the measured stretch of a wall a distance may change by as much as
  * the machine travelled there; angles then grow as without odometry. Time through which an odometry carried a value
  * does not count for hold_max. A value whose level meanwhile passed the alert limit may come back. The scan's motion is
- * first removed from a cloud with times.
+ * first removed from a cloud with times, where that narrows the levels.
  * The key `motion` switches ODOMETRY off. */
 typedef struct pose_wall_inputs {
   uint32_t struct_size;         /* sizeof(pose_wall_inputs) */
@@ -462,7 +464,7 @@ enum pose_wall_part {
   POSE_WALL_PART_EXTRAPOLATION = 4, /* the wall is not visible at the sampling point */
   POSE_WALL_PART_LAG = 5,           /* value is not raw: smoothing */
   POSE_WALL_PART_AGE = 6, /* unknown motion: since the measurement, since a frozen cloud's first copy, or within a scan
-                             that an odometry corrected */
+                             of an odometry */
   POSE_WALL_PARTS = 7
 };
 /* "random", "range_bias"; static storage. */

@@ -205,9 +205,10 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_reset(pose_wall_motion* motion);
 POSE_WALL_CHECKED int32_t pose_wall_motion_process(pose_wall_motion* motion, const pose_wall_cloud* cloud,
                                                    pose_wall_motion_result* result);
 
-/* The last frame's pose in the form that the engine takes. Sets POSE_WALL_INPUT_ODOMETRY and inputs->odometry, or
- * clears the bit where that frame has no pose; the rest is unchanged. Set inputs->struct_size = sizeof *inputs first.
- * The run's frame is that of the map. Fails iff: NULL, not open, struct_size. */
+/* The last frame's pose in the form that the engine takes. Sets POSE_WALL_INPUT_ODOMETRY and inputs->odometry; the rest
+ * is unchanged. Where that frame has no pose, nothing is known of its place, and its motion within the scan only by the
+ * machine's limits. Before the first frame clears the bit. Set inputs->struct_size = sizeof *inputs first. The run's
+ * frame is that of the map. Fails iff: NULL, not open, struct_size. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_give(const pose_wall_motion* motion, pose_wall_inputs* inputs);
 
 /* Both libraries for one frame. Calls pose_wall_motion_process, then pose_wall_process with the frame's inputs. This

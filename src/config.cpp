@@ -287,12 +287,12 @@ double reach_of(const Settings& s) {
          std::sqrt(s.extrinsic_x * s.extrinsic_x + s.extrinsic_y * s.extrinsic_y + s.extrinsic_z * s.extrinsic_z);
 }
 
-std::uint64_t work_most(const Settings& settings, std::uint64_t returns) {
-  // Measured (bench/README.md, "The dearest frames"). It leaves the dearest clouds below 2.5 roads of as many returns,
-  // for 28,800 returns and more, and roads of every simulated sensor their values. One part for the hypotheses and fits
-  // of any cloud, and one for a return, while it is read and as a voxel.
-  constexpr std::uint64_t kWhatever = 5'600'000, kPerReturn = 55;
-  return settings.work_max > 0 ? settings.work_max : kWhatever + kPerReturn * returns;
+std::uint64_t work_most(const Settings& settings, std::uint64_t returns, std::uint64_t voxels) {
+  // Measured on furnished roads, a mine's gallery and bent scans (bench/README.md, "The budget"): the dearest took
+  // two thirds of it. One part for the fits of any cloud, one for a return while it is read, and one for a voxel,
+  // since hypotheses are weighed over voxels. Lost returns make a cloud smaller, and hardly change its voxels.
+  constexpr std::uint64_t kWhatever = 5'000'000, kPerReturn = 20, kPerVoxel = 270;
+  return settings.work_max > 0 ? settings.work_max : kWhatever + kPerReturn * returns + kPerVoxel * voxels;
 }
 
 double alert_limit(std::uint32_t quantity, const Settings& settings) {

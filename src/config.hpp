@@ -60,8 +60,9 @@ Settings read_settings(const pose_wall_config& config);
 // No point of a frame lies further than this from the origin of base.
 double reach_of(const Settings& settings);
 
-// Number of steps that a frame of so many returns may take (base/containers/work.hpp): work_max if it is set.
-std::uint64_t work_most(const Settings& settings, std::uint64_t returns);
+// Number of steps that a frame of so many returns and voxels may take (base/containers/work.hpp): work_max if it is
+// set.
+std::uint64_t work_most(const Settings& settings, std::uint64_t returns, std::uint64_t voxels);
 
 // The alert limit of one of the seven quantities, in its own unit (rad or m).
 double alert_limit(std::uint32_t quantity, const Settings& settings);

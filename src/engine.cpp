@@ -41,14 +41,21 @@ void refuse_all(const Verdict& verdict, FrameFindings* found) {
 }
 
 // Checked before any search.
-bool is_work_left(const Work& work, FrameFindings* found) {
-  if (!work.is_spent()) return true;
-  demand_work_left(work, &found->floor.fit);
+bool is_work_left(Work* work, FrameFindings* found) {
+  if (!work->stops()) return true;
+  demand_work_left(*work, &found->floor.fit);
   for (int side = 0; side < 2; ++side) {
     POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
-    demand_work_left(work, &found->walls.side[side].fit);
+    demand_work_left(*work, &found->walls.side[side].fit);
   }
   return false;
+}
+
+// The times of the points are read, and they stay where they are.
+pose_wall_odometry without_motion(const pose_wall_odometry& odometry) {
+  pose_wall_odometry out = odometry;
+  for (int k = 0; k < 3; ++k) out.velocity_m_s[k] = out.turn_rate_rad_s[k] = 0.0;
+  return out;
 }
 
 double least_confidence(const pose_wall_result& result) {
@@ -57,16 +64,6 @@ double least_confidence(const pose_wall_result& result) {
     if (v.confidence < least) least = v.confidence;
   }
   return least;
-}
-
-// The motion is unknown, except for its present speed.
-pose_wall_odometry any_motion(const pose_wall_odometry& odometry) {
-  pose_wall_odometry any = odometry;
-  const auto norm = [](const double(&v)[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); };
-  for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) {
-    any.rate_level[k] += k < 3 ? norm(odometry.velocity_m_s) : norm(odometry.turn_rate_rad_s);
-  }
-  return any;
 }
 
 }  // namespace
@@ -159,6 +156,7 @@ void Engine::set_memory_of_other_clock(const Memory& memory, double elapsed_s, s
   memory_.seen = SeenClouds{};
   memory_.repeats = 0;
   memory_.odometry.run = OdometryMemory::kNoRun;
+  memory_.own.forget();
   seal();
 }
 
@@ -176,6 +174,18 @@ std::uint64_t Engine::sum() const {
   return sum;
 }
 
+// True if the motion within the scan was taken out of it.
+bool Engine::read_cloud(const pose_wall_cloud& cloud, FrameFindings* found) {
+  constexpr double kUsualScan_s = 0.1;  // of a sensor at 10 Hz; how long this one takes is not known before it is read
+  const pose_wall_odometry* const odometry = odometry_in(cloud.inputs);
+  const bool taken_out =
+      odometry != nullptr && MotionInScan(*odometry, settings_, axes_).improves(kUsualScan_s, memory_.own);
+  const pose_wall_odometry left = odometry != nullptr ? without_motion(*odometry) : pose_wall_odometry{};
+  found->voxels = build_voxels(cloud, taken_out || odometry == nullptr ? odometry : &left, settings_, extrinsic_, axes_,
+                               memory_.leaf, &scratch_.grid, &scratch_.returns_lidar, &scratch_.cloud_base);
+  return taken_out;
+}
+
 void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   place(&scratch_);
   FrameFindings found;
@@ -185,11 +195,10 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
   std::int64_t at[POSE_WALL_STAGES + 1] = {now()};
   const auto stage_done = [&](pose_wall_stage stage) { at[stage + 1] = now(); };
 
-  found.voxels = build_voxels(cloud, odometry_in(cloud.inputs), settings_, extrinsic_, axes_, memory_.leaf,
-                              &scratch_.grid, &scratch_.returns_lidar, &scratch_.cloud_base);
+  const bool taken_out = read_cloud(cloud, &found);
   result->voxels = scratch_.cloud_base.count;
   stage_done(POSE_WALL_STAGE_VOXEL);
-  Work work(work_most(settings_, found.voxels.returns));
+  Work work(work_most(settings_, found.voxels.returns, scratch_.cloud_base.count));
   work.add(found.voxels.work);
   found.outliers = remove_outliers(settings_, &scratch_.grid, scratch_.marks, &scratch_.cloud_base, &work);
   stage_done(POSE_WALL_STAGE_OUTLIERS);
@@ -207,7 +216,7 @@ void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {
       found.floor.fit.reasons | found.walls.side[0].fit.reasons | found.walls.side[1].fit.reasons;
   found.reasons |= of_fits & POSE_WALL_R_WORK_LIMIT;
   stage_done(POSE_WALL_STAGE_WALLS);
-  conclude(cloud.inputs, &found, result);
+  conclude(cloud.inputs, taken_out, &found, result);
   stage_done(POSE_WALL_STAGE_OUTPUT);
 
   for (int stage = 0; stage < POSE_WALL_STAGES; ++stage) result->stage_ns[stage] = at[stage + 1] - at[stage];
@@ -232,7 +241,7 @@ pose_wall_points Engine::points() const {
 }
 
 // True if there are enough points, and work left to use them.
-bool Engine::can_begin(FrameFindings* found) const {
+bool Engine::can_begin(FrameFindings* found) {
   const VoxelResult& voxels = found->voxels;
   Verdict frame, start;
   demand<gate::LEAF>(&frame, voxels.leaf_m, settings_);
@@ -242,7 +251,7 @@ bool Engine::can_begin(FrameFindings* found) const {
   found->reasons |= frame.reasons | start.reasons;
   if (start.refused) refuse_all(start, found);
   POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_FLOOR));
-  return !start.refused && is_work_left(scratch_.floor.work, found);
+  return !start.refused && is_work_left(&scratch_.floor.work, found);
 }
 
 void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
@@ -289,19 +298,14 @@ const pose_wall_odometry* Engine::odometry_in(const pose_wall_inputs* inputs) co
 // without a place ends the run, and only the config bounds the motion since. A repeated cloud shows a standing machine
 // and gives no place.
 Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, const Change& by_config,
-                                             FrameFindings* found) {
+                                             const FrameFindings& found) {
   OdometryStep step;
   step.change = by_config;
   const pose_wall_odometry* const odometry = odometry_in(inputs);
   step.sound = odometry != nullptr || inputs == nullptr || (inputs->given & POSE_WALL_INPUT_ODOMETRY) == 0 ||
                settings_.motion != kMotionOn;
   OdometryMemory& memory = memory_.odometry;
-  if (odometry == nullptr) {
-    memory.run = OdometryMemory::kNoRun;
-    return step;
-  }
-  if ((found->reasons & POSE_WALL_R_FROZEN) != 0) {  // bent by its first copy's motion, with another one removed
-    widen_by_skew(any_motion(*odometry), found->voxels.scan_s, memory, settings_, axes_, &found->measured);
+  if (odometry == nullptr || (found.reasons & POSE_WALL_R_FROZEN) != 0) {
     memory.run = OdometryMemory::kNoRun;
     return step;
   }
@@ -310,17 +314,29 @@ Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, con
     step.sound = step.follows;
     if (!step.follows) memory.run = OdometryMemory::kNoRun;
   }
-  remember_place(*odometry, found->floor, found->levelling, found->walls.side, found->measured, settings_, axes_,
-                 &memory);
-  widen_by_skew(*odometry, found->voxels.scan_s, memory, settings_, axes_, &found->measured);
+  remember_place(*odometry, found.floor, found.levelling, found.walls.side, found.measured, settings_, axes_, &memory);
   return step;
+}
+
+// A repeated cloud was bent by its first copy's motion, so none was rightly taken out.
+void Engine::widen_by_scan_motion(const pose_wall_inputs* inputs, bool taken_out, double since_last_s,
+                                  FrameFindings* found) {
+  const pose_wall_odometry* const odometry = odometry_in(inputs);
+  if (odometry == nullptr) {
+    memory_.own.forget();
+    return;
+  }
+  const bool repeats = (found->reasons & POSE_WALL_R_FROZEN) != 0;
+  MotionInScan(*odometry, settings_, axes_)
+      .widen(taken_out && !repeats, {found->voxels.scan, since_last_s}, found->levelling, found->walls.side,
+             &memory_.own, &found->measured);
 }
 
 // By the odometry, else by the other inputs, if they are sound and no measurement contradicts them.
 Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTiming& timing, FrameFindings* found) {
   const double elapsed_s = elapsed_of(memory_.temporal, timing);
   const Change by_config = change_by_config(settings_, elapsed_s);
-  const OdometryStep step = follow_odometry(inputs, by_config, found);
+  const OdometryStep step = follow_odometry(inputs, by_config, *found);
   if (inputs == nullptr) return by_config;
   const auto believed = [&](const Change& change) {
     return !contradict(change, found->measured, timing, memory_.temporal);
@@ -345,11 +361,13 @@ Change Engine::change_since_last(const pose_wall_inputs* inputs, const FrameTimi
   return change;
 }
 
-void Engine::conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose_wall_result* result) {
+void Engine::conclude(const pose_wall_inputs* inputs, bool motion_taken_out, FrameFindings* found,
+                      pose_wall_result* result) {
   const FrameTiming timing = time_frame(memory_.temporal, found->stamp_ns, settings_);
   found->reasons |= timing.reasons;
   found->measured = measure_quantities(found->floor, found->levelling, found->walls.side, settings_);
   doubt_repeats(timing, found);
+  widen_by_scan_motion(inputs, motion_taken_out, timing.dt_s, found);
   const Change change = change_since_last(inputs, timing, found);
   smooth_and_hold(found->measured, timing, found->stamp_ns, change, settings_, &memory_.temporal, &result->quantity);
   report_findings(*found, result);

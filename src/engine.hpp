@@ -11,6 +11,7 @@
 #include "cloud/voxel_grid.hpp"
 #include "config.hpp"
 #include "floor/scene.hpp"
+#include "output/motion_in_scan.hpp"
 #include "output/temporal.hpp"
 #include "output/temporal_odometry.hpp"
 #include "pose_wall.h"
@@ -42,6 +43,7 @@ struct Memory {
   LeafMemory leaf;
   SeenClouds seen;
   OdometryMemory odometry;
+  OwnChanges own;
   std::uint32_t repeats = 0;  // number of repeated clouds in a row; clouds without points do not count
   std::uint64_t frames = 0;
   std::uint64_t publications = 0;  // results, including those of age()
@@ -90,18 +92,20 @@ class Engine {
   static constexpr std::uint64_t kOneInside = 0x96813C5A5AA5939AULL;
 
   void place(Scratch* scratch) const;
-  bool can_begin(FrameFindings* found) const;
+  bool can_begin(FrameFindings* found);
   void find_floor_if_any(Random* random, FrameFindings* found);
   void level_and_cut(FrameFindings* found);
   void find_walls_if_level(Random* random, FrameFindings* found);
-  void conclude(const pose_wall_inputs* inputs, FrameFindings* found, pose_wall_result* result);
+  bool read_cloud(const pose_wall_cloud& cloud, FrameFindings* found);
+  void conclude(const pose_wall_inputs* inputs, bool motion_taken_out, FrameFindings* found, pose_wall_result* result);
+  void widen_by_scan_motion(const pose_wall_inputs* inputs, bool taken_out, double since_last_s, FrameFindings* found);
   void doubt_repeats(const FrameTiming& timing, FrameFindings* found);
   struct OdometryStep {
     bool sound = true;     // or not given
     bool follows = false;  // it follows the last frame's, in one run
     Change change;
   };
-  OdometryStep follow_odometry(const pose_wall_inputs* inputs, const Change& by_config, FrameFindings* found);
+  OdometryStep follow_odometry(const pose_wall_inputs* inputs, const Change& by_config, const FrameFindings& found);
   Change change_since_last(const pose_wall_inputs* inputs, const FrameTiming& timing, FrameFindings* found);
   const pose_wall_odometry* odometry_in(const pose_wall_inputs* inputs) const;
   void finish(pose_wall_result* result);

@@ -11,7 +11,7 @@ namespace pose_wall {
 namespace {
 
 // 'pose-m' in ASCII and a count: raise it with each change of visit().
-constexpr std::uint64_t kVersion = 0x706F73652D6D0005ULL;
+constexpr std::uint64_t kVersion = 0x706F73652D6D0006ULL;
 constexpr std::uint64_t kHeadWords = 2;  // version and checksum stand first
 
 // Every member is one word of eight bytes, least significant first.
@@ -138,6 +138,15 @@ void visit(Way* way, OdometryMemory* m) {
 }
 
 template <typename Way>
+void visit(Way* way, OwnChanges* own) {
+  for (double& raw : own->raw) visit(way, &raw);
+  for (double& level : own->level) visit(way, &level);
+  for (double& random : own->random) visit(way, &random);
+  for (double& change : own->change) visit(way, &change);
+  visit_all(way, &own->wall_base[0], &own->wall_base[1]);
+}
+
+template <typename Way>
 void visit(Way* way, Track* t) {
   visit_all(way, &t->has_value, &t->value, &t->rate, &t->smoothed_frames, &t->raw, &t->raw_protection, &t->sigma,
             &t->protection, &t->grown, &t->age_s, &t->expired, &t->to_confirm, &t->doubted_frames);
@@ -168,6 +177,7 @@ void visit(Way* way, Memory* m) {
             &m->repeats, &m->frames, &m->publications);
   for (SeenCloud& cloud : m->seen.cloud) visit_all(way, &cloud.fingerprint, &cloud.stamp_ns);
   visit(way, &m->odometry);
+  visit(way, &m->own);
 }
 
 // FNV-1a: for accidents, not for attackers. Starts with the config's checksum, so that no config holds values that

@@ -16,7 +16,7 @@
 #include "pose_wall.h"
 
 #define POINTS_MAX 200000
-#define BLOCK_BYTES (5 * 1024 * 1024) /* pose_wall_memory_needed says how much; 4.5 MiB by default */
+#define BLOCK_BYTES (5 * 1024 * 1024) /* pose_wall_memory_needed says how much; 4.6 MiB by default */
 
 static float points[POINTS_MAX][3];
 

@@ -83,6 +83,11 @@ double time_unit_s(double spread) {
   return 0.0;
 }
 
+double time_of_stamp(double least, double most, double unit_s) {
+  constexpr double kScanMost_s = 1.0;  // as in time_unit_s()
+  return least >= 0.0 && most * unit_s <= kScanMost_s ? 0.0 : least;
+}
+
 bool needs_swap(const pose_wall_cloud& cloud) {
   const std::uint16_t probe = 1;
   unsigned char first;

@@ -31,6 +31,9 @@ inline double read_number(const unsigned char* point, const pose_wall_field& fie
 
 // The unit of a cloud's times, from their spread, since a scan takes 0.01 to 1 s. 0 if no unit makes a scan of them.
 double time_unit_s(double spread);
+// Of times from the least to the most, the one that means the stamp: zero if they may count from it, else the least.
+// The first returns of a scan may be lost, and the times of the others do not begin with zero then.
+double time_of_stamp(double least, double most, double unit_s);
 
 // True where the cloud's byte order is not this machine's.
 bool needs_swap(const pose_wall_cloud& cloud);

@@ -23,6 +23,12 @@ struct IngestCounts {
   // The kept ones and the too near ones, by the side of the machine.
   std::uint32_t kept_by_quadrant[kQuadrants] = {};
   std::uint32_t near_by_quadrant[kQuadrants] = {};
+  std::uint64_t kept_us = 0;  // sum of the kept ones' times since the scan began; 0 without skew to take out
+};
+
+// Of a scan whose motion was removed; 0: of none.
+struct ScanTime {
+  double whole_s = 0.0, mean_s = 0.0;  // of its kept points
 };
 
 // Memory of a cloud for the next one's leaf.
@@ -41,7 +47,7 @@ struct VoxelResult {
   std::uint64_t work = 0;
   bool fits = false;  // false: points fill the air, or points_max is far too small; there are no voxels then
   std::uint64_t fingerprint = 0;
-  double scan_s = 0.0;  // duration of the scan whose motion was removed; 0: none
+  ScanTime scan;
 };
 
 }  // namespace pose_wall

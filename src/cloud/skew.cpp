@@ -34,9 +34,9 @@ Times times_of(const pose_wall_cloud& cloud, bool swap) {
 Skew::Skew(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry) : cloud_(cloud), swap_(needs_swap(cloud)) {
   if (odometry == nullptr || cloud.time.type == POSE_WALL_FIELD_NONE) return;
   const Times times = times_of(cloud, swap_);
-  first_ = times.first;
   unit_s_ = time_unit_s(times.last - times.first);
-  scan_s_ = (times.last - times.first) * unit_s_;
+  zero_ = time_of_stamp(times.first, times.last, unit_s_);
+  scan_s_ = (times.last - zero_) * unit_s_;
   for (int k = 0; k < 3; ++k) {
     velocity_[k] = static_cast<float>(odometry->velocity_m_s[k]);
     turn_[k] = static_cast<float>(odometry->turn_rate_rad_s[k]);
@@ -45,7 +45,7 @@ Skew::Skew(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry) : c
 
 float Skew::seconds(const unsigned char* point) const {
   const double time = read_number(point, cloud_.time, swap_);
-  return is_finite(time) ? static_cast<float>((time - first_) * unit_s_) : 0.0F;
+  return is_finite(time) ? static_cast<float>((time - zero_) * unit_s_) : 0.0F;
 }
 
 FourPlaces Skew::taken_out(const FourPlaces& base, FourFloats time_s) const {

@@ -19,7 +19,7 @@ class Skew {
 
   bool is_there() const { return unit_s_ > 0.0; }
   double scan_s() const { return scan_s_; }
-  // Time since the scan's first point; 0 for a time that is not finite.
+  // Time since the stamp; 0 for a time that is not finite.
   float seconds(const unsigned char* point) const;
   // To second order of the turn: 0.1 mm at 10 m in 0.1 s at 10 degrees a second.
   FourPlaces taken_out(const FourPlaces& base, FourFloats time_s) const;
@@ -31,7 +31,7 @@ class Skew {
 
   const pose_wall_cloud& cloud_;
   bool swap_;
-  double first_ = 0.0, unit_s_ = 0.0, scan_s_ = 0.0;
+  double zero_ = 0.0, unit_s_ = 0.0, scan_s_ = 0.0;
   float velocity_[3] = {}, turn_[3] = {};  // m/s, rad/s
 };
 

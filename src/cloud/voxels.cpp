@@ -27,10 +27,10 @@ struct PointBlock {
   std::uint32_t count = 0;
   float x_lidar[kSize], y_lidar[kSize], z_lidar[kSize];
   float x_base[kSize], y_base[kSize], z_base[kSize];
-  float time_s[kSize];       // since the scan's first point, where there is skew to take out
+  float time_s[kSize];       // since the stamp, where there is skew to take out
   std::uint64_t key[kSize];  // of a voxel
   VoxelGrid::Sums sums[kSize];
-  std::int32_t direction[kSize];  // cell of a DirectionGrid
+  std::int32_t direction[kSize];  // cell of Directions
   std::int32_t quadrant[kSize];
   std::int32_t fate[kSize];
   std::uint32_t weight[kSize];
@@ -209,7 +209,7 @@ class Pass {
       x = there ? x : none;
       y = there ? y : none;
       z = there ? z : none;
-      store_four(DirectionGrid::cells_of(x, y, z, range2), &b->direction[k]);
+      store_four(Directions::cells_of(x, y, z, range2), &b->direction[k]);
       const FourPlaces ray = to_base.turned(x, y, z);
       FourPlaces base = to_base.shifted(ray);
       if (skew_.is_there()) base = skew_.taken_out(base, load_four(&b->time_s[k]));
@@ -259,13 +259,14 @@ class Pass {
     VoxelGrid::Filling cells(grid);
     for (std::uint32_t k = 0; k < count; ++k) {
       if (block->fate[k] == kKept) {
-        returns_lidar->all.add(static_cast<std::uint32_t>(block->direction[k]), 1);
+        returns_lidar->all_slices.add(static_cast<std::uint32_t>(block->direction[k]), 1);
         ++counts->kept_by_quadrant[block->quadrant[k]];
+        if (skew_.is_there()) counts->kept_us += microseconds_of(block->time_s[k]);
         if (!cells.add(block->key[k], block->sums[k])) fits = false;
       } else if (block->fate[k] == kBeyond) {
         count_beyond(*block, k, returns_lidar, counts);
       } else {
-        returns_lidar->all.add(static_cast<std::uint32_t>(block->direction[k]), 1);
+        returns_lidar->all_slices.add(static_cast<std::uint32_t>(block->direction[k]), 1);
         ++(block->fate[k] == kNear ? counts->near_by_quadrant[block->quadrant[k]] : counts->dropped_body);
       }
     }
@@ -273,6 +274,9 @@ class Pass {
     counts->dropped_near = sum_of(counts->near_by_quadrant);
     return fits;
   }
+
+  // Whole ones: a sum that does not depend on the order of points.
+  static std::uint32_t microseconds_of(float time_s) { return static_cast<std::uint32_t>(time_s * 1e6F); }
 
   static std::uint32_t sum_of(const std::uint32_t (&by_quadrant)[kQuadrants]) {
     return by_quadrant[kAhead] + by_quadrant[kLeft] + by_quadrant[kBehind] + by_quadrant[kRight];
@@ -288,12 +292,12 @@ class Pass {
       ++counts->dropped_zero;
     } else if (p.squaredNorm() < 1.0) {  // its square is no float, so it was turned as if zero
       ++counts->near_by_quadrant[kBehind];
-      returns_lidar->all.add(p, 1);
+      returns_lidar->all_slices.add(Directions::cell_of(p), 1);
     } else {
       ++counts->dropped_far;
-      const std::uint32_t cell = DirectionGrid::cell_of(p);
-      returns_lidar->all.add(cell, 1);
-      returns_lidar->too_far.add(cell, 1);
+      const std::uint32_t cell = Directions::cell_of(p);
+      returns_lidar->all_slices.add(cell, 1);
+      returns_lidar->too_far_slices.add(cell, 1);
     }
   }
 
@@ -337,6 +341,7 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry*
     work.add(returns_of(result.counts), skew.is_there() ? steps::kPointUnskewed : steps::kPointRead);
     work.add(grid->slots() / kFour, steps::kFourSlots);
   } while (leaf.goes_on(result.fits, grid->count()));
+  returns_lidar->settle();
   result.leaf_m = leaf.leaf_m();
   result.leaf = leaf.memory(result.fits, grid->count());
   cloud_base->count = 0;
@@ -345,7 +350,9 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry*
     result.fingerprint = by_points ? raw_fingerprint : grid->fingerprint();
     work.add(cloud_base->count, steps::kVoxelWritten);
   }
-  result.scan_s = skew.scan_s();
+  if (skew.is_there() && result.counts.kept > 0) {
+    result.scan = {skew.scan_s(), 1e-6 * static_cast<double>(result.counts.kept_us) / result.counts.kept};
+  }
   result.returns = returns_of(result.counts);
   result.work = work.done();
   return result;

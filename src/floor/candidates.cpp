@@ -147,7 +147,7 @@ void weigh(const FloorScene& scene, const PointSet& within, Among among, FloorSh
   for_even_share(within.count, kQuickPointsMax, [&](std::uint32_t k) { scratch->low[of_part++] = k; });
   const Span<const std::uint32_t> part = scratch->low.first(of_part);
   out->count = 0;
-  for (std::uint32_t k = 0; k < list->count() && !scratch->work.is_spent(); ++k) {
+  for (std::uint32_t k = 0; k < list->count() && !scratch->work.stops(); ++k) {
     const IrlsResult refined =
         irls_tukey(within, part, (*list)[k].plane, Eigen::Vector3d::UnitX(), quick, &scratch->points);
     scratch->work.add(steps::kFloorRefined);
@@ -185,9 +185,9 @@ void mark_ghosts(const FloorScene& scene, const PointSet& within, FloorScratch* 
     if (above.much_below || above.evidence.area_m2 < limit_of<gate::FLOOR_AREA>(scene.settings)) continue;
     bool marked = false;
     for (FloorCandidate& below : candidates) {
-      if (scratch->work.is_spent()) return;
       if (below.much_below || !is_below(above.plane, below.plane, scene.sensor_base_m)) continue;
-      scratch->work.add(within.count, steps::kPointWeighed);
+      if (scratch->work.stops()) return;
+      scratch->work.add(within.count, steps::kPointCompared);
       if (!marked) scratch->grid.mark(within, above.plane, scene.settings.ground_ransac_thresh);
       marked = true;
       below.ghost = below.ghost || is_reflection(scene, within, above.plane, below.plane, scratch->grid);

@@ -151,16 +151,19 @@ void FloorGrid::mark_cell(std::int32_t ix, std::int32_t iy) {
   }
 }
 
+void FloorGrid::mark_four(FourFloats x, FourFloats y, FourTruths on) {
+  if (!any_of(on)) return;
+  const FourInts ix = cells_of(x), iy = cells_of(y);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if (on[lane] != 0 && marked_[index(ix[lane], iy[lane])] == 0) mark_cell(ix[lane], iy[lane]);
+  }
+}
+
 template <typename IsOn>
 void FloorGrid::mark_where(const PointSet& open_base, const IsOn& is_on) {
   clear_marks();
   for_each_four_points(open_base, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-    const FourTruths on_plane = counts & is_on(x, y, z);
-    if (!any_of(on_plane)) return;
-    const FourInts ix = cells_of(x), iy = cells_of(y);
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      if (on_plane[lane] != 0 && marked_[index(ix[lane], iy[lane])] == 0) mark_cell(ix[lane], iy[lane]);
-    }
+    mark_four(x, y, counts & is_on(x, y, z));
   });
 }
 
@@ -179,15 +182,19 @@ void FloorGrid::mark_apart(const PointSet& open_base, const Plane& plane, const 
   });
 }
 
-void FloorGrid::mark_rising(const PointSet& points_base, const Plane& plane, double gate_m) {
+void FloorGrid::mark_rising(const BoundedPoints& points_base, const Plane& plane, double gate_m) {
   constexpr float kTall = 1.0F;  // judgement, 2026-11-21: what hangs higher, as the roof, stands on nothing here
   const FourDistances distances(plane);
   const FourFloats gate = all_four(static_cast<float>(gate_m));
   // The grid has no place for what lies farther away.
   constexpr auto kReach2 = static_cast<float>(0.25 * kSide * kSide * kCell_m * kCell_m);
-  mark_where(points_base, [&](FourFloats x, FourFloats y, FourFloats z) {
-    const FourFloats height = distances.of(x, y, z);
-    return (height > gate) & (height < all_four(kTall)) & (x * x + y * y < all_four(kReach2));
+  clear_marks();
+  constexpr double kRounding_m = 1e-3;  // of floats: a block may be passed over only if none of its points rises
+  const Slab rising(plane, gate_m - kRounding_m, static_cast<double>(kTall) + kRounding_m);
+  for_each_four_about(points_base, rising, [&](std::uint32_t i, FourTruths counts) {
+    const FourFloats x = load_four(&points_base.x[i]), y = load_four(&points_base.y[i]);
+    const FourFloats height = distances.of(x, y, load_four(&points_base.z[i]));
+    mark_four(x, y, counts & (height > gate) & (height < all_four(kTall)) & (x * x + y * y < all_four(kReach2)));
   });
 }
 
@@ -253,16 +260,26 @@ double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, co
                           const PointSet& open_base, const Eigen::Vector3d& sensor_base_m, double thresh_m) {
   const double sensor_height_m = marked_plane.signed_distance(sensor_base_m);
   std::uint32_t on_below = 0, through = 0;
-  for (std::uint32_t i = 0; i < open_base.count; ++i) {
-    const Eigen::Vector3d p = open_base.at(i);
-    if (!(std::fabs(below.signed_distance(p)) <= thresh_m)) continue;
+  const auto look_at = [&](const Eigen::Vector3d& p) {
+    if (!(std::fabs(below.signed_distance(p)) <= thresh_m)) return;
     ++on_below;
     const double height = marked_plane.signed_distance(p);
-    if (!(height < -2.0 * thresh_m)) continue;
+    if (!(height < -2.0 * thresh_m)) return;
     const Eigen::Vector3d crossing =
         sensor_base_m + (p - sensor_base_m) * (sensor_height_m / (sensor_height_m - height));
     if (marked.marked_near(crossing.x(), crossing.y())) ++through;
-  }
+  };
+  // Most points lie nowhere near the lower plane, as floats show four at a time.
+  constexpr double kRounding_m = 1e-3;  // of floats of a point within range_max
+  const FourDistances roughly(below);
+  const FourFloats near = all_four(static_cast<float>(thresh_m + kRounding_m));
+  for_each_four_points(open_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+    const FourTruths close = counts & (magnitude_of(roughly.of(x, y, z)) <= near);
+    if (!any_of(close)) return;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (close[lane] != 0) look_at(open_base.at(i + lane));
+    }
+  });
   return on_below > 0 ? static_cast<double>(through) / static_cast<double>(on_below) : 0.0;
 }
 

@@ -37,7 +37,7 @@ class FloorGrid {
 
   // Marks the cells in which points rise from a plane: they lie more than gate_m and up to a metre above it.
   // Like every mark...(), takes the place of the marks before it.
-  void mark_rising(const PointSet& points_base, const Plane& plane, double gate_m);
+  void mark_rising(const BoundedPoints& points_base, const Plane& plane, double gate_m);
   // Of four points, keeps those clear of what rises, after mark_rising(). At the foot of a rough wall or heap its
   // lowest points pass for floor, on one side more than on the other, and tilt the fit.
   FourTruths clear_around(FourFloats x_base_m, FourFloats y_base_m, FourTruths counts) const;
@@ -67,6 +67,8 @@ class FloorGrid {
   static std::uint32_t index(std::int32_t ix, std::int32_t iy) { return static_cast<std::uint32_t>(iy * kSide + ix); }
 
   // is_on(x, y, z): which of four points the plane has.
+  // Of four points, marks the cells of those that are on.
+  void mark_four(FourFloats x, FourFloats y, FourTruths on);
   template <typename IsOn>
   void mark_where(const PointSet& open_base, const IsOn& is_on);
   [[gnu::noinline]] void mark_cell(std::int32_t ix, std::int32_t iy);  // called once for each cell

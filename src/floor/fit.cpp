@@ -181,7 +181,8 @@ IrlsResult fit_selected(const FloorScene& scene, const FloorLook& look, const Pl
     const std::uint32_t offered = look.open_base.count < look.open_most ? look.open_base.count : look.open_most;
     scratch->work.add(offered, steps::kPointSelected);
     scratch->work.add(irls.work);
-    if (scratch->work.is_spent() || !irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
+    if (!irls.solved || (selection > 0 && stands_still(before, irls.plane))) break;
+    if (selection + 1 < kSelections && scratch->work.stops()) break;
     if (selection == 0 && irls.scale_m > kFull * tukey.scale_max_m) widen(&tukey);
   }
   return irls;
@@ -194,7 +195,7 @@ FloorResult fit_floor(const FloorScene& scene, const FloorLook& look, const Plan
   FloorResult out;
   const IrlsResult irls = fit_selected(scene, look, start, scratch);
   out.fit.plane = irls.plane;
-  if (scratch->work.is_spent()) {
+  if (scratch->work.stops()) {
     out.fit.refuse(POSE_WALL_R_WORK_LIMIT);
     return out;
   }

@@ -120,7 +120,7 @@ Looks look_wider(const FloorScene& scene, Random* random, FloorScratch* scratch)
   const double good_enough = kGoodEnough * radians(s.alert_limit_angle_deg);
   double radius_m = s.ground_roi_radius;
   bool widest = false;
-  for (; !widest && looks.tried < kRadiusSteps && !scratch->work.is_spent(); radius_m *= kRadiusGrowth) {
+  for (; !widest && looks.tried < kRadiusSteps && !scratch->work.stops(); radius_m *= kRadiusGrowth) {
     widest = !(radius_m < s.ground_roi_radius_max);
     if (widest) radius_m = s.ground_roi_radius_max;
     if (!widest) copy_within(open, radius_m, &scratch->within_base);
@@ -138,7 +138,7 @@ Looks look_wider(const FloorScene& scene, Random* random, FloorScratch* scratch)
 
 // A missing look could have shown a rival, or another floor.
 void refuse_unfinished(const Work& work, [[maybe_unused]] int attempt, FloorResult* out) {
-  if (!work.is_spent()) return;
+  if (!work.is_cut_off()) return;
   POSE_WALL_NOTE(trace::attempt(static_cast<std::uint32_t>(attempt)));
   demand_work_left(work, &out->fit);
   POSE_WALL_NOTE(trace::attempt(0));
@@ -153,7 +153,7 @@ FloorResult find_floor(const FloorScene& scene, Random* random, FloorScratch* sc
   const Looks looks = look_wider(scene, random, scratch);
   POSE_WALL_NOTE(trace::floor_attempt_taken(static_cast<std::uint32_t>(looks.best)));
   FloorResult out = looks.taken(scene.settings);
-  if (!out.fit.refused && !scratch->work.is_spent()) reach_to_floors_beside(scene, random, scratch, &out);
+  if (!out.fit.refused && !scratch->work.stops()) reach_to_floors_beside(scene, random, scratch, &out);
   reach_to_upright(&out);
   refuse_unfinished(scratch->work, looks.best, &out);
   return out;

@@ -172,7 +172,7 @@ bool may_stand_on(const PointSet& open, const Plane& other, const Plane& floor, 
 double share_apart(const FloorScene& scene, const PointSet& within_base, const Plane& rival, const Plane& floor,
                    FloorScratch* scratch) {
   const double thresh_m = scene.settings.ground_ransac_thresh;
-  scratch->work.add(4 * within_base.count, steps::kPointMarked);
+  scratch->work.add(within_base.count, steps::kPointApart);
   const auto only_on_m2 = [&](const Plane& plane, const Plane& other) {
     scratch->grid.mark_apart(within_base, plane, other, thresh_m);
     return scratch->grid.evidence(scene.axes).score_m2;
@@ -196,7 +196,7 @@ void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const
   double roll = 0.0, pitch = 0.0;
   for (const FloorCandidate& rival : candidates.all()) {
     if (&rival == &best || (!rival.may_carry() && best.evidence.area_m2 >= kSureArea_m2)) continue;
-    if (scratch->work.is_spent()) break;
+    if (scratch->work.stops()) break;
     double share = rival.evidence.score_m2 / best.evidence.score_m2;
     if (is_sure && share >= limit_of<gate::FLOOR_RIVAL>(s)) {
       const double apart = share_apart(scene, within_base, rival.plane, fitted, scratch);
@@ -260,7 +260,7 @@ void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratc
   scratch->grid.mark(open, plane, s.ground_ransac_thresh);
   const RollPitch a = roll_pitch_of_up(plane.n);
   for (const FloorCandidate& other : found.all()) {
-    if (scratch->work.is_spent()) return;
+    if (scratch->work.stops()) return;
     scratch->work.add(open.count, steps::kPointWeighed);
     if (other.ghost || is_reflection(scene, open, plane, other.plane, scratch->grid)) continue;
     if (!may_stand_on(open, other.plane, plane, s.ground_ransac_thresh)) continue;

@@ -35,6 +35,7 @@ struct Frame {
   std::uint32_t reasons = 0, state = POSE_WALL_ALONG_MEASURED;
   double step_s = 0.0;  // since the last frame that had a pose
   Eigen::Vector3d step_m = Eigen::Vector3d::Zero(), step_rad = Eigen::Vector3d::Zero();
+  Six step_variance = Six::Zero();  // by the patches of rock alone
   Bounds step, whole;
 
   bool is(std::uint32_t along_state) const { return state == along_state; }

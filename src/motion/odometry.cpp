@@ -4,6 +4,7 @@
 #include "motion/odometry.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "base/math/finite.hpp"
 #include "motion/motion_report.hpp"
@@ -38,6 +39,7 @@ constexpr double kBent_m = 0.02, kBentAt_m = 5.0;  // a scan that its motion ben
 constexpr double kBendOfSpread = 0.17;
 constexpr std::uint32_t kYoungFrames = 3;
 constexpr double kKeyframeTurn_rad = 0.1;
+constexpr double kNoTurn2 = 1e-10;     // (rad/s)²: keeps a turn of nothing from being divided by nothing
 constexpr float kRockRange_m = 14.0F;  // further away, only rays that meet at 17 degrees and more make surfaces
 constexpr float kFarIncidence = 0.3F;
 
@@ -70,6 +72,7 @@ void Odometry::reset() {
   axes_ = RoadAxes{};
   travel_.reset();
   last_covariance_.setZero();
+  last_alignment_.setZero();
   stamp_ns_ = 0;
   period_s_ = 0.0;
   frames_ = 0;
@@ -77,7 +80,7 @@ void Odometry::reset() {
   since_start_ = 0;
   slipped_m_ = lost_s_ = rock_variance_m2_ = 0.0;
   has_map_ = guesses_ = is_bent_ = has_pose_ = false;
-  forget_rates();
+  forget_motion();
 }
 
 // The first scan stands upright and square to the map's axes, so that surfaces face them.
@@ -96,6 +99,7 @@ void Odometry::begin_map(Frame* frame) {
   axes_.hold = 0.0;
   frame->alignment.axes = axes_;
   last_covariance_.setZero();
+  last_alignment_.setZero();
   begin_map_here();
   begin_run(frame->cloud.stamp_ns);
   has_map_ = true;
@@ -107,13 +111,11 @@ void Odometry::begin_map(Frame* frame) {
 void Odometry::begin_run(std::int64_t stamp_ns) {
   constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL;  // 2^64 over the golden ratio: spreads neighbours apart
   run_ = (run_ + static_cast<std::uint64_t>(stamp_ns) + 1) * kGolden | 1U;
-  forget_rates();
+  forget_motion();
 }
 
-void Odometry::forget_rates() {
-  const double speed = settings_.speed_max_m_s, turn = settings_.turn_max_rad_s;
-  seen_ = Twist{};
-  rate_level_ << speed, speed, speed, turn, turn, turn;
+void Odometry::forget_motion() {
+  scan_motion_.forget(settings_.speed_max_m_s, settings_.turn_max_rad_s);
 }
 
 void Odometry::begin_map_here() {
@@ -271,19 +273,26 @@ void Odometry::match_way(Frame* frame) {
   a.pose.t += curve.best_m * a.axes.along;
 }
 
-// The turn since the last frame, each part about the road's axes as far as it exceeds its own noise. A few rings of
-// ground give pitch to 0.1 degrees, and ten times that a second would bend the next scan.
-Eigen::Vector3d Odometry::shrunk_turn(const Frame& frame) const {
-  const RoadAxes& axes = frame.alignment.axes;
-  const Eigen::Vector3d turn_map = pose_.R * frame.step_rad;
-  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+// A motion of base in the directions of the road, and back.
+Six Odometry::in_road(const RoadAxes& axes, const Twist& twist) const {
   const Eigen::Vector3d* const about[] = {&axes.along, &axes.left, &axes.up};
+  const Eigen::Vector3d move = pose_.R * twist.velocity_m_s, turn = pose_.R * twist.turn_rad_s;
+  Six rate;
   for (int k = 0; k < 3; ++k) {
-    const double turn = about[k]->dot(turn_map);
-    const double noise = frame.step.sigma[POSE_WALL_MOTION_ROLL + k];
-    out += *about[k] * (turn * turn * turn / (turn * turn + noise * noise + 1e-12));
+    rate[k] = about[k]->dot(move);
+    rate[POSE_WALL_MOTION_ROLL + k] = about[k]->dot(turn);
   }
-  return pose_.R.transpose() * out;
+  return rate;
+}
+
+Twist Odometry::in_base(const RoadAxes& axes, const Six& rate) const {
+  const Eigen::Vector3d* const about[] = {&axes.along, &axes.left, &axes.up};
+  Eigen::Vector3d move = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    move += *about[k] * rate[k];
+    turn += *about[k] * rate[POSE_WALL_MOTION_ROLL + k];
+  }
+  return {pose_.R.transpose() * move, pose_.R.transpose() * turn};
 }
 
 // The given way stands alone without evidence of the rock. Otherwise it is weighed in or refused.
@@ -307,31 +316,59 @@ double Odometry::slip_of(const Frame& frame, double along_m) const {
   return settings_.speed_max_m_s * frame.dt_s + std::fabs(along_m);
 }
 
+namespace {
+
+// The turns, each as far as it exceeds its own noise. A few rings of ground give pitch to 0.1 degrees, and ten times
+// that a second would bend the next scan.
+Six shrunk_turn(const Six& rate, const Six& noise) {
+  Six out = Six::Zero();
+  for (int k = POSE_WALL_MOTION_ROLL; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
+    const double turn2 = rate[k] * rate[k];
+    out[k] = rate[k] * turn2 / (turn2 + noise[k] * noise[k] + kNoTurn2);
+  }
+  return out;
+}
+
+}  // namespace
+
+// The mean motion since the last frame. The scan begins now, and its own motion is told by it.
 void Odometry::learn_twist(const Frame& frame) {
-  Twist now = {frame.step_m / frame.dt_s, shrunk_turn(frame) / frame.dt_s};
-  if (!frame.is(POSE_WALL_ALONG_MEASURED) && !frame.prior.has_way()) {
-    const Eigen::Vector3d axis = pose_.R.transpose() * frame.alignment.axes.along;
+  const RoadAxes& axes = frame.alignment.axes;
+  Twist now = {frame.step_m / frame.dt_s, frame.step_rad / frame.dt_s};
+  const bool along_known = frame.is(POSE_WALL_ALONG_MEASURED) || frame.prior.has_way();
+  if (!along_known) {
+    const Eigen::Vector3d axis = pose_.R.transpose() * axes.along;
     now.velocity_m_s += axis * axis.dot(twist_.velocity_m_s - now.velocity_m_s);
   }
   if (frame.dt_s < kTwistLasts_s) {
-    // It is the mean since the last frame. The scan begins now, and the motion may go on changing as it did.
-    const RoadAxes& axes = frame.alignment.axes;
-    const Eigen::Vector3d changed_m_s = pose_.R * (now.velocity_m_s - seen_.velocity_m_s);
-    const Eigen::Vector3d changed_rad_s = pose_.R * (now.turn_rad_s - seen_.turn_rad_s);
-    const Eigen::Vector3d* const about[] = {&axes.along, &axes.left, &axes.up};
-    rate_level_ = frame.step.level / frame.dt_s;
-    for (int k = 0; k < 3; ++k) {
-      rate_level_[k] += std::fabs(about[k]->dot(changed_m_s));
-      rate_level_[POSE_WALL_MOTION_ROLL + k] += std::fabs(about[k]->dot(changed_rad_s));
-    }
-    seen_ = now;
+    const Six rate = in_road(axes, now);
+    scan_motion_.learn(rate, frame.step_variance / (frame.dt_s * frame.dt_s));
+    if (!along_known) scan_motion_.set_along(rate[POSE_WALL_MOTION_ALONG], frame.slip_m / frame.dt_s);
+    now.turn_rad_s = in_base(axes, shrunk_turn(rate, frame.step.sigma / frame.dt_s)).turn_rad_s;
   } else {  // a mean over a gap is that of no scan
-    forget_rates();
+    forget_motion();
   }
   // Half of this frame's step: single steps are noisy, and machines are heavy.
   const double share = since_start_ < 2 ? 1.0 : 0.5;
   twist_.velocity_m_s += share * (now.velocity_m_s - twist_.velocity_m_s);
   twist_.turn_rad_s += share * (now.turn_rad_s - twist_.turn_rad_s);
+}
+
+// What the patches of rock say of this step; then what slip adds to the pose.
+void Odometry::learn_alignment(Frame* frame) {
+  Alignment& a = frame->alignment;
+  const bool measured = frame->is(POSE_WALL_ALONG_MEASURED);
+  if (!measured) {
+    a.covariance.row(0).setZero();
+    a.covariance.col(0).setZero();
+  }
+  frame->step_variance = Travel::variance_of_step(last_alignment_, a.covariance);
+  last_alignment_ = a.covariance;
+  if (measured) return;
+  // Where the road bends or dips, the slipped machine follows it.
+  const double bend_rad = kBendOfSpread * map_.unevenness() * frame->slip_m;
+  a.covariance(POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_PITCH) += bend_rad * bend_rad;
+  a.covariance(POSE_WALL_MOTION_YAW, POSE_WALL_MOTION_YAW) += bend_rad * bend_rad;
 }
 
 void Odometry::conclude(Frame* frame) {
@@ -344,14 +381,7 @@ void Odometry::conclude(Frame* frame) {
   const double along_m = (a.pose.t - pose_.t).dot(a.axes.along);
   frame->slip_m = slip_of(*frame, along_m);
   if (is_bent_) a.covariance(0, 0) += kBentShare * kBentShare * along_m * along_m;
-  if (!measured) {
-    a.covariance.row(0).setZero();
-    a.covariance.col(0).setZero();
-    // Where the road bends or dips, the slipped machine follows it.
-    const double bend_rad = kBendOfSpread * map_.unevenness() * frame->slip_m;
-    a.covariance(POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_PITCH) += bend_rad * bend_rad;
-    a.covariance(POSE_WALL_MOTION_YAW, POSE_WALL_MOTION_YAW) += bend_rad * bend_rad;
-  }
+  learn_alignment(frame);
   travel_.go(along_m);
   const double step_slip_m = measured ? slipped_m_ : frame->slip_m;  // the first one found makes up for the others
   frame->step = Travel::of_step(last_covariance_, a.covariance, step_slip_m, settings_.protection_sigmas);
@@ -536,26 +566,43 @@ void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* re
   result->keyframes = map_.keyframes();
 }
 
+// Without a pose nothing is known of place and motion but the machine's limits. A run of its own keeps such a frame
+// from being compared with its neighbours.
+void Odometry::tell_nothing(pose_wall_odometry* out) const {
+  out->run = run_ + 2 * (frames_ + 1);  // runs are odd, and no two frames of this one alike
+  ScanMotion any;
+  any.forget(settings_.speed_max_m_s, settings_.turn_max_rad_s);
+  const Six rate_level = any.level(settings_.protection_sigmas);
+  for (int k = 0; k < 3; ++k) out->velocity_m_s[k] = out->turn_rate_rad_s[k] = 0.0;
+  for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) {
+    out->level[k] = std::numeric_limits<double>::infinity();
+    out->rate_level[k] = rate_level[k];
+  }
+}
+
 bool Odometry::tell(pose_wall_odometry* out) const {
-  if (!has_pose_) return false;
+  if (frames_ == 0) return false;
   Eigen::Quaterniond q(pose_.R);
   q.normalize();
   out->run = run_;
   const Six level = Travel::level_of(last_covariance_, slipped_m_, settings_.protection_sigmas);
+  const Six rate_level = scan_motion_.level(settings_.protection_sigmas);
+  const Twist moves = in_base(axes_, scan_motion_.rate());
   for (int k = 0; k < 3; ++k) {
     out->position_m[k] = pose_.t[k];
     out->along[k] = axes_.along[k];
     out->across[k] = axes_.left[k];
-    out->velocity_m_s[k] = seen_.velocity_m_s[k];
-    out->turn_rate_rad_s[k] = seen_.turn_rad_s[k];
+    out->velocity_m_s[k] = moves.velocity_m_s[k];
+    out->turn_rate_rad_s[k] = moves.turn_rad_s[k];
   }
   for (int k = 0; k < 4; ++k) out->quaternion[k] = q.coeffs()[k];
   for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) {
     out->level[k] = level[k];
     out->drift_variance[k] = travel_.drift_variance()[k];
     out->drift[k] = travel_.drift()[k];
-    out->rate_level[k] = rate_level_[k];
+    out->rate_level[k] = rate_level[k];
   }
+  if (!has_pose_) tell_nothing(out);
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include "motion/frame.hpp"
 #include "motion/range_image.hpp"
 #include "motion/relief_map.hpp"
+#include "motion/scan_motion.hpp"
 
 namespace pose_wall::motion {
 
@@ -24,7 +25,7 @@ class Odometry {
   void open(const Reading& reading, const MotionSettings& settings);
   void reset();
   void process(const pose_wall_cloud& cloud, pose_wall_motion_result* result);
-  // The last frame's pose as the engine takes it. False where it has none.
+  // The last frame's pose as the engine takes it; without a pose, that nothing is known. False before the first frame.
   bool tell(pose_wall_odometry* out) const;
   std::uint64_t run() const { return run_; }
   std::uint32_t map_points(std::uint32_t first, std::uint32_t capacity, float* xyz_start_m) const;
@@ -48,13 +49,16 @@ class Odometry {
   void learn_twist(const Frame& frame);
   void keep_map(const Frame& frame);
   void conclude(Frame* frame);
-  Eigen::Vector3d shrunk_turn(const Frame& frame) const;
+  void learn_alignment(Frame* frame);
   bool begins_unbent(const Frame& frame) const;
   void begin_unbent(const Frame& frame);
   void begin_map_here();
   void begin_run(std::int64_t stamp_ns);
-  void forget_rates();
+  void forget_motion();
+  Six in_road(const RoadAxes& axes, const Twist& twist) const;
+  Twist in_base(const RoadAxes& axes, const Six& rate) const;
   void take_in_scan();
+  void tell_nothing(pose_wall_odometry* out) const;
   Scan scan_of(const Frame& frame) const;
 
   Reading reading_;
@@ -69,12 +73,12 @@ class Odometry {
   // memory
   ReliefMap map_;
   Pose pose_, start_, keyframe_;
-  Twist twist_;
-  Twist seen_;      // in the last frame, as far as it is known
-  Six rate_level_;  // of that
+  Twist twist_;  // smoothed, to expect the next place by
+  ScanMotion scan_motion_;
   RoadAxes axes_;
   Travel travel_;
   SixBySix last_covariance_;
+  SixBySix last_alignment_;        // the same by the patches of rock alone
   double rock_variance_m2_ = 0.0;  // of the way along by the rock, pooled over frames; 0: none yet on this map
   std::int64_t stamp_ns_ = 0;
   double period_s_ = 0.0;  // usual time between frames

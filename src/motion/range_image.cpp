@@ -13,7 +13,8 @@ namespace pose_wall::motion {
 namespace {
 
 constexpr std::uint32_t kLooks = 4096;  // points for a cloud's rings, elevations and times
-constexpr double kRingsLeast = 4.0;     // fewer: a driver of a pattern without rings that fills in the field
+// Fewer are the lines of a pattern without rings: four of a Livox Mid-360, six of an Avia or HAP.
+constexpr double kRingsLeast = 8.0;
 constexpr float kTurn_rad = 6.2831853F;
 constexpr std::uint32_t kBodyBoxes = sizeof(Reading::body) / sizeof(Box);
 
@@ -74,7 +75,7 @@ struct Layout {
   bool has_ring, has_time;
   double rings = 1.0;
   float sine_least = 1.0F, row_scale = 0.0F;  // of elevation
-  double time_least = 0.0, time_unit_s = 0.0;
+  double time_zero = 0.0, time_unit_s = 0.0;
   std::uint32_t rows = kImageRowsMost, columns = kImageColumnsMost;
   std::uint32_t share = 0xFFFFFFFFU;  // of the points that are looked at, of 2^32
 };
@@ -111,8 +112,8 @@ Layout look_at(const pose_wall_cloud& cloud, const Reader& reader) {
   const std::uint64_t points = static_cast<std::uint64_t>(cloud.width) * rows_of(cloud);
   const Extent extent = extent_of(cloud, reader, points);
   Layout layout;
-  layout.time_least = extent.time_least;
   layout.time_unit_s = time_unit_s(extent.time_most - extent.time_least);
+  layout.time_zero = time_of_stamp(extent.time_least, extent.time_most, layout.time_unit_s);
   layout.has_time = cloud.time.type != POSE_WALL_FIELD_NONE && layout.time_unit_s > 0.0;
   layout.rings = extent.ring_most + 1.0;
   layout.has_ring = cloud.ring.type != POSE_WALL_FIELD_NONE && layout.rings >= kRingsLeast;
@@ -183,7 +184,7 @@ class Projector {
     if (layout_.has_ring) four->ring[lane] = reader_.ring(point);
     if (layout_.has_time) {
       four->time_s[lane] =
-          static_cast<float>((reader_.number(point, cloud_.time) - layout_.time_least) * layout_.time_unit_s);
+          static_cast<float>((reader_.number(point, cloud_.time) - layout_.time_zero) * layout_.time_unit_s);
     }
   }
 

@@ -23,14 +23,18 @@ bool is_turn(int k) {
   return k >= POSE_WALL_MOTION_ROLL;
 }
 
+double least_variance(int k) {
+  const double least = is_turn(k) ? kTurnFloor_rad : kPlaceFloor_m;
+  return least * least;
+}
+
 SixBySix doubted(const SixBySix& C) {
   SixBySix out = C;
   for (int i = 0; i < POSE_WALL_MOTION_DIRECTIONS; ++i) {
     for (int j = 0; j < POSE_WALL_MOTION_DIRECTIONS; ++j) {
       out(i, j) *= (is_turn(i) ? kTurnDoubt : 1.0) * (is_turn(j) ? kTurnDoubt : 1.0);
     }
-    const double least = is_turn(i) ? kTurnFloor_rad : kPlaceFloor_m;
-    out(i, i) += least * least;
+    out(i, i) += least_variance(i);
   }
   return out;
 }
@@ -111,6 +115,10 @@ Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, double slip_
     out.level[k] = factor * std::sqrt(variance[k]) + slip;
   }
   return out;
+}
+
+Six Travel::variance_of_step(const SixBySix& before, const SixBySix& now) {
+  return (doubted(before) + doubted(now)).diagonal();
 }
 
 }  // namespace pose_wall::motion

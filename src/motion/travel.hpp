@@ -46,6 +46,9 @@ class Travel {
   // Of the way from one frame to the next, each against the same map.
   static Bounds of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor);
 
+  // Variances of a step by the patches of rock alone.
+  static Six variance_of_step(const SixBySix& before, const SixBySix& now);
+
   // The lasting part of each direction's errors since reset, without lever arms. The error between two places in one
   // map is that of either alignment and the difference of these two.
   const Six& drift_variance() const { return drift_variance_; }

@@ -253,16 +253,6 @@ bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
   return true;
 }
 
-void widen_by_skew(const pose_wall_odometry& o, double scan_s, const OdometryMemory& memory, const Settings& s,
-                   const Axes& axes, Measurements* measured) {
-  if (!(scan_s > 0.0)) return;
-  const View view(o, memory, s, axes);
-  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    Measurement& m = measured->quantity[q];
-    if (m.measured) m.protection[POSE_WALL_PART_AGE] += scan_s * view.response(q).level(o.rate_level);
-  }
-}
-
 void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const Levelling& levelling,
                     const JudgedWall (&walls)[2], const Measurements& measured, const Settings& s, const Axes& axes,
                     OdometryMemory* memory) {

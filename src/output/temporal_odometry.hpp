@@ -52,11 +52,6 @@ bool is_sound(const pose_wall_odometry& odometry);
 bool change_by_odometry(const pose_wall_odometry& odometry, const OdometryMemory& memory, const Settings& settings,
                         const Axes& axes, Change* change);
 
-// Adds the unknown motion during a scan, whose motion was removed, to the levels of its measurements: as if the whole
-// surface had been seen at the scan's end. The memory has this frame's surfaces.
-void widen_by_skew(const pose_wall_odometry& odometry, double scan_s, const OdometryMemory& memory,
-                   const Settings& settings, const Axes& axes, Measurements* measured);
-
 // Keeps the place and the surfaces that this frame measured well. A new run drops those of the one before.
 void remember_place(const pose_wall_odometry& odometry, const FloorResult& floor, const Levelling& levelling,
                     const JudgedWall (&walls)[2], const Measurements& measured, const Settings& settings,

@@ -31,9 +31,9 @@ void note_candidates(const WallChoice& choice, const WallCandidates& beside, int
 FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int side, WallsScratch* scratch) {
   Work& work = scratch->fit.work;
   const WallSurface surface = fit_surface(scene, chosen.plane, &scratch->grid, &scratch->fit);
+  if (work.stops()) return {};
   work.add(steps::kWallLookedAt);
   work.add(scene.band_level.count, steps::kPointLookedAt);
-  if (work.is_spent()) return {};
   FittedWall wall = measure_wall(scene, surface, side, scratch->grid, &scratch->errors[side]);
   wall.area_m2 = chosen.evidence.area_m2;
   wall.along_min_m = chosen.evidence.along_min_m;
@@ -41,21 +41,11 @@ FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int sid
   return wall;
 }
 
-// A plane that was not weighed may be the better wall, and one wall may doubt what the other shows of the road. So if
-// the work ran out before the end, neither wall is finished.
-void refuse_unfinished(const Work& work, JudgedWall (*walls)[2]) {
-  if (!work.is_spent()) return;
-  for (int side = 0; side < 2; ++side) {
-    POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
-    demand_work_left(work, &(*walls)[side].fit);
-  }
-}
-
 }  // namespace
 
 WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Random* random, WallsScratch* scratch) {
   const Settings& s = scene.settings;
-  const Work& work = scratch->fit.work;
+  Work& work = scratch->fit.work;
   const SideView views[2] = {{scene.forward_level, scene.left_level}, {scene.forward_level, -scene.left_level}};
   WallCandidates beside[2];
   thin_out(scene, &scratch->propose);
@@ -64,7 +54,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const std::uint32_t scored[2] = {scratch->propose.search[0].scored(), scratch->propose.search[1].scored()};
   WallChoice choice = choose_walls(beside[0], beside[1], s);
   refuse_where_across(scene, random, &scratch->propose, &choice);
-  if (!work.is_spent()) learn_directions(scene, &scratch->sight);
+  if (!work.stops()) learn_directions(scene, &scratch->sight);
   WallsResult out;
   out.tilt_level_rad = tilt_by_walls(scene, beside);
   for (int side = 0; side < 2; ++side) {
@@ -72,15 +62,16 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
     POSE_WALL_NOTE(trace::attempt(0));
     POSE_WALL_NOTE(note_candidates(choice, beside[side], side, s));
     POSE_WALL_NOTE(trace::attempt(1));
-    if (choice.side[side] != nullptr && !work.is_spent()) {
+    if (choice.side[side] != nullptr && !work.stops()) {
       const FittedWall fitted = fit_wall(scene, *choice.side[side], side, scratch);
-      if (!work.is_spent())
+      if (!work.is_cut_off())
         out.side[side] = judge_wall(scene, views[side], choice, beside[side], side, fitted, scratch);
     }
+    // Neither wall is finished if a plane was left that may be the better wall. A wall that is finished stands alone.
+    if (work.is_cut_off()) demand_work_left(work, &out.side[side].fit);
     out.side[side].fit.iterations = scored[side];
     out.side[side].fit.add(choice.verdict[side]);
   }
-  refuse_unfinished(work, &out.side);
   doubt_those_alone(s, choice, beside, &out.side);
   refuse_blocked_sides(scene.counts, s, &out.side);
   set_sigmas(scratch->errors, s.protection_sigmas, &out.side);

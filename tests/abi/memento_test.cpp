@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstring>
 #include <vector>
 
@@ -74,6 +75,48 @@ TEST(Memento, TheLeafOfTheLastFrameIsInIt) {
   }
   EXPECT_GT(grown, 4);
   EXPECT_GT(from_the_past, 0) << "the leaf comes down by and by: else this test shows nothing";
+}
+
+struct TimedPoint {
+  float x, y, z, time_s;
+};
+
+// What the last frame's floor and walls showed bounds the motion within the next scan.
+TEST(Memento, WhatTwoFramesShowOfTheMotionWithinAScanIsInIt) {
+  EngineUnderTest all(small_config());
+  pose_wall_inputs inputs{};
+  inputs.struct_size = sizeof inputs;
+  inputs.given = POSE_WALL_INPUT_ODOMETRY;
+  inputs.odometry.run = 7;
+  inputs.odometry.quaternion[3] = inputs.odometry.along[0] = inputs.odometry.across[1] = 1.0;
+  for (double& level : inputs.odometry.rate_level) level = 1.0;
+  double first_level = 0.0;
+  for (std::uint32_t frame = 1; frame <= 4; ++frame) {
+    const Points points = room_points(frame);
+    std::vector<TimedPoint> timed;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto share = static_cast<float>(i) / static_cast<float>(points.size());
+      timed.push_back({points[i][0], points[i][1], points[i][2], 0.1F * share});
+    }
+    pose_wall_cloud cloud;
+    ASSERT_EQ(pose_wall_cloud_xyz32(&cloud, timed.data(), static_cast<std::uint32_t>(timed.size()), sizeof(TimedPoint),
+                                    frame * 100000000LL),
+              POSE_WALL_OK);
+    cloud.time = {offsetof(TimedPoint, time_s), POSE_WALL_FIELD_FLOAT32};
+    cloud.inputs = &inputs;
+    const Memento before = save(&all);
+    const pose_wall_result expected = all.process(cloud);
+    EngineUnderTest other(small_config());
+    ASSERT_EQ(load(&other, before), POSE_WALL_OK);
+    const pose_wall_result again = other.process(cloud);
+    EXPECT_EQ(std::memcmp(&expected, &again, sizeof again), 0) << "frame " << frame;
+    EXPECT_EQ(save(&other), save(&all));
+    const double level = expected.quantity[POSE_WALL_ROLL].raw_protection_level;
+    if (frame == 1) first_level = level;
+    if (frame > 2) {
+      EXPECT_LT(level, 0.5 * first_level) << "or the memory is of no use here";
+    }
+  }
 }
 
 // Without what came before, the second frame comes out otherwise: the test above can fail.

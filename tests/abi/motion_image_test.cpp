@@ -317,7 +317,8 @@ TEST(MotionRun, IsAnotherAfterEachNewStart) {
   EXPECT_NE(second, first) << "also where the stamps are the same";
 }
 
-TEST(MotionGive, IsTheLastPoseOrNone) {
+// A frame without a pose may have moved by all that the machine can.
+TEST(MotionGive, IsTheLastPoseOrThatNothingIsKnown) {
   MotionUnderTest motion(config_of_seven());
   pose_wall_inputs inputs{};
   inputs.struct_size = sizeof inputs;
@@ -333,7 +334,14 @@ TEST(MotionGive, IsTheLastPoseOrNone) {
   EXPECT_EQ(inputs.odometry.run, last.run);
   motion.process(cloud_of(Points(), 2 * kImagePeriod_ns));
   ASSERT_EQ(pose_wall_motion_give(motion.get(), &inputs), POSE_WALL_OK);
-  EXPECT_EQ(inputs.given, std::uint32_t{POSE_WALL_INPUT_SPEED});
+  EXPECT_EQ(inputs.given, std::uint32_t{POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_ODOMETRY});
+  EXPECT_NE(inputs.odometry.run, last.run) << "not to be compared with its neighbours";
+  pose_wall_motion_settings limits;
+  pose_wall_motion_settings_init(&limits);
+  for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) {
+    EXPECT_TRUE(std::isinf(inputs.odometry.level[k])) << k;
+    EXPECT_GE(inputs.odometry.rate_level[k], k < 3 ? limits.speed_max_m_s : limits.turn_max_rad_s) << k;
+  }
 }
 
 }  // namespace

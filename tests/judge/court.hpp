@@ -34,7 +34,7 @@ struct Finding {
 // How the engine is used.
 struct Treatment {
   bool motion = false;         // the motion library beside it
-  std::uint32_t work_max = 0;  // the key; 0: by the size of the cloud
+  std::uint32_t work_max = 0;  // the key; 0: by returns and voxels of the cloud
 };
 
 // What one frame took.

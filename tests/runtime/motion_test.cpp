@@ -542,7 +542,9 @@ TEST(RuntimeMotion, TheBlackBoxHoldsItAndComputesToTheSameBits) {
     pose_wall_inputs inputs;
     ASSERT_NE(r.inputs, nullptr);
     std::memcpy(&inputs, r.inputs, sizeof inputs);
-    EXPECT_EQ((inputs.given & POSE_WALL_INPUT_ODOMETRY) != 0, p.motion.along_state != POSE_WALL_ALONG_LOST) << event;
+    ASSERT_NE(inputs.given & POSE_WALL_INPUT_ODOMETRY, 0U) << event;
+    EXPECT_EQ(std::isfinite(inputs.odometry.level[POSE_WALL_MOTION_YAW]), p.motion.along_state != POSE_WALL_ALONG_LOST)
+        << event;
   }
   EXPECT_EQ(event, frames.size() + 1);
 }

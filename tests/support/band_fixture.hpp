@@ -56,7 +56,9 @@ class BandFixture {
   }
 
   // A return of the sensor, by the direction it came from.
-  void count_return(const Eigen::Vector3d& ray_lidar) { returns_lidar_->all.add(ray_lidar, 1); }
+  void count_return(const Eigen::Vector3d& ray_lidar) {
+    returns_lidar_->all_slices.add(Directions::cell_of(ray_lidar), 1);
+  }
   void mount_lidar(const Eigen::Matrix3d& R_level_lidar) { extrinsic_.R_base_lidar = R_level_lidar; }
 
   // Refers to this fixture, as it is now.
@@ -65,6 +67,7 @@ class BandFixture {
     levelling.floor_z_level_m = kFloorZ_m;
     const Axes axes{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
     join_cloud();
+    returns_lidar_->settle();
     return wall_scene({points_.set(), beyond_.set(), *cloud_, *returns_lidar_, counts_}, settings_, levelling, axes,
                       extrinsic_);
   }

@@ -68,7 +68,8 @@ inline std::uint64_t most_of_a_wall_piece(const Settings& s) {
 
 // Whoever begins a piece has spent no more than the budget.
 inline std::uint64_t most_of_a_frame(const Settings& s, std::uint64_t points) {
-  const std::uint64_t begun = std::max(most_of_reading(s, points), work_most(s, points));
+  const std::uint64_t begun =
+      std::max(most_of_reading(s, points), work_most(s, points, std::min<std::uint64_t>(points, s.points_max)));
   return begun + std::max(most_of_a_floor_piece(s), most_of_a_wall_piece(s));
 }
 

@@ -344,7 +344,7 @@ const Refused kRefused[] = {
      0,
      "aara",
      "left wall",
-     "63.2 % of the wall returns nothing"},
+     "58.8 % of the wall returns nothing"},
     {"props_and_nothing_behind", {"props_before_void"}, {}, 0, "aada", "left wall", "more than 1 % is doubted"},
     {"conveyor_before_a_dark_wall",
      {"conveyor_before_dark_wall"},

@@ -5,8 +5,8 @@
 //
 // Loops over data add their steps where they begin or end, by the number of their items. A step stands for about ten
 // instructions of x86-64 or AArch64: `bench/instructions/count.py --dear` compares the two over ordinary and hostile
-// clouds. A frame that has spent its budget (work_max) stops at the next check. Results finished before then are
-// reported, all else is refused. The count never falls, so the last check also covers everything before it.
+// clouds. A frame that has spent its budget (work_max) stops at the next check before further work. Results finished
+// before then are reported, all else is refused.
 
 #pragma once
 
@@ -26,10 +26,17 @@ class Work {
   std::uint64_t done() const { return done_; }
   std::uint64_t most() const { return most_; }
   std::uint64_t left() const { return done_ < most_ ? most_ - done_ : 0; }
-  bool is_spent() const { return done_ > most_; }
+  // True if the budget is spent. Ask only where work is left: it is cut off then, and so is all that follows.
+  bool stops() {
+    is_cut_off_ = is_cut_off_ || done_ > most_;
+    return is_cut_off_;
+  }
+  // Whether something was left undone. A frame may spend its budget with its last piece of work.
+  bool is_cut_off() const { return is_cut_off_; }
 
  private:
   std::uint64_t done_ = 0, most_ = kNoEnd;
+  bool is_cut_off_ = false;
 };
 
 // Steps of one item. Each is a tenth of the instructions that its stage takes for one, rounded. They were counted under
@@ -44,7 +51,9 @@ constexpr std::uint64_t kVoxelListed = 3, kVoxelLookedAround = 40, kColumnSearch
 // Floor: a voxel tested for open ground, an open point within a radius, a hypothesis. A plane that is refined, one that
 // is weighed, and each point of that. A point that a fit selects from, and one that goes into its patches:
 constexpr std::uint64_t kVoxelOpened = 7, kPointWithin = 10, kFloorDrawn = 400, kFloorRefined = 4000;
-constexpr std::uint64_t kFloorWeighed = 8000, kPointWeighed = 7, kPointSelected = 8, kPointPatched = 12;
+constexpr std::uint64_t kFloorWeighed = 2500, kPointWeighed = 3, kPointSelected = 8, kPointPatched = 12;
+// A plane that is compared with another one: each point, and each point that only one of the two may have.
+constexpr std::uint64_t kPointCompared = 2, kPointApart = 4;
 // Band: a voxel that is turned and cut.
 constexpr std::uint64_t kVoxelLevelled = 8;
 // Walls: a point of the band in passes over all of it, before the search and for each side; a hypothesis. A plane that

@@ -85,6 +85,8 @@ UnevenFit UnevenPlane::Models::average(double freedom, double sigmas) const {
 
 void UnevenPlane::lay_out(Arena& arena) {
   values_ = arena.take<Values>(SurfacePatches::kMost);
+  u_m_ = arena.take<float>(SurfacePatches::kMost);
+  v_m_ = arena.take<float>(SurfacePatches::kMost);
   neighbours_ = arena.take<std::uint16_t>(SurfacePatches::kMost * kNeighbours);
   predicts_ = arena.take<FourFloats>(kWaves * kFours * kNeighbours);
   left_ = arena.take<FourFloats>(kWaves * kFours);
@@ -116,18 +118,33 @@ FourFloats UnevenPlane::matern(FourFloats r) const {
   return near ? below + part * (above - below) : none;
 }
 
-// The nearest of the patches before each: by insertion, since most are found in the first few places.
+// Whether one of the patches from the first on lies within so many square metres of patch i.
+bool UnevenPlane::any_of_four_is_nearer(std::uint32_t i, std::uint32_t first, float m2) const {
+  const FourFloats du = load_four(&u_m_[first]) - u_m_[i], dv = load_four(&v_m_[first]) - v_m_[i];
+  return any_of(du * du + dv * dv <= all_four(m2));
+}
+
+// The nearest of the patches before each, by insertion; of equally near ones the first. From the last one back, since
+// patches come row by row and the near ones are found at once. The others are passed over four at a time.
 void UnevenPlane::find_neighbours(std::uint32_t patches) {
   for (std::uint32_t i = 0; i < patches; ++i) {
+    u_m_[i] = values_[i].of[1];
+    v_m_[i] = values_[i].of[2];
     float nearest_m2[kNeighbours];
-    const float u_m = values_[i].of[1], v_m = values_[i].of[2];
     std::uint16_t* const of = &neighbours_[i * kNeighbours];
     std::uint32_t found = 0;
-    for (std::uint32_t j = i > kLookBack ? i - kLookBack : 0; j < i; ++j) {
-      const float du = u_m - values_[j].of[1], dv = v_m - values_[j].of[2], m2 = du * du + dv * dv;
-      if (found == kNeighbours && !(m2 < nearest_m2[kNeighbours - 1])) continue;
-      std::uint32_t place = found < kNeighbours ? found++ : kNeighbours - 1;
-      for (; place > 0 && m2 < nearest_m2[place - 1]; --place) {
+    const std::uint32_t first = i > kLookBack ? i - kLookBack : 0;
+    for (std::uint32_t j = i; j > first;) {
+      const bool full = found == kNeighbours;
+      if (full && j >= first + kFour && !any_of_four_is_nearer(i, j - kFour, nearest_m2[kNeighbours - 1])) {
+        j -= kFour;
+        continue;
+      }
+      --j;
+      const float du = u_m_[i] - u_m_[j], dv = v_m_[i] - v_m_[j], m2 = du * du + dv * dv;
+      if (full && !(m2 <= nearest_m2[kNeighbours - 1])) continue;
+      std::uint32_t place = full ? kNeighbours - 1 : found++;
+      for (; place > 0 && m2 <= nearest_m2[place - 1]; --place) {
         nearest_m2[place] = nearest_m2[place - 1];
         of[place] = of[place - 1];
       }

@@ -71,6 +71,7 @@ class UnevenPlane {
   FourFloats matern(FourFloats r) const;
 
   void find_neighbours(std::uint32_t patches);
+  bool any_of_four_is_nearer(std::uint32_t i, std::uint32_t first, float m2) const;
   Neighbourhood neighbourhood(std::uint32_t first, std::uint32_t patches) const;
   Models models_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);
   void consider_independent(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
@@ -83,6 +84,7 @@ class UnevenPlane {
   Eigen::Matrix3d passed_on(std::uint32_t wave, Span<const Eigen::Vector3d> responses);
 
   Span<Values> values_;
+  Span<float> u_m_, v_m_;           // of the patches once more, to compare four at a time
   Span<std::uint16_t> neighbours_;  // kNeighbours of each patch, the nearest first, kNone behind the last
   // Of each model of waves, for four patches: their neighbours' shares in the prediction, and the variance that it
   // leaves.

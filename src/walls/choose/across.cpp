@@ -99,7 +99,7 @@ bool is_behind_to_be_drawn(double ahead_m2, double most_behind_m2, const WallCho
 
 void refuse_where_across(const WallScene& scene, Random* random, ProposeScratch* scratch, WallChoice* choice) {
   const Settings& s = scene.settings;
-  if (scratch->work->is_spent()) return;
+  if (scratch->work->stops()) return;
   const double most_m2 = choice->any() ? most_area_across_m2(scene) : 0.0;
   if (!may_stand_across(2.0 * most_m2, *choice, s)) return;
   const Eigen::Vector3d f = scene.forward_level, l = scene.left_level;
@@ -107,13 +107,14 @@ void refuse_where_across(const WallScene& scene, Random* random, ProposeScratch*
   WallCandidates ahead, behind;
   draw_walls(scene, ends[0], nullptr, random, &scratch->search[0]);
   weigh_walls(scene, ends[0], &scratch->search[0], scratch, &ahead);
-  if (scratch->work->is_spent()) return;
+  if (scratch->work->stops()) return;
   // Even with the most that could be behind, the planes ahead may show too little.
   const WallCandidate* const best = ahead.strongest();
   if (!is_behind_to_be_drawn(best != nullptr ? best->evidence.score_m2 : 0.0, most_m2, *choice, s)) return;
   draw_walls(scene, ends[1], nullptr, random, &scratch->search[1]);
   exchange_directions(scratch->search);
-  weigh_walls(scene, ends[0], &scratch->search[0], scratch, &ahead);
+  const WallCandidates weighed = ahead;
+  weigh_walls(scene, ends[0], &scratch->search[0], scratch, &ahead, &weighed);
   weigh_walls(scene, ends[1], &scratch->search[1], scratch, &behind);
   refuse_if_across(ahead, behind, s, choice);
 }

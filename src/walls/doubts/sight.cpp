@@ -225,7 +225,7 @@ FourTurns to_lidar(const Extrinsic& extrinsic) {
 FourInts cells_of(const FourTurns& to_lidar, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
   const FourPlaces ray = to_lidar(x, y, z);
   const FourFloats none{}, rx = counts ? ray.x : none, ry = counts ? ray.y : none, rz = counts ? ray.z : none;
-  return DirectionGrid::cells_of(rx, ry, rz, rx * rx + ry * ry + rz * rz);
+  return Directions::cells_of(rx, ry, rz, rx * rx + ry * ry + rz * rz);
 }
 
 // Sorts the points that passed through the plane by direction. Returns the depth within which most of them end.
@@ -233,6 +233,7 @@ double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, S
   const double inside_m = wall.signed_distance(scene.sensor_level_m);
   const Plane wall_base{scene.R_level_base.transpose() * wall.n, wall.d};
   const FourTurns turns = to_lidar(scene.extrinsic);
+  const DirectionRows& rows = scene.returns_lidar.rows;
   Distances depths;
   scratch->behind_lidar.copy(scene.returns_lidar.too_far);
   for_each_in(scene.cloud_base, Slab(wall_base, kAnyDepth_m, -behind_m), [&](std::uint32_t i, float distance_m) {
@@ -240,7 +241,7 @@ double mark_behind(const WallScene& scene, const Plane& wall, double behind_m, S
     const PointSet& cloud = scene.cloud_base;
     const FourInts cells =
         cells_of(turns, all_four(cloud.x[i]), all_four(cloud.y[i]), all_four(cloud.z[i]), first_of_four(kFour));
-    scratch->behind_lidar.add(static_cast<std::uint32_t>(cells[0]),
+    scratch->behind_lidar.add(rows.cell_of(static_cast<std::uint32_t>(cells[0])),
                               static_cast<std::uint32_t>(points_of(all_four(cloud.weight[i]))[0]));
     const Eigen::Vector3d ray = scene.cloud_base.at(i) - scene.extrinsic.sensor_base_m;
     const double to_plane = way_to_plane(inside_m, r);
@@ -344,12 +345,14 @@ void tell_kept(const WallScene& scene, SightScratch* scratch) {
   scratch->kept_is_told = true;
   scratch->kept_lidar.clear();
   const FourTurns turns = to_lidar(scene.extrinsic);
+  const DirectionRows& rows = scene.returns_lidar.rows;
   for_each_four_points(
       scene.cloud_base, [&](std::uint32_t i, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
         const FourInts cells = cells_of(turns, x, y, z, counts);
         const FourInts points = points_of(counts ? load_four(&scene.cloud_base.weight[i]) : FourFloats{}) & counts;
         for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-          scratch->kept_lidar.add(static_cast<std::uint32_t>(cells[lane]), static_cast<std::uint32_t>(points[lane]));
+          scratch->kept_lidar.add(rows.cell_of(static_cast<std::uint32_t>(cells[lane])),
+                                  static_cast<std::uint32_t>(points[lane]));
         }
       });
 }

@@ -39,7 +39,7 @@ constexpr double kTowardsMin = 0.2;  // judgement, 2026-11-21: cosine from the n
 }  // namespace
 
 void ExpectedReturns::look_at(const DirectionGrid& returns_lidar) {
-  for (std::uint32_t column = 0; column < kColumns; ++column) width_[column] = DirectionGrid::width(column);
+  for (std::uint32_t column = 0; column < kColumns; ++column) width_[column] = Directions::width(column);
   for (std::uint32_t row = 0; row < kRows; ++row) {
     double counts[kColumns];
     std::uint32_t seen = 0;
@@ -91,10 +91,10 @@ SightLines::SightLines(const WallScene& scene, const Plane& wall, const Eigen::V
   n_lidar_ = R_lidar_level * wall.n;
   along_lidar_ = R_lidar_level * along_level;
   up_lidar_ = R_lidar_level.col(2);
-  for (std::uint32_t c = 0; c < DirectionGrid::kColumns; ++c) column_[c] = DirectionGrid::column(c);
+  for (std::uint32_t c = 0; c < DirectionGrid::kColumns; ++c) column_[c] = Directions::column(c);
   for (std::uint32_t row = 0; row < DirectionGrid::kRows; ++row) {
-    const double up = DirectionGrid::up(row);
-    flat_[row] = std::sqrt(1.0 - up * up);
+    up_[row] = scene.returns_lidar.rows.up(row);
+    flat_[row] = std::sqrt(1.0 - up_[row] * up_[row]);
   }
 }
 
@@ -138,7 +138,7 @@ std::uint32_t SightLines::column_away() const {
   std::uint32_t best = 0;
   double best_away = -2.0;
   for (std::uint32_t column = 0; column < DirectionGrid::kColumns; ++column) {
-    const DirectionGrid::Column& c = column_[column];
+    const Directions::Column& c = column_[column];
     const double away = n_lidar_.x() * c.x + n_lidar_.y() * c.y;
     if (away > best_away) {
       best_away = away;

@@ -62,10 +62,11 @@ class SightLines {
  private:
   Crossing within(double reach_m, double towards_min, std::uint32_t row, std::uint32_t column) const;
   Eigen::Vector3d ray_lidar(std::uint32_t row, std::uint32_t column) const {
-    return {column_[column].x * flat_[row], column_[column].y * flat_[row], DirectionGrid::up(row)};
+    return {column_[column].x * flat_[row], column_[column].y * flat_[row], up_[row]};
   }
 
-  DirectionGrid::Column column_[DirectionGrid::kColumns];
+  Directions::Column column_[Directions::kColumns];
+  double up_[DirectionGrid::kRows];    // sines of the elevations
   double flat_[DirectionGrid::kRows];  // cosines of the elevations
   double inside_m_, sensor_z_level_m_;
   Eigen::Vector3d n_lidar_, along_lidar_, up_lidar_;

@@ -243,7 +243,7 @@ bool fit_with_fronts(const JointRounds& rounds, WallFitScratch* scratch, WallSur
     const Eigen::Vector3d moved = joint->patch.correction.cwiseAbs();
     const bool stands_still =
         moved[0] < rounds.offset_stands_still_m && moved.tail<2>().maxCoeff() < rounds.slopes_stand_still;
-    if (stands_still || round == rounds.most || scratch->work.is_spent()) return true;
+    if (stands_still || round == rounds.most || scratch->work.stops()) return true;
     joint->irls.over = joint->over();
   }
 }
@@ -309,7 +309,7 @@ void set_strips_apart(const IrlsSettings& settings, WallFitScratch* scratch, Wal
   LastRing last;
   last.surface_alone = fit->irls.over;
   bool marked = false;  // the points are marked by the columns
-  for (int ring = 0; ring < kRings && !scratch->work.is_spent(); ++ring, reach_m *= 2.0) {
+  for (int ring = 0; ring < kRings && !scratch->work.stops(); ++ring, reach_m *= 2.0) {
     const double added = ring > 0 ? strips.judge(fit->irls.over, sensor_m, reach_m) : 1.0;
     if (ring > 0) scratch->work.add(steps::kProfile);
     if (added > 0.0) marked = false;

@@ -146,7 +146,7 @@ WallSurface fit_between(const WallScene& scene, const Plane& start, const Eigen:
   scratch->work.add(fit.irls.work);
   if (!fit.irls.solved) return fit;
   set_strips_apart(settings, scratch, &fit);
-  if (scratch->work.is_spent()) return fit;
+  if (scratch->work.stops()) return fit;
   // Tested before the layers, which may take the fronts of pipes for the nearer layer.
   fit.grooved = fit.irls.solved && is_grooved(scene, fit);
   if (fit.irls.solved && fit.strips == nullptr) set_layers_apart(settings, scratch, &fit);
@@ -185,7 +185,7 @@ void cut(const WallScene& scene, const WallSurface& fit, const Plane& start, con
          const WallGrid& grid, WallFitScratch* scratch, Heights* heights) {
   const IrlsSettings settings = fit_settings(scene.settings);
   gather(scene, start, along, *heights, settings.gate_m, kCutPointsMax, grid, scratch);
-  for (int cuts = 1; cuts < kCutsMax && !scratch->work.is_spent(); ++cuts) {
+  for (int cuts = 1; cuts < kCutsMax && !scratch->work.stops(); ++cuts) {
     const WallSurface part = fit_for_a_cut(settings, *heights, fit.strips, scratch);
     if (!part.patch.solved || !cut_bent_rows(part, heights)) return;
   }
@@ -215,9 +215,9 @@ WallSurface fit_surface(const WallScene& scene, const Plane& start, WallGrid* gr
   scratch->work.add(2ULL * scene.band_level.count, steps::kPointMarked);  // now, and again after the fit
   Heights heights{scene.z_min_level_m, scene.z_max_level_m};
   WallSurface fit = fit_between(scene, start, along, heights, WallPoints::kMost, *grid, scratch);
-  if (fit.patch.solved && !scratch->work.is_spent() && cut_bent_rows(fit, &heights)) {
+  if (fit.patch.solved && cut_bent_rows(fit, &heights) && !scratch->work.stops()) {
     cut(scene, fit, start, along, *grid, scratch, &heights);
-    if (scratch->work.is_spent()) return fit;
+    if (scratch->work.stops()) return fit;
     fit = fit_between(scene, start, along, heights, kAgainPointsMax, *grid, scratch);
   }
   mark_wall(scene, fit.irls_plane(), along, MarkWidth::kThreshold, grid);

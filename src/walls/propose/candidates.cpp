@@ -220,8 +220,29 @@ bool refine_hypothesis(const BoundedPoints& band_level, double thresh_m, const E
   return refined.solved;
 }
 
+namespace {
+
+const WallCandidate* same_of(const WallCandidates* weighed, const Plane& plane) {
+  for (std::uint32_t k = 0; weighed != nullptr && k < weighed->count; ++k) {
+    const WallCandidate& c = weighed->item[k];
+    if (c.plane.n == plane.n && c.plane.d == plane.d) return &c;
+  }
+  return nullptr;
+}
+
+WallCandidate weighed_anew(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level,
+                           ProposeScratch* scratch) {
+  mark_wall(scene, plane, along_level, MarkWidth::kThreshold, scratch->grid);
+  const WallEvidence evidence = scratch->grid->evidence();
+  scratch->work->add(steps::kWallWeighed);
+  scratch->work->add(scene.band_level.count, steps::kPointMarked);
+  return {plane, along_level, evidence, failed_gates(plane, evidence, scene.settings)};
+}
+
+}  // namespace
+
 void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* search, ProposeScratch* scratch,
-                 WallCandidates* out) {
+                 WallCandidates* out, const WallCandidates* weighed) {
   const SameWall same{view}, surely_same{view, 0.5 * SameWall::kApart_m};
   const WallLimits limits(radians(scene.settings.yaw_max_deg + kRefineSlack_deg), 0.5 * kPi);
   const auto refine = [&](RefineWidth width, Plane* plane) {
@@ -238,7 +259,7 @@ void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* searc
   out->count = 0;
   scratch->work->add(scene.band_level.count, steps::kPointSided);
   scratch->work->add(search->scored(), steps::kWallDrawn);
-  for (std::uint32_t k = 0; k < search->list().count() && !scratch->work->is_spent(); ++k) {
+  for (std::uint32_t k = 0; k < search->list().count() && !scratch->work->stops(); ++k) {
     Plane plane = search->list()[k].plane;
     POSE_WALL_NOTE(note_drawn_wall(plane));
     if (!refine(RefineWidth::kWide, &plane)) continue;
@@ -246,12 +267,9 @@ void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* searc
     if (holds_one_like(*out, surely_same, plane)) continue;
     if (!refine(RefineWidth::kNarrow, &plane)) continue;
     if (!may_be_wall(plane, view, limits) || holds_one_like(*out, same, plane)) continue;
-    const Eigen::Vector3d along_level = along_of(plane, view.along_level);
-    mark_wall(scene, plane, along_level, MarkWidth::kThreshold, scratch->grid);
-    const WallEvidence evidence = scratch->grid->evidence();
-    scratch->work->add(steps::kWallWeighed);
-    scratch->work->add(scene.band_level.count, steps::kPointMarked);
-    out->item[out->count++] = {plane, along_level, evidence, failed_gates(plane, evidence, scene.settings)};
+    const WallCandidate* const known = same_of(weighed, plane);
+    out->item[out->count++] =
+        known != nullptr ? *known : weighed_anew(scene, plane, along_of(plane, view.along_level), scratch);
     POSE_WALL_NOTE(note_weighed_wall(out->item[out->count - 1]));
   }
 }

@@ -127,11 +127,12 @@ void propose_walls(const WallScene& scene, const SideView (&views)[2], const Pla
                    ProposeScratch* scratch, WallCandidates (*out)[2]);
 
 // The steps of propose_walls(), for a caller that may stop between them. Once both sides are drawn,
-// exchange_directions() tries each side with the normal found on the other one.
+// exchange_directions() tries each side with the normal found on the other one. weighed: planes of this view that need
+// not be weighed again.
 void draw_walls(const WallScene& scene, const SideView& view, const Plane* last, Random* random, WallSearch* search);
 void exchange_directions(WallSearch (&search)[2]);
 void weigh_walls(const WallScene& scene, const SideView& view, WallSearch* search, ProposeScratch* scratch,
-                 WallCandidates* out);
+                 WallCandidates* out, const WallCandidates* weighed = nullptr);
 
 // A few rounds of Tukey from a drawn hypothesis on points of the band, with a free lean. False if too few points
 // support it. Call it wide first, to find the lean of a wall that an upright hypothesis cuts, then narrow. near and

@@ -102,7 +102,7 @@ TEST(Voxel, DirectionsAreThoseOfTheSensorHoweverItIsMounted) {
   const Extrinsic extrinsic{rotation_zyx(0.1, -0.2, 2.0), Eigen::Vector3d(1.0, -2.0, 0.5)};
   test::Placed<DirectionGrid> expected;
   expected->clear();
-  expected->add({4.0, 3.0, -1.0}, 1);
+  expected->add(DirectionRows().cell_of(Directions::cell_of({4.0, 3.0, -1.0})), 1);
   const Voxels v = voxels_of(test::cloud_of({{4, 3, -1}}, 0), test::settings_with(), extrinsic);
   EXPECT_EQ(v.returns, 1U);
   EXPECT_EQ(v.filled, filled_cells(*expected));

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: two places of an odometry move each quantity as floor and walls that stand still move before the machine;
-// errors of places do not add up frame by frame while drift does; and beyond what was seen only the config bounds.
+// errors of places do not add up frame by frame while drift does; and beyond what was seen only the config bounds. The
+// motion within a scan widens levels by what the odometry does not know or by what the values of two frames show, and
+// is taken out only where that narrows them.
 
 #include "output/temporal_odometry.hpp"
 

@@ -25,7 +25,7 @@ class EvenSensor {
     for (std::uint32_t row = 20; row < 40; ++row) {
       for (std::uint32_t column = 0; column < kOfColumns; ++column) {
         returns_->add(row * kOfColumns + column,
-                      static_cast<std::uint32_t>(per_width * DirectionGrid::width(column) + 0.5));
+                      static_cast<std::uint32_t>(per_width * Directions::width(column) + 0.5));
       }
     }
   }
@@ -66,7 +66,7 @@ TEST(ExpectedReturns, AreWhatMostOfARowGives) {
   sensor.blind(40, 60);
   const ExpectedReturns expected = sensor.expected();
   for (std::uint32_t column = 0; column < kOfColumns; ++column) {
-    EXPECT_NEAR(expected.at(30, column), 100.0 * DirectionGrid::width(column), 1.0) << column;
+    EXPECT_NEAR(expected.at(30, column), 100.0 * Directions::width(column), 1.0) << column;
     EXPECT_EQ(expected.at(10, column), 0.0) << "a row without returns";
   }
 }

@@ -31,8 +31,8 @@ struct Look {
 };
 
 Eigen::Vector3d ray_level(const WallScene& scene, std::uint32_t row, std::uint32_t column) {
-  const double up = DirectionGrid::up(row), flat = std::sqrt(1.0 - up * up);
-  const DirectionGrid::Column c = DirectionGrid::column(column);
+  const double up = scene.returns_lidar.rows.up(row), flat = std::sqrt(1.0 - up * up);
+  const Directions::Column c = Directions::column(column);
   return scene.extrinsic.R_base_lidar * Eigen::Vector3d(c.x * flat, c.y * flat, up);
 }
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The motion within the scan that begins at a frame's stamp: it is told ahead, by the steps before, and each next step
+// shows how far off that was. Rates in the road's directions: m/s and rad/s, as pose_wall_odometry.rate_level.
+
+#pragma once
+
+#include <cstdint>
+
+#include "motion/travel.hpp"
+
+namespace pose_wall::motion {
+
+class ScanMotion {
+ public:
+  // Nothing is known but the machine's limits.
+  void forget(double speed_most_m_s, double turn_most_rad_s);
+  // The mean rates since the last frame, and the variances that the two alignments give them.
+  void learn(const Six& rate, const Six& variance);
+  // The way along is known to within so much, whatever was learnt.
+  void set_along(double rate_m_s, double unknown_m_s);
+
+  // Zero in a direction in which no motion shows: a standing machine's scans are left as they are. With the noise of a
+  // step taken out of them they would be bent by it.
+  const Six& rate() const { return rate_; }
+  // Standard deviations of the rates by a factor, with the last change of the motion: it may go on.
+  Six level(double factor) const;
+
+ private:
+  // How many frames the variance of the alignments stands for: few, since it is of patches of rock, which a standing
+  // machine sees alike again. Judgement, 2026-11-27.
+  static constexpr double kFramesOfAlignment = 4.0;
+  // Noise that was hardly any yet may grow from so much of the alignments' variance. Judgement, 2026-11-27.
+  static constexpr double kLeastOfAlignment = 1.0 / 16.0;
+  static constexpr double kFramesMost = 16.0;  // a machine's motion changes within seconds; judgement, 2026-11-27
+  // In deviations of a variance of few frames: less is noise. So much may stay in a scan, and the level holds it, since
+  // it acts for two thirds of the scan at most. Judgement, 2026-11-27.
+  static constexpr double kShows = 5.0;
+
+  Six rate_ = Six::Zero();  // told
+  Six measured_ = Six::Zero(),
+      noise_ = Six::Zero();  // of the last step, and the variance of steps without their motion
+  Six changed_ = Six::Zero(), variance_ = Six::Zero();  // how far off the told ones were, last and in the mean
+  Six limit_ = Six::Zero();
+  double frames_ = 0.0;  // that the variances are of; 0: nothing is known
+};
+
+}  // namespace pose_wall::motion

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The motion within a scan: whether to take it out, and what of it stays unknown in the values (README, Motion within a
+// scan).
+
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cloud/result.hpp"
+#include "config.hpp"
+#include "floor/levelling.hpp"
+#include "output/measurements.hpp"
+#include "pose_wall.h"
+#include "types.hpp"
+#include "walls/wall.hpp"
+
+namespace pose_wall {
+
+// What floor and walls of the last frame showed, without the motion within its scan.
+struct OwnChanges {
+  double raw[POSE_WALL_QUANTITIES] = {};
+  double level[POSE_WALL_QUANTITIES] = {};   // infinite: nothing to compare with
+  double random[POSE_WALL_QUANTITIES] = {};  // of it, the random part
+  double change[POSE_WALL_QUANTITIES] = {};  // since the frame before; not a number: unknown
+  Eigen::Vector3d wall_base[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  // normals; zero: never seen
+
+  OwnChanges() { forget(); }
+  // Nothing is comparable with the next frame.
+  void forget();
+};
+
+// Of a frame: how long its scan took, and the time since the last frame.
+struct ScanInTime {
+  ScanTime scan;
+  double since_last_s = 0.0;
+};
+
+// The odometry's motion in base, for walls whose normals are known there.
+class MotionInScan {
+ public:
+  MotionInScan(const pose_wall_odometry& odometry, const Settings& settings, const Axes& axes);
+
+  // Whether levels are narrower with the motion taken out of the scan than with it left there. A motion that is hardly
+  // known would bend the scan, and what is left in it shows from frame to frame.
+  bool improves(double scan_s, const OwnChanges& last) const;
+
+  // Adds what is unknown of the motion to levels and deviations: what the odometry leaves, or what the values of two
+  // frames show, if that is less. Keeps the values.
+  void widen(bool taken_out, const ScanInTime& time, const Levelling& levelling, const JudgedWall (&walls)[2],
+             OwnChanges* last, Measurements* measured) const;
+
+ private:
+  double told(std::uint32_t quantity, const OwnChanges& walls) const;
+  static void keep(const Measurements& measured, const bool (&left_alone)[POSE_WALL_QUANTITIES], OwnChanges* last);
+  double added_to_level(std::uint32_t quantity, bool taken_out, bool shows, const ScanInTime& time,
+                        const Measurements& measured, const OwnChanges& last) const;
+  double by_odometry(std::uint32_t quantity, double seconds, double random, const OwnChanges& walls) const;
+
+  const Settings& settings_;
+  Eigen::Vector3d direction_base_[3];                      // along, across, up
+  double rate_level_[POSE_WALL_ODOMETRY_DIRECTIONS] = {};  // m/s, rad/s
+  Eigen::Vector3d velocity_base_m_s_, turn_base_rad_s_;
+  double lever_m_[POSE_WALL_QUANTITIES] = {};  // of the sampling points
+};
+
+}  // namespace pose_wall
