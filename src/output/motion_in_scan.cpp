@@ -48,12 +48,6 @@ bool is_untouched(double taken_out, double random) {
   return taken_out <= 0.1 * random;
 }
 
-void widen_by(double added, double sigmas, Measurement* m) {
-  m->protection[POSE_WALL_PART_AGE] += added;
-  const double deviation = added < kNobodyKnows ? added / sigmas : 0.0;
-  m->sigma = std::sqrt(m->sigma * m->sigma + deviation * deviation);
-}
-
 // A steady motion that is left in two scans is in the change between their values, and no noise comes on top. With the
 // change D and the share c of the scan for which the motion acts, the error is (1 - c) of this frame's noise, c of the
 // last one's, and c D. A motion that began with this scan gives all of D. One that alternates hides from a single
@@ -226,8 +220,9 @@ void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling
     if (m.measured && scan_s > 0.0) added[q] = added_to_level(q, taken_out, shows, time, *measured, *last);
   }
   keep(*measured, left_alone, last);
-  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q)
-    widen_by(added[q], settings_.protection_sigmas, &measured->quantity[q]);
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    measured->quantity[q].protection[POSE_WALL_PART_AGE] += added[q];
+  }
 }
 
 }  // namespace pose_wall

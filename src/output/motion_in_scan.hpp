@@ -46,8 +46,8 @@ class MotionInScan {
   // known would bend the scan, and what is left in it shows from frame to frame.
   bool improves(double scan_s, const OwnChanges& last) const;
 
-  // Adds what is unknown of the motion to levels and deviations: what the odometry leaves, or what the values of two
-  // frames show, if that is less. Keeps the values.
+  // Adds what is unknown of the motion to the levels: what the odometry leaves, or what the values of the last frames
+  // show, if that is less. Keeps the values. Deviations stay those of the measurement.
   void widen(bool taken_out, const ScanInTime& time, const Levelling& levelling, const JudgedWall (&walls)[2],
              OwnChanges* last, Measurements* measured) const;
 

@@ -115,7 +115,8 @@ TEST(MotionInScan, AGoodOdometryAddsAsVariancesDo) {
   const Measurements first = frames.next(with_rates(0.0, rate));
   const double level = kActs * kScan_s * rate, expected = std::sqrt(kRandom * kRandom + level * level);
   EXPECT_NEAR(added(first, POSE_WALL_YAW), expected - kRandom, 1e-12);
-  EXPECT_GT(first.quantity[POSE_WALL_YAW].sigma, kRandom / frames.settings.protection_sigmas);
+  EXPECT_EQ(first.quantity[POSE_WALL_YAW].sigma, kRandom / frames.settings.protection_sigmas)
+      << "the measurement's own";
 }
 
 // The odometry says that nothing turns, and the value changed by more than its noise.
