@@ -38,4 +38,9 @@ struct FrameTiming {
   std::uint32_t reasons = 0;
 };
 
+// Which of the two walls a distance belongs to: 0 left, 1 right.
+inline int side_of(std::uint32_t quantity) {
+  return quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_LB ? 0 : 1;
+}
+
 }  // namespace pose_wall

@@ -39,10 +39,6 @@ bool is_distance(std::uint32_t quantity) {
   return quantity >= POSE_WALL_D_LF;
 }
 
-int side_of(std::uint32_t quantity) {
-  return quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_LB ? 0 : 1;
-}
-
 // Whether what was taken out of a scan hardly touched a value: a tenth of its noise adds 0.5 % to it.
 bool is_untouched(double taken_out, double random) {
   return taken_out <= 0.1 * random;

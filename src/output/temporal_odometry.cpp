@@ -71,10 +71,6 @@ Eigen::Vector3d sample_base(std::uint32_t quantity, const Settings& s, const Axe
          (left ? s.lateral_offset_left : s.lateral_offset_right) * axes.left_base;
 }
 
-int side_of(std::uint32_t quantity) {
-  return quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_LB ? 0 : 1;
-}
-
 // Largest distance of a point beyond the seen part of a surface.
 double beyond_m(const SeenSurface& wall, const Eigen::Vector3d& at_m, double unknown_m) {
   const double along_m = wall.along.dot(at_m);

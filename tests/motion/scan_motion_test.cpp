@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the motion told for the next scan is that of the last step where it shows, and nothing where it does not; its
-// level holds the errors that the steps show, soon after these grow and not long after they end; and before anything is
+// Proves: the motion told for the next scan is that of the last step where it shows, and nothing where it does not.
+// Its level holds the errors that the steps show, soon after these grow and not long after they end. Before anything is
 // known it is the machine's limits, twice.
 
 #include "motion/scan_motion.hpp"

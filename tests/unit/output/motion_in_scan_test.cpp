@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: what is unknown of the motion within a scan widens the levels by what the odometry leaves, or by what the
-// values of two frames show if that is less; never by less than a motion that is left in the scan moves a value; and a
-// motion is taken out only where that narrows the levels.
+// Proves: what is unknown of the motion within a scan widens the levels. It adds what the odometry leaves, or what the
+// values of two frames show if that is less. It never adds less than a motion that is left in the scan moves a value.
+// A motion is taken out only where that narrows the levels.
 
 #include "output/motion_in_scan.hpp"
 
