@@ -44,19 +44,27 @@ bool is_untouched(double taken_out, double random) {
   return taken_out <= 0.1 * random;
 }
 
-// A steady motion that is left in two scans is in the change between their values, and no noise comes on top. With the
-// change D and the share c of the scan for which the motion acts, the error is (1 - c) of this frame's noise, c of the
-// last one's, and c D. A motion that began with this scan gives all of D. One that alternates hides from a single
-// change, so the larger of the last two counts. With c above 1, as distances may have it, 0.3 of the noise is left.
+// What is left of the motion in two scans shows in the change between their values, and no noise comes on top. Let R be
+// the change beyond what the first scan's motion that was taken out explains, r and r' what is left in this scan and
+// the last one, as changes of the value in a scan's time, and c the share of the scan for which they act. The machine
+// moved from one stamp to the next by the motion in the first scan, so
+//   R = c r + (1 - c) r' + noise now - noise then.
+// The error c r + noise now is then R - (1 - c) r' + noise then. A motion that began with this scan gives all of R,
+// and a steady one less. One that alternates hides from a single change, so the larger of the last two counts. What is
+// taken out may change by M from scan to scan and r' - r with it, which hides (1 - c) M. With c above 1, as distances
+// may have it, 0.3 of the noise is left.
 class ByChange {
  public:
-  ByChange(const Measurements& measured, const OwnChanges& last) : measured_(measured), last_(last) {}
+  ByChange(const Measurements& measured, double since_last_s, const OwnChanges& last)
+      : measured_(measured), since_last_s_(since_last_s), last_(last) {}
 
   bool is_known(std::uint32_t quantity) const {
     const Measurement& m = measured_.quantity[quantity];
     return m.measured && !m.stale && last_.level[quantity] < kNobodyKnows;
   }
-  double change_of(std::uint32_t quantity) const { return measured_.quantity[quantity].raw - last_.raw[quantity]; }
+  double change_of(std::uint32_t quantity) const {
+    return measured_.quantity[quantity].raw - last_.raw[quantity] - since_last_s_ * last_.taken_out[quantity];
+  }
 
   // Two changes are needed, since motion that begins or turns round hides from a single one.
   bool tells(std::uint32_t quantity) const { return is_known(quantity) && is_finite(last_.change[quantity]); }
@@ -68,19 +76,21 @@ class ByChange {
     return larger(0.0, std::fabs(change_of(quantity)) - noise);
   }
 
-  double added(std::uint32_t quantity, double c) const {
+  // taken_out: how fast the value changes by the motion that was taken out of this scan.
+  double added(std::uint32_t quantity, double c, double taken_out) const {
     constexpr double kNoiseOfDistance = 0.3;  // derived, see above
     const Measurement& m = measured_.quantity[quantity];
     // The last value may have been of another surface, as far off as its level says.
     const double wider_before = larger(0.0, last_.level[quantity] - m.protection.sum());
-    if (!is_distance(quantity)) return wider_before + larger(1.0, c) * larger_change(quantity);
+    const double hidden = std::fabs(1.0 - c) * since_last_s_ * std::fabs(taken_out - last_.taken_out[quantity]);
+    if (!is_distance(quantity)) return wider_before + hidden + larger(1.0, c) * larger_change(quantity);
     // Front and back of a wall tell a turn from a way.
     const std::uint32_t other = POSE_WALL_D_LF + ((quantity - POSE_WALL_D_LF) ^ 1U);
     const double largest = larger_change(quantity);
     const double of_other = is_known(other) ? change_of(other) : -change_of(quantity);
     const double turn = 0.5 * std::fabs(change_of(quantity) - of_other);
     const double noise = larger(m.protection[POSE_WALL_PART_RANDOM], last_.random[quantity]);
-    return wider_before + largest + larger(0.0, kBentByTurn * c - 1.0) * turn + kNoiseOfDistance * noise;
+    return wider_before + hidden + largest + larger(0.0, kBentByTurn * c - 1.0) * turn + kNoiseOfDistance * noise;
   }
 
  private:
@@ -89,6 +99,7 @@ class ByChange {
   }
 
   const Measurements& measured_;
+  double since_last_s_;
   const OwnChanges& last_;
 };
 
@@ -117,7 +128,7 @@ MotionInScan::MotionInScan(const pose_wall_odometry& o, const Settings& s, const
     const bool front = q == POSE_WALL_D_LF || q == POSE_WALL_D_RF;
     const double ahead_m = front ? s.s_front : s.s_back;
     const double aside_m = side_of(q) == 0 ? s.lateral_offset_left : s.lateral_offset_right;
-    lever_m_[q] = std::sqrt((ahead_m * axes.forward_base + aside_m * axes.left_base).squaredNorm());
+    sample_base_m_[q] = ahead_m * axes.forward_base + aside_m * axes.left_base;
   }
 }
 
@@ -128,7 +139,21 @@ double MotionInScan::told(std::uint32_t quantity, const OwnChanges& walls) const
   if (quantity == POSE_WALL_YAW) return std::fabs(turn_base_rad_s_.z());
   const Eigen::Vector3d& n = walls.wall_base[side_of(quantity)];
   return kOfWay * std::fabs(n.dot(velocity_base_m_s_)) +
-         kBentByTurn * lever_m_[quantity] * std::fabs(turn_base_rad_s_.z());
+         kBentByTurn * sample_base_m_[quantity].norm() * std::fabs(turn_base_rad_s_.z());
+}
+
+// How fast a value changes by the told motion, with its sign. What stands still moves against the machine.
+double MotionInScan::rate_of(std::uint32_t quantity, const Levelling& levelling, const OwnChanges& walls) const {
+  const Eigen::Vector3d up = levelling.R_level_base.transpose().col(2);
+  if (quantity == POSE_WALL_YAW) return -up.dot(turn_base_rad_s_);
+  if (quantity < POSE_WALL_YAW) {  // of roll_pitch_of_up()
+    const Eigen::Vector3d moves = up.cross(turn_base_rad_s_);
+    const double level2 = up.y() * up.y() + up.z() * up.z();
+    return quantity == POSE_WALL_ROLL ? (up.z() * moves.y() - up.y() * moves.z()) / level2
+                                      : -moves.x() / std::sqrt(level2);
+  }
+  const Eigen::Vector3d& n = walls.wall_base[side_of(quantity)];
+  return n.dot(velocity_base_m_s_ + turn_base_rad_s_.cross(sample_base_m_[quantity]));
 }
 
 // What the odometry's levels add in so many seconds.
@@ -147,7 +172,7 @@ double MotionInScan::by_odometry(std::uint32_t quantity, double seconds, double 
   const bool seen = n.squaredNorm() > 0.0;
   const auto towards = [&](int k) { return seen ? std::fabs(n.dot(direction_base_[k])) : 1.0; };
   for (int k = 0; k < 3; ++k) squares += square(kOfWay * reach(towards(k), rate_level_[k]));
-  squares += square(kBentByTurn * reach(lever_m_[quantity], turn[2]));
+  squares += square(kBentByTurn * reach(sample_base_m_[quantity].norm(), turn[2]));
   return added_to(random, seconds * std::sqrt(squares));
 }
 
@@ -166,23 +191,25 @@ bool MotionInScan::improves(double scan_s, const OwnChanges& last) const {
 }
 
 // What the motion adds to the level of a value that was measured, c: the share of the scan for which it acts.
-double MotionInScan::added_to_level(std::uint32_t quantity, bool taken_out, bool shows, const ScanInTime& time,
-                                    const Measurements& measured, const OwnChanges& last) const {
-  const double scan_s = time.scan.whole_s;
+double MotionInScan::added_to_level(std::uint32_t quantity, double taken_out_rate, bool taken_out,
+                                    const ScanInTime& time, const Measurements& measured,
+                                    const OwnChanges& last) const {
+  // A change over less than a scan shows a part of the motion, and one over several scans no motion within one.
+  constexpr double kLeast = 0.9, kMost = 2.5;  // scans
+  const double scan_s = time.scan.whole_s, since_s = time.since_last_s;
   const double random = measured.quantity[quantity].protection[POSE_WALL_PART_RANDOM];
   const double seconds = acts_for_s(quantity, time.scan, measured.has_yaw_difference), c = seconds / scan_s;
-  const double moves = c * scan_s * told(quantity, last);
-  const double by_rates = by_odometry(quantity, seconds, random, last) + (taken_out ? 0.0 : moves);
-  const ByChange by_change(measured, last);
-  if (!shows) return by_rates;
-  if (!by_change.tells(quantity)) return larger(by_rates, by_change.least(quantity));
-  const double by_values = by_change.added(quantity, c) + (taken_out ? moves : 0.0);
+  const double left_in = taken_out ? 0.0 : seconds * told(quantity, last);
+  const double by_rates = by_odometry(quantity, seconds, random, last) + left_in;
+  if (since_s < kLeast * scan_s || since_s > kMost * scan_s) return by_rates;
+  const ByChange by_change(measured, since_s, last);
+  const double by_values = by_change.tells(quantity) ? by_change.added(quantity, c, taken_out_rate) : kNobodyKnows;
   return larger(by_values < by_rates ? by_values : by_rates, by_change.least(quantity));
 }
 
-void MotionInScan::keep(const Measurements& measured, const bool (&left_alone)[POSE_WALL_QUANTITIES],
-                        OwnChanges* last) {
-  const ByChange by_change(measured, *last);
+void MotionInScan::keep(const double (&taken_out)[POSE_WALL_QUANTITIES], const Measurements& measured,
+                        double since_last_s, OwnChanges* last) {
+  const ByChange by_change(measured, since_last_s, *last);
   double change[POSE_WALL_QUANTITIES];
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     change[q] = by_change.is_known(q) ? by_change.change_of(q) : not_a_number();
@@ -190,32 +217,28 @@ void MotionInScan::keep(const Measurements& measured, const bool (&left_alone)[P
   last->forget();
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const Measurement& m = measured.quantity[q];
-    if (!m.measured || m.stale || !left_alone[q]) continue;
+    if (!m.measured || m.stale) continue;
     last->raw[q] = m.raw;
     last->level[q] = m.protection.sum();
     last->random[q] = m.protection[POSE_WALL_PART_RANDOM];
+    last->taken_out[q] = taken_out[q];
     last->change[q] = change[q];
   }
 }
 
 void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling& levelling,
                          const JudgedWall (&walls)[2], OwnChanges* last, Measurements* measured) const {
-  // A change over less than a scan shows a part of the motion, and one over several scans no motion within one.
-  constexpr double kLeast = 0.9, kMost = 2.5;  // scans
-  const double scan_s = time.scan.whole_s, since_s = time.since_last_s;
   for (int side = 0; side < 2; ++side) {
     if (walls[side].fit.refused || !walls[side].fit.found) continue;
     last->wall_base[side] = levelling.R_level_base.transpose() * walls[side].fit.plane.n;
   }
-  bool left_alone[POSE_WALL_QUANTITIES];
-  double added[POSE_WALL_QUANTITIES] = {};
+  double added[POSE_WALL_QUANTITIES] = {}, rate[POSE_WALL_QUANTITIES] = {};
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    const Measurement& m = measured->quantity[q];
-    left_alone[q] = !taken_out || is_untouched(scan_s * told(q, *last), m.protection[POSE_WALL_PART_RANDOM]);
-    const bool shows = left_alone[q] && since_s >= kLeast * scan_s && since_s <= kMost * scan_s;
-    if (m.measured && scan_s > 0.0) added[q] = added_to_level(q, taken_out, shows, time, *measured, *last);
+    if (taken_out) rate[q] = rate_of(q, levelling, *last);
+    if (!measured->quantity[q].measured || !(time.scan.whole_s > 0.0)) continue;
+    added[q] = added_to_level(q, rate[q], taken_out, time, *measured, *last);
   }
-  keep(*measured, left_alone, last);
+  keep(rate, *measured, time.since_last_s, last);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     measured->quantity[q].protection[POSE_WALL_PART_AGE] += added[q];
   }

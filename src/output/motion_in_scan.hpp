@@ -18,12 +18,13 @@
 
 namespace pose_wall {
 
-// What floor and walls of the last frame showed, without the motion within its scan.
+// What floor and walls of the last frame showed. Levels are without what its scan's motion added.
 struct OwnChanges {
   double raw[POSE_WALL_QUANTITIES] = {};
-  double level[POSE_WALL_QUANTITIES] = {};   // infinite: nothing to compare with
-  double random[POSE_WALL_QUANTITIES] = {};  // of it, the random part
-  double change[POSE_WALL_QUANTITIES] = {};  // since the frame before; not a number: unknown
+  double level[POSE_WALL_QUANTITIES] = {};      // infinite: nothing to compare with
+  double random[POSE_WALL_QUANTITIES] = {};     // of it, the random part
+  double taken_out[POSE_WALL_QUANTITIES] = {};  // by the motion that was taken out of the scan: m/s, rad/s
+  double change[POSE_WALL_QUANTITIES] = {};     // beyond the one taken out before; not a number: unknown
   Eigen::Vector3d wall_base[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  // normals; zero: never seen
 
   OwnChanges() { forget(); }
@@ -53,8 +54,10 @@ class MotionInScan {
 
  private:
   double told(std::uint32_t quantity, const OwnChanges& walls) const;
-  static void keep(const Measurements& measured, const bool (&left_alone)[POSE_WALL_QUANTITIES], OwnChanges* last);
-  double added_to_level(std::uint32_t quantity, bool taken_out, bool shows, const ScanInTime& time,
+  double rate_of(std::uint32_t quantity, const Levelling& levelling, const OwnChanges& walls) const;
+  static void keep(const double (&taken_out)[POSE_WALL_QUANTITIES], const Measurements& measured, double since_last_s,
+                   OwnChanges* last);
+  double added_to_level(std::uint32_t quantity, double taken_out_rate, bool taken_out, const ScanInTime& time,
                         const Measurements& measured, const OwnChanges& last) const;
   double by_odometry(std::uint32_t quantity, double seconds, double random, const OwnChanges& walls) const;
 
@@ -62,7 +65,7 @@ class MotionInScan {
   Eigen::Vector3d direction_base_[3];                      // along, across, up
   double rate_level_[POSE_WALL_ODOMETRY_DIRECTIONS] = {};  // m/s, rad/s
   Eigen::Vector3d velocity_base_m_s_, turn_base_rad_s_;
-  double lever_m_[POSE_WALL_QUANTITIES] = {};  // of the sampling points
+  Eigen::Vector3d sample_base_m_[POSE_WALL_QUANTITIES];  // the sampling points of distances
 };
 
 }  // namespace pose_wall

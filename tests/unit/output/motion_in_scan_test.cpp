@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: what is unknown of the motion within a scan widens the levels. It adds what the odometry leaves, or what the
-// values of two frames show if that is less. It never adds less than a motion that is left in the scan moves a value.
-// A motion is taken out only where that narrows the levels.
+// values of two frames show if that is less, whether motion was taken out of them or not. It never adds less than what
+// is left in the scan moves a value. A motion is taken out only where that narrows the levels.
 
 #include "output/motion_in_scan.hpp"
 
@@ -12,6 +12,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 
 #include "support/stage_fixtures.hpp"
 
@@ -100,6 +101,75 @@ TEST(MotionInScan, ATurnThatBeginsIsInTheLevelAtOnce) {
   }
 }
 
+// A machine that turns steadily under an odometry that says how fast, and hardly how sure.
+struct Turning {
+  Frames frames;
+  double rate_rad_s, yaw_rad = 0.0;
+
+  explicit Turning(double rate) : rate_rad_s(rate) {}
+  // The error that the scan's motion gives a value, turned left: smaller.
+  double error(double told_rad_s, bool taken_out) const {
+    return -kActs * kScan_s * (rate_rad_s - (taken_out ? told_rad_s : 0.0));
+  }
+  double next(double told_rad_s, bool taken_out) {
+    yaw_rad -= kScan_s * rate_rad_s;
+    return frames.added_to_yaw(with_rates(told_rad_s, 2.0, 2.0), yaw_rad + error(told_rad_s, taken_out), taken_out);
+  }
+};
+
+// The values move as they were told to, so the motion that was taken out was the right one, whoever doubts it.
+TEST(MotionInScan, WhatWasTakenOutRightlyCostsNothing) {
+  Turning turning(0.3);
+  for (int frame = 0; frame < 2; ++frame) EXPECT_GT(turning.next(0.3, true), kActs * 0.03);
+  for (int frame = 2; frame < 6; ++frame) EXPECT_LT(turning.next(0.3, true), 1e-12);
+}
+
+// Another rate is told each time, and taken out or left in by turns: what is left alternates.
+TEST(MotionInScan, WhatIsLeftOfASteadyTurnIsInTheLevel) {
+  std::mt19937 random(20261127);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double rate = share(random) - 0.5;
+    Turning turning(rate);
+    for (int frame = 0; frame < 12; ++frame) {
+      const double told = rate * (0.5 + share(random));
+      const bool taken_out = share(random) < 0.5;
+      const double level = turning.next(told, taken_out);
+      ASSERT_GE(level + 1e-12, std::fabs(turning.error(told, taken_out))) << trial << " " << frame;
+    }
+  }
+}
+
+TEST(MotionInScan, WhatWasTakenOutIsAChangeOfEachValue) {
+  pose_wall_odometry o = with_rates(0.0, 2.0, 2.0);
+  o.velocity_m_s[0] = 1.0;
+  o.velocity_m_s[1] = 0.2;  // to the left wall
+  o.turn_rate_rad_s[0] = 0.05;
+  o.turn_rate_rad_s[1] = -0.04;
+  o.turn_rate_rad_s[2] = 0.03;
+  Frames frames;
+  const double front_m = frames.settings.s_front, back_m = frames.settings.s_back;
+  const auto moved = [&](double seconds) {
+    Measurements m = frames.measured;
+    m.quantity[POSE_WALL_ROLL].raw = 0.05 * seconds;
+    m.quantity[POSE_WALL_PITCH].raw = -0.04 * seconds;
+    m.quantity[POSE_WALL_YAW].raw = -0.03 * seconds;
+    m.quantity[POSE_WALL_D_LF].raw = -(0.2 + 0.03 * front_m) * seconds;
+    m.quantity[POSE_WALL_D_LB].raw = -(0.2 + 0.03 * back_m) * seconds;
+    m.quantity[POSE_WALL_D_RF].raw = (0.2 + 0.03 * front_m) * seconds;
+    m.quantity[POSE_WALL_D_RB].raw = (0.2 + 0.03 * back_m) * seconds;
+    return m;
+  };
+  for (int frame = 0; frame < 5; ++frame) {
+    Measurements m = moved(kScan_s * frame);
+    MotionInScan(o, frames.settings, kAxes)
+        .widen(true, {{kScan_s, 0.5 * kScan_s}, kScan_s}, {}, frames.walls, &frames.own, &m);
+    for (std::uint32_t q = 0; frame > 1 && q < POSE_WALL_QUANTITIES; ++q) {
+      EXPECT_LT(added(m, q), (q < POSE_WALL_D_LF ? 0.001 : 0.31) * kRandom) << q << " in frame " << frame;
+    }
+  }
+}
+
 // To and fro at half the frame rate: two scans may show the same.
 TEST(MotionInScan, ATurnToAndFroIsRememberedForAFrame) {
   Frames frames;
@@ -150,7 +220,7 @@ TEST(MotionInScan, OnlyTheFrameBeforeIsAWitness) {
   EXPECT_TRUE(is_none([](Frames*) {}, 0.5)) << "long after";
   EXPECT_TRUE(is_none([](Frames*) {}, 0.0)) << "under the same stamp";
   EXPECT_TRUE(is_none([](Frames* f) { f->measured.quantity[POSE_WALL_YAW].stale = true; })) << "a repeat";
-  EXPECT_TRUE(is_none([](Frames* f) { f->next(with_rates(0.5, 0.1), 0.0, true); })) << "motion was taken out of it";
+  EXPECT_TRUE(is_none([](Frames* f) { f->next(with_rates(0.5, 0.1), 0.0, true); })) << "another motion was taken out";
   const auto leave_out = [](Frames* f) {
     f->measured.quantity[POSE_WALL_YAW].measured = false;
     f->next(kHardlyKnown);
