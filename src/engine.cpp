@@ -176,14 +176,12 @@ std::uint64_t Engine::sum() const {
 
 // True if the motion within the scan was taken out of it.
 bool Engine::read_cloud(const pose_wall_cloud& cloud, FrameFindings* found) {
-  constexpr double kUsualScan_s = 0.1;  // of a sensor at 10 Hz; how long this one takes is not known before it is read
   const pose_wall_odometry* const odometry = odometry_in(cloud.inputs);
-  const bool taken_out =
-      odometry != nullptr && MotionInScan(*odometry, settings_, axes_).improves(kUsualScan_s, memory_.own);
+  const bool taken_out = odometry != nullptr && MotionInScan(*odometry, settings_, axes_).improves(memory_.own);
   const pose_wall_odometry left = odometry != nullptr ? without_motion(*odometry) : pose_wall_odometry{};
   found->voxels = build_voxels(cloud, taken_out || odometry == nullptr ? odometry : &left, settings_, extrinsic_, axes_,
                                memory_.leaf, &scratch_.grid, &scratch_.returns_lidar, &scratch_.cloud_base);
-  return taken_out;
+  return taken_out && found->voxels.scan.whole_s > 0.0;
 }
 
 void Engine::process(const pose_wall_cloud& cloud, pose_wall_result* result) {

@@ -11,7 +11,7 @@ namespace pose_wall {
 namespace {
 
 // 'pose-m' in ASCII and a count: raise it with each change of visit().
-constexpr std::uint64_t kVersion = 0x706F73652D6D0007ULL;
+constexpr std::uint64_t kVersion = 0x706F73652D6D0008ULL;
 constexpr std::uint64_t kHeadWords = 2;  // version and checksum stand first
 
 // Every member is one word of eight bytes, least significant first.
@@ -144,7 +144,7 @@ void visit(Way* way, OwnChanges* own) {
   for (double& random : own->random) visit(way, &random);
   for (double& rate : own->taken_out) visit(way, &rate);
   for (double& change : own->change) visit(way, &change);
-  visit_all(way, &own->wall_base[0], &own->wall_base[1]);
+  visit_all(way, &own->scan_s, &own->up_base, &own->wall_base[0], &own->wall_base[1]);
 }
 
 template <typename Way>

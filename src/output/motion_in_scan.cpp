@@ -9,6 +9,7 @@
 
 #include "base/math/finite.hpp"
 #include "base/math/larger.hpp"
+#include "output/standing_surfaces.hpp"
 
 namespace pose_wall {
 namespace {
@@ -22,8 +23,10 @@ constexpr double kNobodyKnows = std::numeric_limits<double>::infinity();  // a l
 constexpr double kLater = 0.125, kLaterByOneWall = 0.25;  // measured, see above
 // A distance was off by up to 1.26 of turn and lever, since the wall was bent as well as turned: twice as much.
 constexpr double kBentByTurn = 2.0;  // measured, see above
-// A way across acts for the whole scan where the wall is seen last. Geometry: 1 / 0.625.
-constexpr double kOfWay = 1.6;
+// Of a sensor that sees all around, whose points have half of the scan behind them in the mean.
+constexpr double kShareAllAround = 0.5 + kLater;
+// A way across acts for the whole scan where the wall is seen last.
+constexpr double kOfWay = 1.0 / kShareAllAround;
 
 double acts_for_s(std::uint32_t quantity, const ScanTime& scan, bool by_both_walls) {
   const bool by_one = quantity == POSE_WALL_YAW && !by_both_walls;
@@ -39,35 +42,45 @@ bool is_distance(std::uint32_t quantity) {
   return quantity >= POSE_WALL_D_LF;
 }
 
-// Whether what was taken out of a scan hardly touched a value: a tenth of its noise adds 0.5 % to it.
-bool is_untouched(double taken_out, double random) {
-  return taken_out <= 0.1 * random;
+// The distance to the same wall at the machine's other end.
+std::uint32_t other_end_of(std::uint32_t quantity) {
+  return POSE_WALL_D_LF + ((quantity - POSE_WALL_D_LF) ^ 1U);
 }
 
 // What is left of the motion in two scans shows in the change between their values, and no noise comes on top. Let R be
-// the change beyond what the first scan's motion that was taken out explains, r and r' what is left in this scan and
-// the last one, as changes of the value in a scan's time, and c the share of the scan for which they act. The machine
-// moved from one stamp to the next by the motion in the first scan, so
-//   R = c r + (1 - c) r' + noise now - noise then.
-// The error c r + noise now is then R - (1 - c) r' + noise then. A motion that began with this scan gives all of R,
-// and a steady one less. One that alternates hides from a single change, so the larger of the last two counts. What is
-// taken out may change by M from scan to scan and r' - r with it, which hides (1 - c) M. With c above 1, as distances
-// may have it, 0.3 of the noise is left.
+// that part of the change which the motion that was taken out of the first scan does not explain. Let r and r' be what
+// is left in this scan and the last one, as changes of the value in the time P between them, and c the share of P for
+// which they act. The machine moved from stamp to stamp by the motion in the first scan, so
+//   R = c r + (1 - c) r' + noise now - noise then,
+// and the error is c r + noise now.
+// - A steady motion has the error c R, (1 - c) of this noise and c of the last one.
+// - A motion that began with this scan has the error R and the last noise.
+// - One that turns round hides from a single change, so the larger of the last two counts. That holds for periods of
+//   four scans and more. A faster one is no motion of a frame but a bend within it.
+// - If the motion that was taken out changes by M while the machine moves steadily, c (1 - c) M is hidden.
 class ByChange {
  public:
-  ByChange(const Measurements& measured, double since_last_s, const OwnChanges& last)
-      : measured_(measured), since_last_s_(since_last_s), last_(last) {}
+  ByChange(const Measurements& measured, const ScanInTime& time, const Settings& settings, const OwnChanges& last)
+      : measured_(measured), settings_(settings), scan_s_(time.scan.whole_s), since_s_(time.since_last_s), last_(last) {
+    // A change over less than a scan shows a part of the motion. If more than half a scan is between both, another
+    // motion may be, too. By the derivation above.
+    constexpr double kLeast = 0.9, kMost = 1.5;  // scans
+    one_later_ = scan_s_ > 0.0 && since_s_ >= kLeast * scan_s_ && since_s_ <= kMost * scan_s_;
+  }
 
   bool is_known(std::uint32_t quantity) const {
     const Measurement& m = measured_.quantity[quantity];
-    return m.measured && !m.stale && last_.level[quantity] < kNobodyKnows;
+    return one_later_ && m.measured && !m.stale && last_.level[quantity] < kNobodyKnows;
   }
   double change_of(std::uint32_t quantity) const {
-    return measured_.quantity[quantity].raw - last_.raw[quantity] - since_last_s_ * last_.taken_out[quantity];
+    return measured_.quantity[quantity].raw - last_.raw[quantity] - since_s_ * last_.taken_out[quantity];
   }
 
-  // Two changes are needed, since motion that begins or turns round hides from a single one.
-  bool tells(std::uint32_t quantity) const { return is_known(quantity) && is_finite(last_.change[quantity]); }
+  // Two changes are needed, since motion that begins or turns round hides from a single one. Of a distance, those of
+  // both ends tell a turn from a way.
+  bool tells(std::uint32_t quantity) const {
+    return has_two(quantity) && (!is_distance(quantity) || has_two(other_end_of(quantity)));
+  }
   // What was changed beyond all noise was moved, whoever says otherwise.
   double least(std::uint32_t quantity) const {
     if (!is_known(quantity)) return 0.0;
@@ -76,43 +89,82 @@ class ByChange {
     return larger(0.0, std::fabs(change_of(quantity)) - noise);
   }
 
-  // taken_out: how fast the value changes by the motion that was taken out of this scan.
-  double added(std::uint32_t quantity, double c, double taken_out) const {
-    constexpr double kNoiseOfDistance = 0.3;  // derived, see above
+  // seconds: for which an unknown motion acts; taken_out: the value's rate by what was taken out of this scan.
+  double added(std::uint32_t quantity, double seconds, double taken_out, double lever_m) const {
     const Measurement& m = measured_.quantity[quantity];
+    const double acts_s = (is_distance(quantity) ? kBentByTurn : 1.0) * seconds;
     // The last value may have been of another surface, as far off as its level says.
     const double wider_before = larger(0.0, last_.level[quantity] - m.protection.sum());
-    const double hidden = std::fabs(1.0 - c) * since_last_s_ * std::fabs(taken_out - last_.taken_out[quantity]);
-    if (!is_distance(quantity)) return wider_before + hidden + larger(1.0, c) * larger_change(quantity);
-    // Front and back of a wall tell a turn from a way.
-    const std::uint32_t other = POSE_WALL_D_LF + ((quantity - POSE_WALL_D_LF) ^ 1U);
-    const double largest = larger_change(quantity);
-    const double of_other = is_known(other) ? change_of(other) : -change_of(quantity);
-    const double turn = 0.5 * std::fabs(change_of(quantity) - of_other);
     const double noise = larger(m.protection[POSE_WALL_PART_RANDOM], last_.random[quantity]);
-    return wider_before + hidden + largest + larger(0.0, kBentByTurn * c - 1.0) * turn + kNoiseOfDistance * noise;
+    return wider_before + left_of_noise(acts_s) * noise +
+           hidden_s(acts_s) * std::fabs(taken_out - last_.taken_out[quantity]) +
+           larger(reach(quantity, lever_m, seconds, [this](std::uint32_t q) { return change_of(q); }),
+                  reach(quantity, lever_m, seconds, [this](std::uint32_t q) { return last_.change[q]; }));
   }
 
  private:
-  double larger_change(std::uint32_t quantity) const {
-    return larger(std::fabs(change_of(quantity)), std::fabs(last_.change[quantity]));
+  bool has_two(std::uint32_t quantity) const { return is_known(quantity) && is_finite(last_.change[quantity]); }
+
+  // How large an error may be that a change shows.
+  template <typename ChangeOf>
+  double reach(std::uint32_t quantity, double lever_m, double seconds, const ChangeOf& change) const {
+    const auto times = [&](double acts_s) { return larger(1.0, acts_s / since_s_); };
+    if (!is_distance(quantity)) return times(seconds) * std::fabs(change(quantity));
+    const bool front = quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_RF;
+    const double at_m = front ? settings_.s_front : settings_.s_back;
+    const double other_m = front ? settings_.s_back : settings_.s_front;
+    const double turned_rad = (change(quantity) - change(other_end_of(quantity))) / (at_m - other_m);
+    const double way_m = change(quantity) - at_m * turned_rad;
+    return times(kOfWay * seconds) * std::fabs(way_m) + times(kBentByTurn * seconds) * lever_m * std::fabs(turned_rad);
+  }
+
+  // Of noise in both values, beside that of one.
+  double left_of_noise(double acts_s) const {
+    const double c = acts_s / since_s_;
+    return larger(0.0, std::sqrt((1.0 - c) * (1.0 - c) + c * c) - 1.0);
+  }
+
+  // The largest c (1 - c) P for all shares up to what acts_s gives.
+  double hidden_s(double acts_s) const {
+    const double c = acts_s / since_s_, most = c < 0.5 ? c * (1.0 - c) : 0.25;
+    return since_s_ * larger(most, c * (c - 1.0));
   }
 
   const Measurements& measured_;
-  double since_last_s_;
+  const Settings& settings_;
+  double scan_s_, since_s_;
   const OwnChanges& last_;
+  bool one_later_ = false;
 };
+
+OwnChanges kept_of(const Measurements& measured, const ByChange& by_change, const OwnChanges& surfaces,
+                   const double (&taken_out)[POSE_WALL_QUANTITIES]) {
+  OwnChanges kept = surfaces;
+  kept.forget();
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const Measurement& m = measured.quantity[q];
+    if (!m.measured || m.stale) continue;
+    kept.raw[q] = m.raw;
+    kept.level[q] = m.protection.sum();
+    kept.random[q] = m.protection[POSE_WALL_PART_RANDOM];
+    kept.taken_out[q] = taken_out[q];
+    if (by_change.is_known(q)) kept.change[q] = by_change.change_of(q);
+  }
+  return kept;
+}
 
 }  // namespace
 
 void OwnChanges::forget() {
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     level[q] = kNobodyKnows;
+    random[q] = 0.0;
     change[q] = not_a_number();
   }
 }
 
-MotionInScan::MotionInScan(const pose_wall_odometry& o, const Settings& s, const Axes& axes) : settings_(s) {
+MotionInScan::MotionInScan(const pose_wall_odometry& o, const Settings& s, const Axes& axes)
+    : settings_(s), axes_(axes) {
   const Eigen::Matrix3d R_base_run =
       Eigen::Quaterniond(o.quaternion[3], o.quaternion[0], o.quaternion[1], o.quaternion[2])
           .toRotationMatrix()
@@ -124,40 +176,33 @@ MotionInScan::MotionInScan(const pose_wall_odometry& o, const Settings& s, const
   for (int k = 0; k < POSE_WALL_ODOMETRY_DIRECTIONS; ++k) rate_level_[k] = o.rate_level[k];
   velocity_base_m_s_ = {o.velocity_m_s[0], o.velocity_m_s[1], o.velocity_m_s[2]};
   turn_base_rad_s_ = {o.turn_rate_rad_s[0], o.turn_rate_rad_s[1], o.turn_rate_rad_s[2]};
-  for (std::uint32_t q = POSE_WALL_D_LF; q <= POSE_WALL_D_RB; ++q) {
-    const bool front = q == POSE_WALL_D_LF || q == POSE_WALL_D_RF;
-    const double ahead_m = front ? s.s_front : s.s_back;
-    const double aside_m = side_of(q) == 0 ? s.lateral_offset_left : s.lateral_offset_right;
-    sample_base_m_[q] = ahead_m * axes.forward_base + aside_m * axes.left_base;
-  }
 }
 
-// How fast a value changes by the told motion, as it shows in a scan.
-double MotionInScan::told(std::uint32_t quantity, const OwnChanges& walls) const {
-  if (quantity == POSE_WALL_ROLL) return std::fabs(turn_base_rad_s_.x());
-  if (quantity == POSE_WALL_PITCH) return std::fabs(turn_base_rad_s_.y());
-  if (quantity == POSE_WALL_YAW) return std::fabs(turn_base_rad_s_.z());
-  const Eigen::Vector3d& n = walls.wall_base[side_of(quantity)];
+// How fast a value changes by the told motion.
+double MotionInScan::rate_of(std::uint32_t quantity, const OwnChanges& surfaces) const {
+  constexpr double kMoment_s = 1e-3;  // a turn is a line over it
+  const Eigen::Vector3d half_turn = 0.5 * kMoment_s * turn_base_rad_s_;
+  const Place then = {kMoment_s * velocity_base_m_s_,
+                      Eigen::Quaterniond(1.0, half_turn.x(), half_turn.y(), half_turn.z()).normalized().matrix()};
+  const Eigen::Vector3d& wall = surfaces.wall_base[side_of(quantity)];
+  return change_between(quantity, Place{}, then, surfaces.up_base, wall, settings_, axes_) / kMoment_s;
+}
+
+double MotionInScan::lever_m(std::uint32_t quantity) const {
+  return std::sqrt(sample_base(quantity, settings_, axes_).squaredNorm());
+}
+
+// How fast a value moves by the told motion, as that shows in a scan.
+double MotionInScan::moves(std::uint32_t quantity, const OwnChanges& surfaces) const {
+  if (!is_distance(quantity)) return std::fabs(rate_of(quantity, surfaces));
+  const Eigen::Vector3d& n = surfaces.wall_base[side_of(quantity)];
   return kOfWay * std::fabs(n.dot(velocity_base_m_s_)) +
-         kBentByTurn * sample_base_m_[quantity].norm() * std::fabs(turn_base_rad_s_.z());
-}
-
-// How fast a value changes by the told motion, with its sign. What stands still moves against the machine.
-double MotionInScan::rate_of(std::uint32_t quantity, const Levelling& levelling, const OwnChanges& walls) const {
-  const Eigen::Vector3d up = levelling.R_level_base.transpose().col(2);
-  if (quantity == POSE_WALL_YAW) return -up.dot(turn_base_rad_s_);
-  if (quantity < POSE_WALL_YAW) {  // of roll_pitch_of_up()
-    const Eigen::Vector3d moves = up.cross(turn_base_rad_s_);
-    const double level2 = up.y() * up.y() + up.z() * up.z();
-    return quantity == POSE_WALL_ROLL ? (up.z() * moves.y() - up.y() * moves.z()) / level2
-                                      : -moves.x() / std::sqrt(level2);
-  }
-  const Eigen::Vector3d& n = walls.wall_base[side_of(quantity)];
-  return n.dot(velocity_base_m_s_ + turn_base_rad_s_.cross(sample_base_m_[quantity]));
+         kBentByTurn * lever_m(quantity) * std::fabs(surfaces.up_base.dot(turn_base_rad_s_));
 }
 
 // What the odometry's levels add in so many seconds.
-double MotionInScan::by_odometry(std::uint32_t quantity, double seconds, double random, const OwnChanges& walls) const {
+double MotionInScan::by_odometry(std::uint32_t quantity, double seconds, double random,
+                                 const OwnChanges& surfaces) const {
   const auto square = [](double x) { return x > 0.0 ? x * x : 0.0; };
   const auto reach = [](double response, double level) { return response > 0.0 ? response * level : 0.0; };
   const double* const turn = rate_level_ + 3;
@@ -168,77 +213,50 @@ double MotionInScan::by_odometry(std::uint32_t quantity, double seconds, double 
     for (int k = 0; k < 3; ++k) squares += square(reach(std::fabs(direction_base_[k][axis]), turn[k]));
     return added_to(random, seconds * std::sqrt(squares));
   }
-  const Eigen::Vector3d& n = walls.wall_base[side_of(quantity)];
-  const bool seen = n.squaredNorm() > 0.0;
-  const auto towards = [&](int k) { return seen ? std::fabs(n.dot(direction_base_[k])) : 1.0; };
-  for (int k = 0; k < 3; ++k) squares += square(kOfWay * reach(towards(k), rate_level_[k]));
-  squares += square(kBentByTurn * reach(sample_base_m_[quantity].norm(), turn[2]));
+  const Eigen::Vector3d& n = surfaces.wall_base[side_of(quantity)];
+  for (int k = 0; k < 3; ++k) {
+    squares += square(kOfWay * reach(std::fabs(n.dot(direction_base_[k])), rate_level_[k]));
+  }
+  squares += square(kBentByTurn * reach(lever_m(quantity), turn[2]));
   return added_to(random, seconds * std::sqrt(squares));
 }
 
-bool MotionInScan::improves(double scan_s, const OwnChanges& last) const {
-  constexpr double kC = 0.625;             // of a sensor that sees all around, see acts_for_s()
+bool MotionInScan::improves(const OwnChanges& last) const {
   constexpr double kChangeByNoise = 0.33;  // mean of the larger of two changes by noise alone, of 4.89 deviations
+  constexpr double kHardly = 0.1;          // of its noise moves a value hardly: it adds 0.5 % to its level
   double out = 0.0, in = 0.0;              // worst shares of an alert limit, with the motion out of the scan and in it
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    if (!(last.level[q] < kNobodyKnows)) continue;
-    const double random = last.random[q], moves = scan_s * told(q, last), alert = alert_limit(q, settings_);
-    if (is_untouched(moves, random)) continue;
-    out = larger(out, by_odometry(q, kC * scan_s, random, last) / alert);
-    in = larger(in, (moves + kChangeByNoise * random) / alert);
+    const double random = last.random[q], moved = last.scan_s * moves(q, last), alert = alert_limit(q, settings_);
+    if (moved <= kHardly * random) continue;
+    out = larger(out, by_odometry(q, kShareAllAround * last.scan_s, random, last) / alert);
+    in = larger(in, (moved + kChangeByNoise * random) / alert);
   }
   return !(out > in);
 }
 
-// What the motion adds to the level of a value that was measured, c: the share of the scan for which it acts.
-double MotionInScan::added_to_level(std::uint32_t quantity, double taken_out_rate, bool taken_out,
-                                    const ScanInTime& time, const Measurements& measured,
-                                    const OwnChanges& last) const {
-  // A change over less than a scan shows a part of the motion, and one over several scans no motion within one.
-  constexpr double kLeast = 0.9, kMost = 2.5;  // scans
-  const double scan_s = time.scan.whole_s, since_s = time.since_last_s;
-  const double random = measured.quantity[quantity].protection[POSE_WALL_PART_RANDOM];
-  const double seconds = acts_for_s(quantity, time.scan, measured.has_yaw_difference), c = seconds / scan_s;
-  const double left_in = taken_out ? 0.0 : seconds * told(quantity, last);
-  const double by_rates = by_odometry(quantity, seconds, random, last) + left_in;
-  if (since_s < kLeast * scan_s || since_s > kMost * scan_s) return by_rates;
-  const ByChange by_change(measured, since_s, last);
-  const double by_values = by_change.tells(quantity) ? by_change.added(quantity, c, taken_out_rate) : kNobodyKnows;
-  return larger(by_values < by_rates ? by_values : by_rates, by_change.least(quantity));
-}
-
-void MotionInScan::keep(const double (&taken_out)[POSE_WALL_QUANTITIES], const Measurements& measured,
-                        double since_last_s, OwnChanges* last) {
-  const ByChange by_change(measured, since_last_s, *last);
-  double change[POSE_WALL_QUANTITIES];
-  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    change[q] = by_change.is_known(q) ? by_change.change_of(q) : not_a_number();
-  }
-  last->forget();
-  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    const Measurement& m = measured.quantity[q];
-    if (!m.measured || m.stale) continue;
-    last->raw[q] = m.raw;
-    last->level[q] = m.protection.sum();
-    last->random[q] = m.protection[POSE_WALL_PART_RANDOM];
-    last->taken_out[q] = taken_out[q];
-    last->change[q] = change[q];
-  }
-}
-
 void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling& levelling,
                          const JudgedWall (&walls)[2], OwnChanges* last, Measurements* measured) const {
+  last->up_base = levelling.R_level_base.transpose().col(2);
   for (int side = 0; side < 2; ++side) {
     if (walls[side].fit.refused || !walls[side].fit.found) continue;
     last->wall_base[side] = levelling.R_level_base.transpose() * walls[side].fit.plane.n;
   }
-  double added[POSE_WALL_QUANTITIES] = {}, rate[POSE_WALL_QUANTITIES] = {};
+  const ByChange by_change(*measured, time, settings_, *last);
+  double added[POSE_WALL_QUANTITIES] = {}, taken_out_rate[POSE_WALL_QUANTITIES] = {};
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    if (taken_out) rate[q] = rate_of(q, levelling, *last);
-    if (!measured->quantity[q].measured || !(time.scan.whole_s > 0.0)) continue;
-    added[q] = added_to_level(q, rate[q], taken_out, time, *measured, *last);
+    const Measurement& m = measured->quantity[q];
+    if (!m.measured || !(time.scan.whole_s > 0.0)) continue;
+    if (taken_out) taken_out_rate[q] = rate_of(q, *last);
+    const double seconds = acts_for_s(q, time.scan, measured->has_yaw_difference);
+    const double left_in = taken_out ? 0.0 : seconds * moves(q, *last);
+    const double by_rates = by_odometry(q, seconds, m.protection[POSE_WALL_PART_RANDOM], *last) + left_in;
+    const double by_values =
+        by_change.tells(q) ? by_change.added(q, seconds, taken_out_rate[q], lever_m(q)) : kNobodyKnows;
+    added[q] = larger(by_values < by_rates ? by_values : by_rates, by_change.least(q));
   }
-  keep(rate, *measured, time.since_last_s, last);
+  const OwnChanges kept = kept_of(*measured, by_change, *last, taken_out_rate);
+  *last = kept;
+  if (time.scan.whole_s > 0.0) last->scan_s = time.scan.whole_s;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     measured->quantity[q].protection[POSE_WALL_PART_AGE] += added[q];
   }

@@ -23,9 +23,12 @@ struct OwnChanges {
   double raw[POSE_WALL_QUANTITIES] = {};
   double level[POSE_WALL_QUANTITIES] = {};      // infinite: nothing to compare with
   double random[POSE_WALL_QUANTITIES] = {};     // of it, the random part
-  double taken_out[POSE_WALL_QUANTITIES] = {};  // by the motion that was taken out of the scan: m/s, rad/s
-  double change[POSE_WALL_QUANTITIES] = {};     // beyond the one taken out before; not a number: unknown
-  Eigen::Vector3d wall_base[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  // normals; zero: never seen
+  double taken_out[POSE_WALL_QUANTITIES] = {};  // rate by the motion that was taken out: m/s, rad/s
+  // What the motion that was taken out of the scan before does not explain; not a number: unknown.
+  double change[POSE_WALL_QUANTITIES] = {};
+  double scan_s = 0.0;                                                                // how long its scan took
+  Eigen::Vector3d up_base = Eigen::Vector3d::UnitZ();                                 // normal of the floor
+  Eigen::Vector3d wall_base[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};  // zero: never seen
 
   OwnChanges() { forget(); }
   // Nothing is comparable with the next frame.
@@ -43,9 +46,9 @@ class MotionInScan {
  public:
   MotionInScan(const pose_wall_odometry& odometry, const Settings& settings, const Axes& axes);
 
-  // Whether levels are narrower with the motion taken out of the scan than with it left there. A motion that is hardly
-  // known would bend the scan, and what is left in it shows from frame to frame.
-  bool improves(double scan_s, const OwnChanges& last) const;
+  // Whether the odometry's levels are narrower than the motion that it tells. One that is hardly known would bend the
+  // scan, and what is left in it shows from frame to frame. A scan takes as long as the last one.
+  bool improves(const OwnChanges& last) const;
 
   // Adds what is unknown of the motion to the levels: what the odometry leaves, or what the values of the last frames
   // show, if that is less. Keeps the values. Deviations stay those of the measurement.
@@ -53,19 +56,16 @@ class MotionInScan {
              OwnChanges* last, Measurements* measured) const;
 
  private:
-  double told(std::uint32_t quantity, const OwnChanges& walls) const;
-  double rate_of(std::uint32_t quantity, const Levelling& levelling, const OwnChanges& walls) const;
-  static void keep(const double (&taken_out)[POSE_WALL_QUANTITIES], const Measurements& measured, double since_last_s,
-                   OwnChanges* last);
-  double added_to_level(std::uint32_t quantity, double taken_out_rate, bool taken_out, const ScanInTime& time,
-                        const Measurements& measured, const OwnChanges& last) const;
-  double by_odometry(std::uint32_t quantity, double seconds, double random, const OwnChanges& walls) const;
+  double rate_of(std::uint32_t quantity, const OwnChanges& surfaces) const;
+  double moves(std::uint32_t quantity, const OwnChanges& surfaces) const;
+  double lever_m(std::uint32_t quantity) const;
+  double by_odometry(std::uint32_t quantity, double seconds, double random, const OwnChanges& surfaces) const;
 
   const Settings& settings_;
+  const Axes& axes_;
   Eigen::Vector3d direction_base_[3];                      // along, across, up
   double rate_level_[POSE_WALL_ODOMETRY_DIRECTIONS] = {};  // m/s, rad/s
   Eigen::Vector3d velocity_base_m_s_, turn_base_rad_s_;
-  Eigen::Vector3d sample_base_m_[POSE_WALL_QUANTITIES];  // the sampling points of distances
 };
 
 }  // namespace pose_wall

@@ -7,9 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/math/elementary.hpp"
 #include "base/math/larger.hpp"
-#include "base/math/rotation.hpp"
+#include "output/standing_surfaces.hpp"
 
 namespace pose_wall {
 namespace {
@@ -17,11 +16,6 @@ namespace {
 constexpr double kNobodyKnows = std::numeric_limits<double>::infinity();  // a level without bound
 
 enum Direction { kAlong = 0, kAcross = 1, kUp = 2, kTurns = 3 };  // and turns about the three
-
-struct Place {
-  Eigen::Vector3d position_m;
-  Eigen::Matrix3d R_run_base;
-};
 
 Eigen::Vector3d vector_of(const double (&v)[3]) {
   return {v[0], v[1], v[2]};
@@ -63,14 +57,6 @@ struct Response {
   }
 };
 
-// A sampling point in base.
-Eigen::Vector3d sample_base(std::uint32_t quantity, const Settings& s, const Axes& axes) {
-  const bool front = quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_RF;
-  const bool left = quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_LB;
-  return (front ? s.s_front : s.s_back) * axes.forward_base +
-         (left ? s.lateral_offset_left : s.lateral_offset_right) * axes.left_base;
-}
-
 // Largest distance of a point beyond the seen part of a surface.
 double beyond_m(const SeenSurface& wall, const Eigen::Vector3d& at_m, double unknown_m) {
   const double along_m = wall.along.dot(at_m);
@@ -109,7 +95,7 @@ class View {
     if (quantity == POSE_WALL_YAW) {
       r.of[kTurns + kUp] = 1.0;
     } else if (quantity < POSE_WALL_YAW) {
-      const Eigen::Vector3d about = at_.R_run_base.col(quantity == POSE_WALL_ROLL ? 0 : 1);
+      const Eigen::Vector3d about = at_.R.col(quantity == POSE_WALL_ROLL ? 0 : 1);
       r.of[kTurns + kAlong] = std::fabs(about.dot(along_));
       r.of[kTurns + kAcross] = std::fabs(about.dot(across_));
     } else {
@@ -139,7 +125,7 @@ class View {
   // The machine, or a quantity's sampling point, in the run's frame.
   Eigen::Vector3d point_m(std::uint32_t quantity) const {
     if (quantity < POSE_WALL_D_LF) return at_.position_m;
-    return at_.position_m + at_.R_run_base * sample_base(quantity, settings_, axes_);
+    return at_.position_m + at_.R * sample_base(quantity, settings_, axes_);
   }
 
  private:
@@ -151,28 +137,6 @@ class View {
   const Axes& axes_;
 };
 
-double turn_about(const Eigen::Vector3d& up, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const Eigen::Vector3d a = from - up * up.dot(from), b = to - up * up.dot(to);
-  return arc_tangent2(up.dot(a.cross(b)), a.dot(b));
-}
-
-// Change of one quantity between two places, for a surface that stands still.
-double carry_of(std::uint32_t quantity, const Place& from, const Place& to, const OdometryMemory& seen,
-                const Settings& s, const Axes& axes) {
-  const Eigen::Vector3d& up = seen.floor.normal;
-  if (quantity == POSE_WALL_YAW) {  // turned left: smaller
-    return -turn_about(up, from.R_run_base * axes.forward_base, to.R_run_base * axes.forward_base);
-  }
-  if (quantity < POSE_WALL_YAW) {
-    const RollPitch before = roll_pitch_of_up(from.R_run_base.transpose() * up);
-    const RollPitch after = roll_pitch_of_up(to.R_run_base.transpose() * up);
-    return quantity == POSE_WALL_ROLL ? after.roll_rad - before.roll_rad : after.pitch_rad - before.pitch_rad;
-  }
-  const Eigen::Vector3d sample = sample_base(quantity, s, axes);
-  const Eigen::Vector3d moved_m = to.position_m - from.position_m + (to.R_run_base - from.R_run_base) * sample;
-  return seen.wall[side_of(quantity)].normal.dot(moved_m);
-}
-
 // Error of a surface's direction over the way along it. One radius further on, a floor's level is doubled.
 double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& from, const Place& to,
               const Eigen::Vector3d& to_m, const Settings& s, const Axes& axes) {
@@ -180,13 +144,13 @@ double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& f
   if (quantity < POSE_WALL_YAW) {
     return surface.slope_level * std::sqrt((to.position_m - from.position_m).squaredNorm()) / surface.radius_m;
   }
-  const Eigen::Vector3d from_m = from.position_m + from.R_run_base * sample_base(quantity, s, axes);
+  const Eigen::Vector3d from_m = from.position_m + from.R * sample_base(quantity, s, axes);
   return surface.slope_level * std::fabs(surface.along.dot(to_m - from_m));
 }
 
 void see_floor(const FloorResult& floor, const Place& at, const Settings& s, SeenSurface* seen) {
   seen->exists = true;
-  seen->normal = at.R_run_base * floor.fit.plane.n;
+  seen->normal = at.R * floor.fit.plane.n;
   seen->centre_m = at.position_m;
   seen->radius_m = floor.roi_radius_m;
   seen->slope_level = larger(floor.roll_bound_rad.sum(), floor.pitch_bound_rad.sum()) +
@@ -195,7 +159,7 @@ void see_floor(const FloorResult& floor, const Place& at, const Settings& s, See
 
 void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levelling, const Settings& s,
               SeenSurface* seen) {
-  const Eigen::Matrix3d R_run_level = at.R_run_base * levelling.R_level_base.transpose();
+  const Eigen::Matrix3d R_run_level = at.R * levelling.R_level_base.transpose();
   seen->exists = true;
   seen->normal = R_run_level * wall.fit.plane.n;
   seen->along = R_run_level * wall.along_level;
@@ -239,7 +203,8 @@ bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
     const double level = view.level(q);
     if (!(level < kNobodyKnows && memory.place_level[q] < kNobodyKnows)) continue;
     const Response response = view.response(q);
-    change->carry[q] = carry_of(q, from, to, memory, s, axes);
+    const Eigen::Vector3d& wall_normal = memory.wall[side_of(q)].normal;
+    change->carry[q] = change_between(q, from, to, memory.floor.normal, wall_normal, s, axes);
     change->growth[q] = response.level(drift) + by_way(q, *surface, from, to, view.point_m(q), s, axes);
     change->by_places[q] = true;
     change->place_level_before[q] = memory.place_level[q];
@@ -256,7 +221,7 @@ void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const
   const Place at = place_of(o);
   memory->run = o.run;
   memory->position_m = at.position_m;
-  memory->R_run_base = at.R_run_base;
+  memory->R_run_base = at.R;
   const auto is_good = [&measured](std::uint32_t quantity) {
     const Measurement& m = measured.quantity[quantity];
     return m.measured && !m.stale && (m.reasons & kDoubts) == 0;  // whatever the width of its level
