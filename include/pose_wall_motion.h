@@ -90,7 +90,8 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_settings_check(const pose_wall_motion
 
 /* State of the travel along the road in this frame. */
 enum pose_wall_along_state {
-  POSE_WALL_ALONG_LOST = 0,         /* the scan fits the map nowhere: no pose. The map begins anew with this scan */
+  POSE_WALL_ALONG_LOST = 0,         /* no pose: the scan fits the map nowhere, and the map begins anew with it; or the
+                                       frame shows nothing (few_points, repeated), and the map stays */
   POSE_WALL_ALONG_UNOBSERVABLE = 1, /* no feature shows the travel along the road: dead reckoning by the last measured
                                        or given speed, and the level grows by the top speed */
   POSE_WALL_ALONG_AMBIGUOUS = 2, /* two places fit alike, as with periodic steel sets. The pose is the place nearer to
@@ -115,9 +116,11 @@ enum pose_wall_motion_reason {
                                          one. The second stamp in a row that went back is accepted */
   POSE_WALL_MOTION_R_GAP = 1 << 10,   /* frames are missing before this one: a wide search found it */
   POSE_WALL_MOTION_R_PRIOR = 1 << 11, /* the frame's inputs contradict what was measured, and were not used */
-  POSE_WALL_MOTION_R_MAP_FULL = 1 << 12 /* the oldest part of the map gave way to the newest */
+  POSE_WALL_MOTION_R_MAP_FULL = 1 << 12, /* the oldest part of the map gave way to the newest */
+  POSE_WALL_MOTION_R_REPEATED = 1 << 13  /* the cloud, or 10 degrees of it and more, came before: sensor or driver hang.
+                                            The frame is lost and not used; the map stays */
 };
-#define POSE_WALL_MOTION_REASON_COUNT 13
+#define POSE_WALL_MOTION_REASON_COUNT 14
 /* "halves_differ", and one English sentence; static storage. */
 const char* pose_wall_motion_reason_name(uint32_t bit_index);
 const char* pose_wall_motion_reason_text(uint32_t bit_index);

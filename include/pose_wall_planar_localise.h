@@ -139,7 +139,8 @@ enum pose_wall_planar_localise_reason {
   POSE_WALL_PLANAR_LOCALISE_SCAN_DIFFERS = 11, /* the last metres fit, the present scan does not */
   /* DOUBTFUL: MISFIT, FEW, SLIDES, and */
   POSE_WALL_PLANAR_LOCALISE_CONTRADICTED = 12, /* the scan fits with less than half of its patches */
-  POSE_WALL_PLANAR_LOCALISE_REASONS = 13
+  POSE_WALL_PLANAR_LOCALISE_REPEATED = 13,     /* the very same scan came before: it counts as one that shows nothing */
+  POSE_WALL_PLANAR_LOCALISE_REASONS = 14
 };
 /* "slides"; static storage. */
 const char* pose_wall_planar_localise_reason_name(uint32_t reason);

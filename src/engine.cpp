@@ -71,6 +71,7 @@ double least_confidence(const pose_wall_result& result) {
 void Scratch::lay_out(Arena& arena, std::uint32_t points_max) {
   marks = arena.take<std::uint8_t>(points_max + kFour);
   returns_lidar.lay_out(arena);
+  print = arena.take_one<CloudPrint>();
   cloud_base.lay_out(arena, points_max);
   // The stages run one after the other, so buffers of one lie on top of buffers of another. The grid serves voxels and
   // outliers, and starts anew for the band, which is cut after the floor is found.
@@ -153,7 +154,7 @@ void Engine::set_memory(const Memory& memory) {
 void Engine::set_memory_of_other_clock(const Memory& memory, double elapsed_s, std::int64_t stamp_ns) {
   memory_ = memory;
   rebase(elapsed_s, stamp_ns, settings_, &memory_.temporal);
-  memory_.seen = SeenClouds{};
+  memory_.freshness = Freshness{};
   memory_.repeats = 0;
   memory_.odometry.run = OdometryMemory::kNoRun;
   memory_.own.forget();
@@ -179,8 +180,9 @@ bool Engine::read_cloud(const pose_wall_cloud& cloud, FrameFindings* found) {
   const pose_wall_odometry* const odometry = odometry_in(cloud.inputs);
   const bool taken_out = odometry != nullptr && MotionInScan(*odometry, settings_, axes_).improves(memory_.own);
   const pose_wall_odometry left = odometry != nullptr ? without_motion(*odometry) : pose_wall_odometry{};
-  found->voxels = build_voxels(cloud, taken_out || odometry == nullptr ? odometry : &left, settings_, extrinsic_, axes_,
-                               memory_.leaf, &scratch_.grid, &scratch_.returns_lidar, &scratch_.cloud_base);
+  found->voxels =
+      build_voxels(cloud, taken_out || odometry == nullptr ? odometry : &left, settings_, extrinsic_, axes_,
+                   memory_.leaf, &scratch_.grid, &scratch_.returns_lidar, scratch_.print, &scratch_.cloud_base);
   return taken_out && found->voxels.scan.whole_s > 0.0;
 }
 
@@ -383,12 +385,12 @@ void Engine::finish(pose_wall_result* result) {
   result->mark = mark_of(*result);
 }
 
-// The very same points under a new stamp: the driver or the network repeats them, no LiDAR does. Under the old stamp it
-// is the same frame once more, with nothing new to measure.
+// The very same points under a new stamp, all of them or a part: the driver or the network repeats them, no LiDAR does.
+// Under the old stamp it is the same frame once more, with nothing new to measure.
 void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
   Repeat repeat;
   if (scratch_.cloud_base.count >= limit_of<gate::POINTS>(settings_)) {
-    repeat = memory_.seen.keep(found->voxels.fingerprint, found->stamp_ns);
+    repeat = memory_.freshness.keep(*scratch_.print, found->stamp_ns);
     memory_.repeats = repeat.is_one ? memory_.repeats + 1 : 0;
   }
   constexpr double kAnyNumber = 1e9;  // of repeats, if the clock went back since the first copy

@@ -27,6 +27,7 @@ struct Scratch {
   VoxelGrid grid;
   Span<std::uint8_t> marks;  // for each point, and a four behind the last: keep flags, then labels on demand
   ReturnsByDirection returns_lidar;
+  CloudPrint* print = nullptr;
   BoundedPoints cloud_base;
   BoundedPoints band_level;
   BoundedPoints beyond_level;
@@ -41,7 +42,7 @@ struct Memory {
   TemporalState temporal;
   Surfaces last;
   LeafMemory leaf;
-  SeenClouds seen;
+  Freshness freshness;
   OdometryMemory odometry;
   OwnChanges own;
   std::uint32_t repeats = 0;  // number of repeated clouds in a row; clouds without points do not count

@@ -11,7 +11,7 @@ namespace pose_wall {
 namespace {
 
 // 'pose-m' in ASCII and a count: raise it with each change of visit().
-constexpr std::uint64_t kVersion = 0x706F73652D6D0008ULL;
+constexpr std::uint64_t kVersion = 0x706F73652D6D0009ULL;
 constexpr std::uint64_t kHeadWords = 2;  // version and checksum stand first
 
 // Every member is one word of eight bytes, least significant first.
@@ -87,6 +87,20 @@ void visit(Way* way, std::uint32_t* count) {
   if (word > 0xFFFFFFFFU) way->failed();
   *count = static_cast<std::uint32_t>(word);
 }
+// An index that is used as one.
+template <typename Way>
+void visit_below(Way* way, std::uint32_t bound, std::uint32_t* index) {
+  visit(way, index);
+  if (*index >= bound) way->failed();
+}
+// Two in a word.
+template <typename Way>
+void visit_pair(Way* way, std::uint32_t* low, std::uint32_t* high) {
+  std::uint64_t word = static_cast<std::uint64_t>(*high) << 32 | *low;
+  way->word(&word);
+  *low = static_cast<std::uint32_t>(word);
+  *high = static_cast<std::uint32_t>(word >> 32);
+}
 // A bool that holds anything but 0 and 1 is no bool.
 template <typename Way>
 void visit(Way* way, bool* flag) {
@@ -156,6 +170,16 @@ void visit(Way* way, Track* t) {
             &good.age_s);
 }
 
+template <typename Way>
+void visit(Way* way, Freshness* f) {
+  for (SeenCloud& cloud : f->clouds.cloud) visit_all(way, &cloud.print, &cloud.stamp_ns);
+  for (auto& sector : f->sectors.print) {
+    for (std::uint32_t k = 0; k < SeenSectors::kCount; k += 2) visit_pair(way, &sector[k], &sector[k + 1]);
+  }
+  for (std::int64_t& stamp_ns : f->sectors.stamp_ns) visit(way, &stamp_ns);
+  visit_below(way, SeenSectors::kCount, &f->sectors.next);
+}
+
 // The moment of the save.
 template <typename Way>
 void visit(Way* way, pose_wall_moment* moment) {
@@ -176,7 +200,7 @@ void visit(Way* way, Memory* m) {
   for (Plane& wall : m->last.wall_level) visit(way, &wall);
   visit_all(way, &m->last.has_floor, &m->last.has_wall[0], &m->last.has_wall[1], &m->leaf.begin_with, &m->leaf.voxels,
             &m->repeats, &m->frames, &m->publications);
-  for (SeenCloud& cloud : m->seen.cloud) visit_all(way, &cloud.fingerprint, &cloud.stamp_ns);
+  visit(way, &m->freshness);
   visit(way, &m->odometry);
   visit(way, &m->own);
 }

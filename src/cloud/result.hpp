@@ -46,7 +46,6 @@ struct VoxelResult {
   double leaf_m = 0.0;
   std::uint64_t work = 0;
   bool fits = false;  // false: points fill the air, or points_max is far too small; there are no voxels then
-  std::uint64_t fingerprint = 0;
   ScanTime scan;
 };
 

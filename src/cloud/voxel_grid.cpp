@@ -33,7 +33,6 @@ void VoxelGrid::begin(double leaf_m, double reach_m) {
 void VoxelGrid::extract(PointSet* out) {
   const std::uint32_t cells = count();
   sorted_ = radix_order(hash_.keys(), order_.first(cells), spare_.first(cells), histogram_);
-  fingerprint_ = fingerprint_of_cells();
   write_sorted(out);
 }
 
@@ -41,21 +40,6 @@ void VoxelGrid::extract_as_they_came(PointSet* out) {
   sorted_ = order_.first(count());
   for (std::uint32_t i = 0; i < sorted_.size(); ++i) sorted_[i] = i;
   write_sorted(out);
-}
-
-// A sum over the cells, independent of their order. Each cell's x and y times its z and weight, after key and a
-// constant of many bits have been added, and folded. So a change in one cell does not undo one in another (after NH;
-// Black, Halevi, Krawczyk, Krovetz and Rogaway 1999).
-std::uint64_t VoxelGrid::fingerprint_of_cells() const {
-  const Span<const std::uint64_t> keys = hash_.keys();
-  std::uint64_t sum = keys.size();
-  for (std::uint32_t i = 0; i < keys.size(); ++i) {
-    std::uint64_t halves[2];
-    std::memcpy(halves, &sums_[i], sizeof(halves));
-    const std::uint64_t product = (halves[0] + keys[i] * 0x9E3779B97F4A7C15ULL) * (halves[1] + 0xC2B2AE3D27D4EB4FULL);
-    sum += product ^ product >> 32;
-  }
-  return sum;
 }
 
 void VoxelGrid::write_sorted(PointSet* out) {

@@ -78,13 +78,10 @@ class VoxelGrid {
   // Cost of cells that share the hash's slots since begin(), in steps of about ten instructions.
   std::uint64_t crowding() const { return hash_.links(); }
   std::uint32_t slots() const { return hash_.slots(); }
-  // Of all cells and their sums at the last extract(): equal clouds give equal numbers, others different ones.
-  std::uint64_t fingerprint() const { return fingerprint_; }
 
  private:
   static constexpr std::uint32_t kStepMask = (1U << kStepBits) - 1;  // the step within its cell
 
-  std::uint64_t fingerprint_of_cells() const;
   void write_sorted(PointSet* out);
   // The step that holds a coordinate is coordinate * per_m + origin, cut off.
   FourInts steps_of(FourFloats coordinates_m) const { return cut_off(coordinates_m * steps_per_m_ + origin_step_); }
@@ -98,7 +95,6 @@ class VoxelGrid {
   float steps_per_m_ = 1.0F, origin_step_ = 0.0F;
   double leaf_m_ = 1.0;
   std::int32_t origin_cell_ = 0;
-  std::uint64_t fingerprint_ = 0;
 };
 
 }  // namespace pose_wall

@@ -10,6 +10,7 @@
 #include "base/math/finite.hpp"
 #include "base/simd/four_floats.hpp"
 #include "base/simd/four_turns.hpp"
+#include "cloud/body_boxes.hpp"
 #include "cloud/cloud_reader.hpp"
 #include "cloud/leaf.hpp"
 #include "cloud/skew.hpp"
@@ -65,10 +66,9 @@ double mean_intensity(const pose_wall_cloud& cloud, bool swap) {
 class Pass {
  public:
   Pass(const pose_wall_cloud& cloud, const Settings& settings, const Extrinsic& extrinsic, const Axes& axes,
-       const Skew& skew, bool by_points)
+       const Skew& skew)
       : cloud_(cloud),
         skew_(skew),
-        by_points_(by_points),
         to_base_(extrinsic.R_base_lidar, extrinsic.sensor_base_m),
         range_min2_(static_cast<float>(settings.range_min * settings.range_min)),
         range_max2_(static_cast<float>(settings.range_max * settings.range_max)),
@@ -76,11 +76,8 @@ class Pass {
         plain_(is_plain_xyz32(cloud)),
         in_a_row_(is_xyz32_in_a_row(cloud)),
         intensity_weight_(cloud.intensity.type != POSE_WALL_FIELD_NONE ? settings.intensity_weight : 0.0),
-        mean_intensity_(intensity_weight_ > 0.0 ? mean_intensity(cloud, swap_) : 0.0) {
-    for (const Box* box : {&settings.body_box_1, &settings.body_box_2, &settings.body_box_3, &settings.body_box_4}) {
-      if (box->holds_something()) boxes_[box_count_++] = *box;
-    }
-    if (cloud.inputs != nullptr) take_boxes(*cloud.inputs);
+        mean_intensity_(intensity_weight_ > 0.0 ? mean_intensity(cloud, swap_) : 0.0),
+        boxes_({settings.body_box_1, settings.body_box_2, settings.body_box_3, settings.body_box_4}, cloud) {
     const Eigen::Vector3d x_base = Eigen::Vector3d::UnitX(), y_base = Eigen::Vector3d::UnitY();
     quadrants_ = {quadrant_of(axes, x_base), quadrant_of(axes, y_base), quadrant_of(axes, -x_base),
                   quadrant_of(axes, -y_base)};
@@ -88,10 +85,10 @@ class Pass {
 
   // False if the grid overflows. The counts are then complete only if the pass goes on to the end all the same.
   bool run(bool to_the_end, VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts,
-           std::uint64_t* raw_fingerprint) const {
+           CloudPrint* print) const {
     bool fits = true;
     *counts = IngestCounts{};
-    *raw_fingerprint = 0;
+    print->clear();
     returns_lidar->clear();
     PointBlock block;
     for (std::uint32_t row = 0; row < rows_of(cloud_); ++row) {
@@ -103,29 +100,23 @@ class Pass {
         column += count;
         point += static_cast<std::size_t>(count) * cloud_.point_step;
         if (block.count != PointBlock::kSize) continue;
-        if (by_points_) *raw_fingerprint += fingerprint_of(block);
+        print_block(block, print);
         if (!take(&block, grid, returns_lidar, counts)) fits = false;
         if (!fits && !to_the_end) return false;
       }
     }
-    if (by_points_) *raw_fingerprint += fingerprint_of(block);
+    print_block(block, print);
     return take(&block, grid, returns_lidar, counts) && fits;
   }
 
  private:
-  // Of the raw points, in any order: with another motion removed the same cloud has other voxels.
-  static std::uint64_t fingerprint_of(const PointBlock& block) {
-    std::uint64_t sum = 0;
-    for (std::uint32_t k = 0; k < block.count; ++k) {
-      std::uint32_t x, y, z;
-      std::memcpy(&x, &block.x_lidar[k], sizeof(x));
-      std::memcpy(&y, &block.y_lidar[k], sizeof(y));
-      std::memcpy(&z, &block.z_lidar[k], sizeof(z));
-      std::uint64_t word = (static_cast<std::uint64_t>(x) << 32 | y) * 0x9E3779B97F4A7C15ULL ^ z;
-      word *= 0xD6E8FEB86659FD93ULL;
-      sum += word ^ word >> 32;
+  static void print_block(const PointBlock& block, CloudPrint* print) {
+    for (std::uint32_t k = 0; k < block.count; k += kFour) {
+      const FourPlaces four = {load_four(&block.x_lidar[k]), load_four(&block.y_lidar[k]),
+                               load_four(&block.z_lidar[k])};
+      const std::uint32_t left = block.count - k;
+      print->add_some(four, left < kFour ? left : kFour);
     }
-    return sum;
   }
 
   // Points of one row, side by side.
@@ -170,13 +161,6 @@ class Pass {
       std::memcpy(&block->x_lidar[k], x + at, sizeof(float));
       std::memcpy(&block->y_lidar[k], y + at, sizeof(float));
       std::memcpy(&block->z_lidar[k], z + at, sizeof(float));
-    }
-  }
-
-  void take_boxes(const pose_wall_inputs& inputs) {
-    for (const auto& edges_m : inputs.body_box) {
-      const Box box = box_of(edges_m);
-      if (box.is_sound() && box.holds_something()) boxes_[box_count_++] = box;
     }
   }
 
@@ -225,8 +209,7 @@ class Pass {
   }
 
   void judge_bodies(std::uint32_t end, PointBlock* b) const {
-    for (std::uint32_t i = 0; i < box_count_; ++i) {
-      const Box& box = boxes_[i];
+    for (const Box& box : boxes_) {
       const float x0 = static_cast<float>(box.x_min), x1 = static_cast<float>(box.x_max);
       const float y0 = static_cast<float>(box.y_min), y1 = static_cast<float>(box.y_max);
       const float z0 = static_cast<float>(box.z_min), z1 = static_cast<float>(box.z_max);
@@ -303,11 +286,8 @@ class Pass {
 
   const pose_wall_cloud& cloud_;
   const Skew& skew_;
-  bool by_points_;  // recognises repeats by points instead of voxels
   FourTurns to_base_;
   float range_min2_, range_max2_;
-  Box boxes_[4 + POSE_WALL_INPUT_BOXES] = {};
-  std::uint32_t box_count_ = 0;
   struct {
     std::int32_t with_x, with_y, against_x, against_y;  // base's axes
   } quadrants_;
@@ -315,6 +295,7 @@ class Pass {
   bool plain_, in_a_row_;
   double intensity_weight_;
   double mean_intensity_;
+  BodyBoxes boxes_;
 };
 
 // No-returns cost a few instructions each, and the caller may leave them out of the cloud.
@@ -326,18 +307,15 @@ std::uint32_t returns_of(const IngestCounts& counts) {
 
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& settings,
                          const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid,
-                         ReturnsByDirection* returns_lidar, PointSet* cloud_base) {
+                         ReturnsByDirection* returns_lidar, CloudPrint* print, PointSet* cloud_base) {
   VoxelResult result;
   Work work;
   const Skew skew(cloud, odometry);
-  // Even if this frame has no odometry, since its other copy may have one.
-  const bool by_points = settings.motion == kMotionOn && cloud.time.type != POSE_WALL_FIELD_NONE;
-  const Pass pass(cloud, settings, extrinsic, axes, skew, by_points);
-  std::uint64_t raw_fingerprint = 0;
+  const Pass pass(cloud, settings, extrinsic, axes, skew);
   LeafSearch leaf(settings.voxel_leaf, settings.points_max, last);
   do {
     grid->begin(leaf.leaf_m(), reach_of(settings));
-    result.fits = pass.run(leaf.is_largest(), grid, returns_lidar, &result.counts, &raw_fingerprint);
+    result.fits = pass.run(leaf.is_largest(), grid, returns_lidar, &result.counts, print);
     work.add(returns_of(result.counts), skew.is_there() ? steps::kPointUnskewed : steps::kPointRead);
     work.add(grid->slots() / kFour, steps::kFourSlots);
   } while (leaf.goes_on(result.fits, grid->count()));
@@ -347,7 +325,6 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry*
   cloud_base->count = 0;
   if (result.fits) {
     grid->extract(cloud_base);
-    result.fingerprint = by_points ? raw_fingerprint : grid->fingerprint();
     work.add(cloud_base->count, steps::kVoxelWritten);
   }
   if (skew.is_there() && result.counts.kept > 0) {

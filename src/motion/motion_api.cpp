@@ -42,7 +42,8 @@ constexpr const char* kReasons[POSE_WALL_MOTION_REASON_COUNT][2] = {
     {"stamp", "The stamp stood still or went back, so nothing is taken from this frame."},
     {"gap", "Frames are missing before this one."},
     {"prior", "The machine's own inputs contradict what was measured, and were not used."},
-    {"map_full", "The oldest part of the map gave way to the newest."}};
+    {"map_full", "The oldest part of the map gave way to the newest."},
+    {"repeated", "Points that came before came again, so sensor or driver hang, and the frame is not used."}};
 
 // The head of a motion's block.
 struct Holder {

@@ -57,6 +57,7 @@ void Odometry::lay_out(Arena& arena) {
   steps_.lay_out(arena);
   curve_.lay_out(arena);
   map_.lay_out(arena);
+  print_ = arena.take_one<CloudPrint>();
 }
 
 void Odometry::open(const Reading& reading, const MotionSettings& settings) {
@@ -67,6 +68,7 @@ void Odometry::open(const Reading& reading, const MotionSettings& settings) {
 
 void Odometry::reset() {
   map_.clear();
+  freshness_ = Freshness{};
   pose_ = start_ = keyframe_ = Pose{};
   twist_ = Twist{};
   axes_ = RoadAxes{};
@@ -530,11 +532,21 @@ void Odometry::begin_anew(Frame* frame) {
   begin_map(frame);
 }
 
+bool Odometry::is_repeat(const pose_wall_cloud& cloud) {
+  print_cloud(cloud, print_);
+  return freshness_.keep(*print_, cloud.stamp_ns).is_one;
+}
+
 void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* result) {
   Frame frame(cloud);
   frame.first = !has_map_;
   frame.dt_s = frames_ == 0 ? 0.0 : (static_cast<double>(cloud.stamp_ns) - static_cast<double>(stamp_ns_)) * 1e-9;
-  if (frames_ == 0 || frame.dt_s > kSameStamp_s) {
+  const bool goes_on = frames_ == 0 || frame.dt_s > kSameStamp_s;
+  if (goes_on && is_repeat(cloud)) {  // as if nothing had been seen
+    frame.reasons |= POSE_WALL_MOTION_R_REPEATED;
+    frame.state = POSE_WALL_ALONG_LOST;
+    image_.count = 0;
+  } else if (goes_on) {
     expect(&frame);
     look(&frame);
     measure(&frame);

@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include "cloud/seen_clouds.hpp"
 #include "motion/frame.hpp"
 #include "motion/range_image.hpp"
 #include "motion/relief_map.hpp"
@@ -38,6 +39,7 @@ class Odometry {
   void begin_anew(Frame* frame);
   void keep_time(const Frame& frame);
   bool place_scan(Frame* frame);
+  bool is_repeat(const pose_wall_cloud& cloud);
   void align(Frame* frame);
   void check_reach(Frame* frame) const;
   void match_way(Frame* frame);
@@ -70,7 +72,9 @@ class Odometry {
   Span<Observation> observation_;
   StepScratch steps_;
   CurveScratch curve_;
+  CloudPrint* print_ = nullptr;
   // memory
+  Freshness freshness_;
   ReliefMap map_;
   Pose pose_, start_, keyframe_;
   Twist twist_;  // smoothed, to expect the next place by

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/simd/four_floats.hpp"
+#include "cloud/body_boxes.hpp"
 #include "cloud/cloud_reader.hpp"
 
 namespace pose_wall::motion {
@@ -16,7 +17,6 @@ constexpr std::uint32_t kLooks = 4096;  // points for a cloud's rings, elevation
 // Fewer are the lines of a pattern without rings: four of a Livox Mid-360, six of an Avia or HAP.
 constexpr double kRingsLeast = 8.0;
 constexpr float kTurn_rad = 6.2831853F;
-constexpr std::uint32_t kBodyBoxes = sizeof(Reading::body) / sizeof(Box);
 
 // Within 1e-3 rad: which column, no more (the odd polynomial of Hastings, Approximations for Digital Computers, 1955).
 FourFloats rough_arc_tangent2(FourFloats y, FourFloats x) {
@@ -168,8 +168,7 @@ class Projector {
         near2_(static_cast<float>(reading.range_min_m * reading.range_min_m)),
         far2_(static_cast<float>(reading.range_max_m * reading.range_max_m)),
         image_(image) {
-    for (const Box& box : reading.body) {
-      if (!box.holds_something()) continue;
+    for (const Box& box : BodyBoxes(reading.body, cloud)) {
       const double edges[6] = {box.x_min, box.x_max, box.y_min, box.y_max, box.z_min, box.z_max};
       for (int k = 0; k < 6; ++k) body_[boxes_][k] = static_cast<float>(edges[k]);
       ++boxes_;
@@ -267,7 +266,7 @@ class Projector {
   Eigen::Matrix3f R_;
   Eigen::Vector3f origin_, velocity_, turn_;
   float near2_, far2_;
-  float body_[kBodyBoxes][6];  // edges of the boxes that hold something
+  float body_[BodyBoxes::kMost][6];  // edges of the boxes that hold something
   std::uint32_t boxes_ = 0;
   RangeImage* image_;
 };

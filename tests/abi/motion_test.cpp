@@ -57,7 +57,7 @@ TEST(MotionWords, AreThoseOfTheHeader) {
   for (std::uint32_t d = 0; d < 6; ++d) EXPECT_STREQ(pose_wall_motion_direction_name(d), directions[d]);
   const char* const reasons[] = {"first",         "few_points",  "few_matches", "smooth",    "few_patches",
                                  "halves_differ", "second_peak", "at_edge",     "no_ground", "stamp",
-                                 "gap",           "prior",       "map_full"};
+                                 "gap",           "prior",       "map_full",    "repeated"};
   static_assert(std::size(reasons) == POSE_WALL_MOTION_REASON_COUNT);
   std::set<std::string> texts;
   for (std::uint32_t r = 0; r < POSE_WALL_MOTION_REASON_COUNT; ++r) {
@@ -66,14 +66,14 @@ TEST(MotionWords, AreThoseOfTheHeader) {
     EXPECT_EQ(text.back(), '.') << text;
     EXPECT_TRUE(texts.insert(text).second) << text;
   }
-  for (const std::uint32_t none : {4U, 6U, 13U, 31U, 32U, 0xFFFFFFFFU}) {
+  for (const std::uint32_t none : {4U, 6U, 14U, 31U, 32U, 0xFFFFFFFFU}) {
     if (none >= 4) {
       EXPECT_STREQ(pose_wall_motion_along_state_name(none), "unknown");
     }
     if (none >= 6) {
       EXPECT_STREQ(pose_wall_motion_direction_name(none), "unknown");
     }
-    if (none >= 13) {
+    if (none >= 14) {
       EXPECT_STREQ(pose_wall_motion_reason_name(none), "unknown");
       EXPECT_STREQ(pose_wall_motion_reason_text(none), "unknown reason");
     }

@@ -131,6 +131,28 @@ TEST(LocaliseApi, FindsAPlaceAmongKeyframes) {
   EXPECT_NEAR(result.pose.x_m, -1.5, 0.01);
 }
 
+// A driver that hangs delivers the same scan under new stamps.
+TEST(LocaliseApi, AScanThatCameBeforeLeavesThePlaceDoubtful) {
+  const Opened opened;
+  add_chamber(opened.get());
+  ASSERT_EQ(pose_wall_planar_localise_finish(opened.get()), POSE_WALL_OK);
+  expect_found(opened.get(), 0.01);
+  std::vector<float> ranges;
+  pose_wall_planar_scan scan = scan_from(-1.5, 1.2, 2.0, &ranges);
+  pose_wall_planar_localise_result result{};
+  result.struct_size = sizeof(result);
+  for (int k = 1; k <= 3; ++k) {
+    scan.stamp_ns += 100000000;
+    ASSERT_EQ(pose_wall_planar_localise_process(opened.get(), &scan, nullptr, &result), POSE_WALL_OK);
+    EXPECT_EQ(result.state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_DOUBTFUL}) << k;
+    EXPECT_STREQ(pose_wall_planar_localise_reason_name(result.reason), "repeated");
+  }
+  for (float& range : ranges) range += 0.001F;  // another one
+  scan.stamp_ns += 100000000;
+  ASSERT_EQ(pose_wall_planar_localise_process(opened.get(), &scan, nullptr, &result), POSE_WALL_OK);
+  EXPECT_EQ(result.state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_UNIQUE});
+}
+
 // Walls without relief: the map may lack a chamber like it. Somebody who knows better may take the candidate.
 TEST(LocaliseApi, AReasonStandsBesideAPlaceThatIsNotUnique) {
   const Opened opened(0);

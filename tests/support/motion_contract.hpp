@@ -49,7 +49,7 @@ inline const char* broken_while_lost(const pose_wall_motion_result& r) {
   }
   // A stamp that stands still before there is any map: nothing was looked at, and there is no pose to keep.
   constexpr std::uint32_t kWhy = POSE_WALL_MOTION_R_FEW_POINTS | POSE_WALL_MOTION_R_FEW_MATCHES |
-                                 POSE_WALL_MOTION_R_AT_EDGE | POSE_WALL_MOTION_R_STAMP;
+                                 POSE_WALL_MOTION_R_AT_EDGE | POSE_WALL_MOTION_R_STAMP | POSE_WALL_MOTION_R_REPEATED;
   return (r.reasons & kWhy) == 0 ? "lost for no reason" : nullptr;
 }
 

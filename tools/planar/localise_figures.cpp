@@ -32,6 +32,7 @@ constexpr const char* kReasonWords[] = {
     translatable("walls without relief: the map may lack a place like this one"),
     translatable("the last metres fit, the present scan does not"),
     translatable("the scan contradicts the map"),
+    translatable("the same scan came before: sensor or driver hang"),
 };
 static_assert(std::size(kReasonWords) == POSE_WALL_PLANAR_LOCALISE_REASONS);
 

@@ -157,11 +157,11 @@ void write_result(const Localiser& own, Where where, std::int64_t stamp_ns, pose
 
 constexpr const char* kStates[] = {"searching", "unknown", "ambiguous", "unique", "doubtful"};
 // In the order of Why.
-constexpr const char* kReasons[] = {"none",   "searching",    "no_fit",      "several", "crowded",
-                                    "misfit", "unseen",       "through",     "few",     "slides",
-                                    "smooth", "scan_differs", "contradicted"};
+constexpr const char* kReasons[] = {"none",   "searching",    "no_fit",       "several", "crowded",
+                                    "misfit", "unseen",       "through",      "few",     "slides",
+                                    "smooth", "scan_differs", "contradicted", "repeated"};
 static_assert(sizeof(kReasons) / sizeof(kReasons[0]) == POSE_WALL_PLANAR_LOCALISE_REASONS);
-static_assert(static_cast<std::uint32_t>(Why::contradicted) + 1 == POSE_WALL_PLANAR_LOCALISE_REASONS);
+static_assert(static_cast<std::uint32_t>(Why::repeated) + 1 == POSE_WALL_PLANAR_LOCALISE_REASONS);
 
 }  // namespace
 

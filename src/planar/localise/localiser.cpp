@@ -4,6 +4,7 @@
 #include "planar/localise/localiser.hpp"
 
 #include <cmath>
+#include <cstring>
 
 namespace pose_wall::planar {
 namespace {
@@ -37,6 +38,7 @@ void Localiser::open(const LocaliseSettings& settings) {
   search_.open();
   tracker_.open(settings.odometry_m, settings.odometry_rad);
   searches_ = lost_ = 0;
+  seen_ = SeenClouds{};
   forget();
 }
 
@@ -119,9 +121,29 @@ Where Localiser::track(Span<const ScanPoint> points, const BeamScan& scan, const
   return track == Track::tracked ? Where::unique : Where::doubtful;
 }
 
+// By the bits of its ranges. Scans of the same stamp are the same scan once more.
+bool Localiser::is_repeat(const BeamScan& scan) {
+  std::uint64_t print = 0xCBF29CE484222325ULL;  // FNV-1a by words
+  std::uint32_t ranges = 0;
+  for (const Beam& beam : scan.beams) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &beam.range_m, sizeof(bits));
+    print = (print ^ bits) * 0x100000001B3ULL;
+    ranges += beam.end == BeamEnd::thing ? 1U : 0U;
+  }
+  if (ranges < SeenClouds::kReturnsLeast) return false;
+  const Repeat repeat = seen_.keep(print, scan.stamp_ns);
+  return repeat.is_one && repeat.age_s != 0.0;
+}
+
+// A scan that came before shows nothing of now: a search waits, and a tracked place is carried on without it.
 Where Localiser::process(const BeamScan& scan, const Pose2* odometry) {
-  const Span<const ScanPoint> points = even_points(scan, kMatchSpacing_m, scan_points_);
+  const bool repeats = is_repeat(scan);
+  if (repeats && !is_tracking_) return where_;
+  const Span<const ScanPoint> points =
+      repeats ? Span<const ScanPoint>() : even_points(scan, kMatchSpacing_m, scan_points_);
   where_ = is_tracking_ ? track(points, scan, odometry) : wander(points, scan, odometry);
+  if (repeats && is_tracking_) tracking_ = Why::repeated;
   return where_;
 }
 

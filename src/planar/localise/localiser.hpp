@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "cloud/seen_clouds.hpp"
 #include "planar/localise/recent.hpp"
 #include "planar/localise/tracker.hpp"
 #include "planar/localise/verdict.hpp"
@@ -55,6 +56,7 @@ class Localiser {
   Where wander(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry);
   Where track(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry);
   bool is_due() const;
+  bool is_repeat(const BeamScan& scan);
   bool settle(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry);
 
   LocaliseSettings settings_;
@@ -73,6 +75,7 @@ class Localiser {
   double looked_at_m_ = 0.0, looked_at_rad_ = 0.0;
   Where where_ = Where::searching;
   Why tracking_ = Why::none;  // of the tracked place
+  SeenClouds seen_;
   bool is_tracking_ = false, has_looked_ = false;
   std::uint32_t searches_ = 0, lost_ = 0, scans_since_look_ = 0;
 };

@@ -27,7 +27,8 @@ enum class Why : std::uint32_t {
   slides,
   smooth,
   scan_differs,
-  contradicted
+  contradicted,
+  repeated
 };
 
 struct CandidatePlace {

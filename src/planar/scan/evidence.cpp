@@ -8,13 +8,13 @@
 #include "base/math/elementary.hpp"
 #include "base/simd/four_floats.hpp"
 #include "base/simd/four_turns.hpp"
+#include "cloud/body_boxes.hpp"
 #include "cloud/cloud_reader.hpp"
 
 namespace pose_wall::planar {
 namespace {
 
 constexpr double kFarthest_m = 1000.0;  // no sensor measures further: a wrong unit, or a filling of no-returns
-constexpr std::uint32_t kBodyBoxes = 4 + POSE_WALL_INPUT_BOXES;  // the config's and the frame's
 
 // Within 1e-5 rad, 0.01 of the finest usual beam (Hastings, Approximations for Digital Computers, 1955).
 FourFloats arc_tangent2_of_four(FourFloats y, FourFloats x) {
@@ -61,12 +61,7 @@ class Judge {
         steps_(static_cast<float>(s.steps_of_turn)),
         sectors_per_step_(static_cast<float>(s.sectors / s.steps_of_turn)),
         sector_last_(static_cast<float>(s.sectors) - 0.5F) {
-    for (const Box& box : s.body) add(box);
-    if (cloud.inputs == nullptr) return;
-    for (const auto& edges_m : cloud.inputs->body_box) {
-      const Box box = box_of(edges_m);
-      if (box.is_sound()) add(box);
-    }
+    for (const Box& box : BodyBoxes(s.body, cloud)) add(box);
   }
 
   // Four of a block.
@@ -91,7 +86,6 @@ class Judge {
 
  private:
   void add(const Box& box) {
-    if (!box.holds_something()) return;
     const double edges[6] = {box.x_min, box.x_max, box.y_min, box.y_max, box.z_min, box.z_max};
     for (int e = 0; e < 6; ++e) body_[boxes_][e] = static_cast<float>(edges[e]);
     ++boxes_;
@@ -158,7 +152,7 @@ class Judge {
   FourTurns to_base_, to_level_;
   float sensor_m_, near2_, tilt_, tolerance_m_, low_m_, high_m_, overhead_m_, reach_m_, bend_, less_most_m_;
   float angle_min_, per_step_, steps_, sectors_per_step_, sector_last_;
-  float body_[kBodyBoxes][6] = {};
+  float body_[BodyBoxes::kMost][6] = {};
   std::uint32_t boxes_ = 0;
 };
 

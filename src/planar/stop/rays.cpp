@@ -4,12 +4,6 @@
 #include "planar/stop/rays.hpp"
 
 namespace pose_wall::planar {
-namespace {
-
-constexpr std::uint64_t kPrintPoints = 512;  // a frame's noise differs in every one of them
-
-}  // namespace
-
 Rays::Rays(const pose_wall_cloud& cloud, const Mount& mount)
     : cloud_(cloud),
       swap_(needs_swap(cloud)),
@@ -18,8 +12,7 @@ Rays::Rays(const pose_wall_cloud& cloud, const Mount& mount)
       near2_(static_cast<float>(mount.range_min_m * mount.range_min_m)),
       far2_(static_cast<float>(mount.range_max_m * mount.range_max_m)) {
   for (int k = 0; k < 9; ++k) R_[k] = static_cast<float>(mount.R_base_lidar(k / 3, k % 3));
-  for (const Box& box : mount.body) {
-    if (!box.holds_something()) continue;
+  for (const Box& box : BodyBoxes(mount.body, cloud)) {
     const double edges[6] = {box.x_min, box.x_max, box.y_min, box.y_max, box.z_min, box.z_max};
     for (int k = 0; k < 6; ++k) body_[boxes_][k] = static_cast<float>(edges[k] - mount.sensor_base_m(k / 2));
     ++boxes_;
@@ -42,25 +35,6 @@ bool Rays::one(std::uint64_t index, float* x, float* y, float* z) const {
   const FourPlaces at = in_base(four_of(point_at(index), 1), &those);
   *x = at.x[0], *y = at.y[0], *z = at.z[0];
   return those[0] != 0;
-}
-
-std::uint64_t Rays::print(std::uint32_t* returns) const {
-  const std::uint64_t stride = points_ / kPrintPoints + 1;
-  std::uint64_t hash = 0xCBF29CE484222325ULL;
-  *returns = 0;
-  for (std::uint64_t i = 0; i < points_; i += stride) {
-    const unsigned char* const point = point_at(i);
-    const float xyz[3] = {number(point, cloud_.x), number(point, cloud_.y), number(point, cloud_.z)};
-    for (const float value : xyz) {
-      std::uint32_t bits;
-      std::memcpy(&bits, &value, sizeof(bits));
-      hash = (hash ^ bits) * 0x100000001B3ULL;
-      hash ^= hash >> 29U;
-    }
-    const float r2 = xyz[0] * xyz[0] + xyz[1] * xyz[1] + xyz[2] * xyz[2];
-    if (r2 > 0.0F && r2 < 1e12F) ++*returns;
-  }
-  return hash;
 }
 
 }  // namespace pose_wall::planar

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "base/simd/four_floats.hpp"
+#include "cloud/body_boxes.hpp"
 #include "cloud/cloud_reader.hpp"
 #include "planar/stop/settings.hpp"
 
@@ -47,8 +48,6 @@ class Rays {
 
   // One point, by its number: false if it is no return.
   bool one(std::uint64_t index, float* x, float* y, float* z) const;
-  // Of an even share of the points, to tell a frame from the one before; *returns: how many of them are finite, not 0.
-  std::uint64_t print(std::uint32_t* returns) const;
 
  private:
   const unsigned char* point_at(std::uint64_t index) const {
@@ -92,7 +91,7 @@ class Rays {
   float R_[9];
   float near2_, far2_;
   std::uint32_t boxes_ = 0;
-  float body_[4][6];  // about the sensor
+  float body_[BodyBoxes::kMost][6];  // about the sensor
 };
 
 }  // namespace pose_wall::planar

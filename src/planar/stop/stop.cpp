@@ -13,8 +13,8 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::uint32_t kReturnsLeast = 50;         // in a frame: a sensor that is covered or off has fewer
-constexpr std::uint32_t kPrintLeast = 8;            // returns that tell a frame from the one before
+// In a frame: a sensor that is covered or off has fewer, and fewer do not tell a frame from those before.
+constexpr std::uint32_t kReturnsLeast = SeenClouds::kReturnsLeast;
 constexpr std::uint32_t kMomentFirst_ms = 1000000;  // the first frame's time: that of a place that was never seen is 0
 constexpr std::uint32_t kMomentMost_ms = 0xF0000000U;  // after 46 days all is forgotten once
 constexpr double kFuture_s = 0.005;                    // a stamp may lie so far ahead of the caller's clock
@@ -46,6 +46,7 @@ void Stop::lay_out(Arena& arena) {
   places_.lay_out(arena);
   hazards_ = arena.take<Hazard>(kHazards);
   looks_ = arena.take_one<FloorLooks>();
+  print_ = arena.take_one<CloudPrint>();
 }
 
 void Stop::open(const StopSettings& settings, const Mount& mount) {
@@ -62,7 +63,8 @@ void Stop::reset() {
   track_ = Track();
   last_motion_ = Motion{};
   first_ns_ = last_ns_ = clear_since_ns_ = 0;
-  frames_ = print_ = 0;
+  freshness_ = Freshness{};
+  frames_ = 0;
   now_ms_ = kMomentFirst_ms;
   is_stopped_ = true;
   is_clear_ = false;
@@ -179,16 +181,14 @@ void Stop::move_on(const Motion& motion, double seconds) {
   track_.yaw_rad = wrapped(track_.yaw_rad + w * seconds);
 }
 
-std::uint32_t Stop::frame_reasons(const pose_wall_cloud& cloud, const Rays& rays, std::int64_t now_ns) {
+std::uint32_t Stop::frame_reasons(const pose_wall_cloud& cloud, std::int64_t now_ns) {
   std::uint32_t reasons = 0;
   const double age_s = age_s_of(cloud.stamp_ns, now_ns);
   if (!(age_s <= settings_.stale_s)) reasons |= POSE_WALL_PLANAR_STOP_R_STALE;
   if (!(age_s >= -kFuture_s)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
   if (frames_ > 0 && !(cloud.stamp_ns > last_ns_)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
-  std::uint32_t returns = 0;
-  const std::uint64_t print = rays.print(&returns);
-  if (frames_ > 0 && print == print_ && returns >= kPrintLeast) reasons |= POSE_WALL_PLANAR_STOP_R_FROZEN;
-  print_ = print;
+  print_cloud(cloud, print_);
+  if (freshness_.keep(*print_, cloud.stamp_ns).is_one) reasons |= POSE_WALL_PLANAR_STOP_R_FROZEN;
   return reasons;
 }
 
@@ -277,7 +277,7 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
                    pose_wall_planar_stop_result* result) {
   const Rays rays(cloud, mount_);
   const Motion motion = motion_of(given);
-  const std::uint32_t refused = frame_reasons(cloud, rays, now_ns);
+  const std::uint32_t refused = frame_reasons(cloud, now_ns);
   pose_wall_planar_stop_result r = begun(now_ns);
   r.reasons = refused;
   r.points_in = static_cast<std::uint32_t>(rays.points());

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
+#include "cloud/seen_clouds.hpp"
 #include "planar/stop/places.hpp"
 #include "planar/stop/settings.hpp"
 #include "planar/stop/sight.hpp"
@@ -36,7 +37,7 @@ class Stop {
   double rim_of(double speed_m_s, double turn_rad_s) const;
   SweepMotion sweep_of(const Motion& motion, double* rim_m_s) const;
   void move_on(const Motion& motion, double seconds);
-  std::uint32_t frame_reasons(const pose_wall_cloud& cloud, const Rays& rays, std::int64_t now_ns);
+  std::uint32_t frame_reasons(const pose_wall_cloud& cloud, std::int64_t now_ns);
   void see(const Rays& rays, pose_wall_planar_stop_result* result);
   void judge(const SweepMotion& sweep_motion, pose_wall_planar_stop_result* result);
   void tell_nearest(const Hazard& hazard, pose_wall_planar_stop_result* result) const;
@@ -50,11 +51,13 @@ class Stop {
   Sweep sweep_;
   Span<Hazard> hazards_;
   FloorLooks* looks_;
+  CloudPrint* print_;
 
   Track track_;
   Motion last_motion_;
   std::int64_t first_ns_, last_ns_, clear_since_ns_;
-  std::uint64_t frames_, print_;
+  Freshness freshness_;
+  std::uint64_t frames_;
   std::uint32_t now_ms_, heartbeat_;
   bool is_stopped_, is_clear_;
   pose_wall_planar_stop_result last_;

@@ -27,7 +27,7 @@ class EngineWorld {
     pose_wall_engine* opened;
     pose_wall_result result;
     pose_wall_points points;
-    unsigned char memento[4096];
+    unsigned char memento[16384];
     pose_wall_self_test_report report;
     pose_wall_image image;
     pose_wall_image2 image2;
@@ -163,7 +163,7 @@ class EngineWorld {
   WorldBytes block_as_it_was_;
   pose_wall_engine* engine_ = nullptr;
   pose_wall_result measured_ = {};
-  unsigned char memento_[4096] = {};
+  unsigned char memento_[16384] = {};
   Written written_{};
 };
 

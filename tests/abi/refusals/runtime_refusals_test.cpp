@@ -35,7 +35,7 @@ class RuntimeWorld {
     pose_wall_image2 image2;
     pose_wall_motion_image motion_image;
     pose_wall_points points;
-    unsigned char memento[4096];
+    unsigned char memento[16384];
   };
 
   RuntimeWorld() {
@@ -111,7 +111,7 @@ class RuntimeWorld {
       stopped_;
   AlignedBlock free_block_{bytes_of(small_config(), options_of_few_points()) + POSE_WALL_BLOCK_ALIGNMENT, Dirt::kZeros};
   AlignedBlock none_{1 << 16, Dirt::kRandom};
-  unsigned char memento_[4096] = {};
+  unsigned char memento_[16384] = {};
   Written written_{};
 };
 

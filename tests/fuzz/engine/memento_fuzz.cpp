@@ -16,7 +16,7 @@ namespace {
 using namespace pose_wall::test;  // NOLINT(google-build-using-namespace): one target, one file
 
 // Above pose_wall_memento_bytes(); checked where it is used.
-constexpr std::uint64_t kRoom = 4096;
+constexpr std::uint64_t kRoom = 16384;
 
 std::uint64_t checksum(const unsigned char* bytes, std::uint64_t count) {
   std::uint64_t sum = 0xCBF29CE484222325U;

@@ -23,7 +23,7 @@ using namespace pose_wall::test;  // NOLINT(google-build-using-namespace): one t
 // Bounds the time of an input.
 constexpr int kEventsMax = 6;
 // Above pose_wall_memento_bytes(); checked where it is used.
-constexpr std::uint64_t kMementoRoom = 4096;
+constexpr std::uint64_t kMementoRoom = 16384;
 
 struct Pair {
   pose_wall_config config;

@@ -3,11 +3,21 @@
 
 // Proves: a cloud that comes again is known, and as old as its first copy, whatever came in between, as long as fewer
 // than kCount others did; one that is new pushes out the oldest; a clock that went back gives an age below zero; no
-// stamp overflows.
+// stamp overflows. A part of a cloud that comes again is known as well, wherever it lies, from 10 degrees on, and as
+// old as its first copy. A scene that stands still under real noise is none, however coarse the steps of its ranges
+// are.
 
 #include "cloud/seen_clouds.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "base/math/elementary.hpp"
+#include "support/clouds.hpp"
 
 namespace pose_wall {
 namespace {
@@ -45,6 +55,174 @@ TEST(SeenClouds, AClockThatWentBackGivesAnAgeBelowZero) {
   EXPECT_LT(seen.keep(7, 0).age_s, 0.0);
   EXPECT_GT(seen.keep(7, INT64_MAX).age_s, 0.0);
   EXPECT_LT(seen.keep(7, INT64_MIN).age_s, 0.0);
+}
+
+// A sensor that stands between walls, in a fixed order of rings and columns. Its ranges have noise and steps.
+struct Standing {
+  int rings, columns;
+  double noise_m, step_m, lost;  // lost: share of the packets of 16 columns
+  std::mt19937 random{7};
+
+  test::Points next() {
+    std::normal_distribution<double> noise(0.0, noise_m);
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    test::Points points(static_cast<std::size_t>(rings) * static_cast<std::size_t>(columns), {0.0F, 0.0F, 0.0F});
+    bool is_lost = false;
+    for (int column = 0; column < columns; ++column) {
+      if (column % 16 == 0) is_lost = share(random) < lost;
+      for (int ring = 0; ring < rings && !is_lost; ++ring) {
+        const double up = -0.26 + 0.52 * ring / (rings - 1), azimuth = 2.0 * kPi * column / columns;
+        const double x = std::cos(up) * std::cos(azimuth), y = std::cos(up) * std::sin(azimuth), z = std::sin(up);
+        double range_m = std::min(2.5 / std::max(std::fabs(y), 1e-6), 1.3 / std::max(std::fabs(z), 1e-6));
+        if (range_m > 40.0) continue;
+        range_m = std::round((range_m + noise(random)) / step_m) * step_m;
+        points[static_cast<std::size_t>(column * rings + ring)] = {
+            static_cast<float>(range_m * x), static_cast<float>(range_m * y), static_cast<float>(range_m * z)};
+      }
+    }
+    return points;
+  }
+};
+
+Repeat keep(Freshness* freshness, const test::Points& points, std::int64_t stamp_ns) {
+  CloudPrint print;
+  print_cloud(test::cloud_of(points, stamp_ns), &print);
+  return freshness->keep(print, stamp_ns);
+}
+
+Standing standing_vlp16() {
+  return {16, 1800, 0.01, 0.002, 0.0, std::mt19937(7)};
+}
+
+TEST(Freshness, ARingOfOldCloudsIsKnownWhateverItsLength) {
+  for (const std::uint32_t ring : {1U, 2U, 5U, 17U, 64U}) {
+    Standing sensor = standing_vlp16();
+    Freshness freshness;
+    std::vector<test::Points> clouds;
+    for (std::uint32_t k = 0; k < ring; ++k) clouds.push_back(sensor.next());
+    for (std::uint32_t k = 0; k < 2 * ring; ++k) {
+      const Repeat repeat = keep(&freshness, clouds[k % ring], k * kSecond_ns);
+      EXPECT_EQ(repeat.is_one, k >= ring) << ring << " clouds, frame " << k;
+      if (repeat.is_one) {
+        EXPECT_DOUBLE_EQ(repeat.age_s, ring);
+      }
+    }
+  }
+}
+
+// Lost packets whose points the driver leaves as they were.
+TEST(Freshness, APartThatStaysOldIsKnownWhereverItLies) {
+  for (const int degrees : {10, 20, 45, 90, 180}) {
+    for (int from = 0; from < 360; from += 47) {
+      Standing sensor = standing_vlp16();
+      Freshness freshness;
+      const test::Points old = sensor.next();
+      EXPECT_FALSE(keep(&freshness, old, 0).is_one);
+      for (int k = 1; k <= 5; ++k) {
+        test::Points cloud = sensor.next();
+        for (int c = 0; c < 5 * degrees; ++c) {
+          const int begin = 16 * ((5 * from + c) % 1800);
+          std::copy_n(old.begin() + begin, 16, cloud.begin() + begin);
+        }
+        const Repeat repeat = keep(&freshness, cloud, k * kSecond_ns);
+        ASSERT_TRUE(repeat.is_one) << degrees << " degrees from " << from << ", frame " << k;
+        EXPECT_DOUBLE_EQ(repeat.age_s, k);
+      }
+    }
+  }
+}
+
+TEST(Freshness, AStandingSceneUnderNoiseIsFresh) {
+  for (const double step_m : {0.001, 0.002, 0.005}) {
+    for (const double noise_m : {0.003, 0.01}) {
+      for (const double lost : {0.0, 0.3}) {
+        for (const int rings : {16, 64}) {
+          Standing sensor{rings, rings == 16 ? 1800 : 512, noise_m, step_m, lost, std::mt19937(11)};
+          Freshness freshness;
+          for (int k = 0; k < 70; ++k) {
+            ASSERT_FALSE(keep(&freshness, sensor.next(), k * kSecond_ns).is_one)
+                << rings << " rings, steps of " << step_m << ", noise " << noise_m << ", lost " << lost << ", " << k;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Freshness, TooFewReturnsTellNothing) {
+  Standing sensor = standing_vlp16();
+  test::Points points = sensor.next();
+  std::fill(points.begin(), points.end() - 60, std::array<float, 3>{0.0F, 0.0F, 0.0F});
+  Freshness freshness;
+  for (int k = 0; k < 5; ++k) EXPECT_FALSE(keep(&freshness, points, k * kSecond_ns).is_one);
+}
+
+TEST(Freshness, WhatIsForgottenIsNew) {
+  Standing sensor = standing_vlp16();
+  const test::Points points = sensor.next();
+  Freshness freshness;
+  keep(&freshness, points, 0);
+  freshness = Freshness{};
+  EXPECT_FALSE(keep(&freshness, points, kSecond_ns).is_one);
+}
+
+// Prints are of the bits of all points and not of their order.
+TEST(CloudPrint, AnyChangeOfAPointIsAnother) {
+  Standing sensor = standing_vlp16();
+  test::Points points = sensor.next();
+  CloudPrint first, again;
+  print_cloud(test::cloud_of(points, 0), &first);
+  test::Points shuffled = points;
+  test::shuffle(&shuffled, 3);
+  print_cloud(test::cloud_of(shuffled, 0), &again);
+  EXPECT_EQ(again.whole(), first.whole());
+  EXPECT_EQ(again.returns(), first.returns());
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 500; ++trial) {
+    test::Points other = points;
+    auto& point = other[random() % other.size()];
+    if (point[0] == 0.0F && point[1] == 0.0F) continue;
+    float& number = point[random() % 3];
+    number = std::nextafter(number, trial % 2 == 0 ? 100.0F : -100.0F);
+    print_cloud(test::cloud_of(other, 0), &again);
+    EXPECT_NE(again.whole(), first.whole());
+  }
+}
+
+TEST(CloudPrint, WhatIsNoReturnHasNoPart) {
+  const float endless = INFINITY, none = NAN;
+  CloudPrint print;
+  print_cloud(test::cloud_of({{0, 0, 0},
+                              {0, 0, 2},
+                              {none, 1, 1},
+                              {1, none, 1},
+                              {1, 1, none},
+                              {endless, 0, 0},
+                              {0, -endless, 0},
+                              {1, 1, endless},
+                              {3e38F, 3e38F, 0}},
+                             0),
+              &print);
+  EXPECT_EQ(print.returns(), 0U);
+}
+
+// Each direction belongs to a sector, and neighbours to neighbouring ones.
+TEST(CloudPrint, SectorsGoAround) {
+  std::vector<std::uint32_t> of_sector(CloudPrint::kSectors);
+  constexpr int kSteps = 36000;
+  for (int k = 0; k < kSteps; ++k) {
+    const double azimuth = 2.0 * kPi * k / kSteps;
+    CloudPrint print;
+    print_cloud(
+        test::cloud_of({{static_cast<float>(std::cos(azimuth)), static_cast<float>(std::sin(azimuth)), 0.5F}}, 0),
+        &print);
+    ASSERT_EQ(print.returns(), 1U);
+    for (std::uint32_t s = 0; s < CloudPrint::kSectors; ++s) of_sector[s] += print.returns(s);
+  }
+  for (const std::uint32_t count : of_sector) {
+    EXPECT_GE(count, 100U) << "a degree";
+    EXPECT_LE(count, 260U);
+  }
 }
 
 }  // namespace

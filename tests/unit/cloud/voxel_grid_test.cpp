@@ -13,7 +13,6 @@
 #include <cmath>
 #include <map>
 #include <random>
-#include <set>
 #include <tuple>
 
 #include "support/stage_fixtures.hpp"
@@ -35,7 +34,6 @@ std::vector<Xyz> random_points(std::size_t count, double reach, std::uint32_t se
 
 struct Gridded {
   std::vector<std::array<float, 4>> centroids;
-  std::uint64_t fingerprint = 0;
 };
 
 constexpr double kReach_m = 200.0;
@@ -53,7 +51,6 @@ Gridded gridded(const std::vector<Xyz>& points, double leaf, std::uint32_t capac
   Gridded g;
   for (std::uint32_t i = 0; i < out->count; ++i)
     g.centroids.push_back({out->x[i], out->y[i], out->z[i], out->weight[i]});
-  g.fingerprint = grid->fingerprint();
   return g;
 }
 
@@ -162,51 +159,7 @@ TEST(VoxelGrid, OrderOfPointsDoesNotMatterToASingleBit) {
     std::shuffle(points.begin(), points.end(), random);
     const Gridded after = gridded(points, 0.05 * 3.7);
     EXPECT_EQ(after.centroids, before.centroids);
-    EXPECT_EQ(after.fingerprint, before.fingerprint);
   }
-}
-
-TEST(VoxelGrid, AnotherCloudHasAnotherFingerprint) {
-  std::vector<Xyz> points = random_points(1000, 1.0, 3);
-  const std::uint64_t before = gridded(points, 0.1).fingerprint;
-  points[500][2] += 0.001;
-  EXPECT_NE(gridded(points, 0.1).fingerprint, before);
-  points.pop_back();
-  EXPECT_NE(gridded(points, 0.1).fingerprint, before);
-}
-
-TEST(VoxelGrid, ACloudMovedByWholeLeavesHasAnotherFingerprint) {
-  std::vector<Xyz> points;
-  for (const Xyz& p : random_points(300, 1.0, 5)) {  // on whole steps: the sums within the cells stay the same
-    points.push_back({std::floor(p[0] * 64.0) / 64.0, std::floor(p[1] * 64.0) / 64.0, std::floor(p[2] * 64.0) / 64.0});
-  }
-  std::set<std::uint64_t> seen = {gridded(points, 0.25, 500).fingerprint};
-  for (const std::size_t axis : {0U, 1U, 2U}) {
-    for (const double leaves : {-1.0, 1.0, 4.0, 8.0}) {  // by fours the order of the cells stays the same, too
-      std::vector<Xyz> moved = points;
-      for (Xyz& p : moved) p[axis] += leaves * 0.25;
-      EXPECT_TRUE(seen.insert(gridded(moved, 0.25, 500).fingerprint).second) << leaves << " along " << axis;
-    }
-  }
-}
-
-// What one point gives another one may take back: sums alone would not tell.
-TEST(VoxelGrid, SmallChangesThatUndoEachOtherGiveOtherFingerprints) {
-  const std::vector<Xyz> points = random_points(200, 1.0, 3);
-  std::set<std::uint64_t> seen = {gridded(points, 0.1, 500).fingerprint};
-  std::size_t clouds = 1;
-  for (std::size_t k = 0; k + 2 < points.size(); ++k) {
-    for (const std::size_t axis : {0U, 1U, 2U}) {
-      std::vector<Xyz> others = points;
-      others[k][axis] += 0.001;
-      others[k + 1][axis] -= 0.001;
-      EXPECT_TRUE(seen.insert(gridded(others, 0.1, 500).fingerprint).second) << k << " along " << axis;
-      std::swap(others[k], others[k + 2]);  // the same points: nothing new
-      EXPECT_FALSE(seen.insert(gridded(others, 0.1, 500).fingerprint).second) << k << " along " << axis;
-      ++clouds;
-    }
-  }
-  EXPECT_EQ(seen.size(), clouds);
 }
 
 TEST(VoxelGrid, EveryCentroidLiesWithinOneLeafOfItsPoints) {
@@ -272,7 +225,6 @@ TEST(VoxelGrid, FourPointsAreSplitAsEachIs) {
   }
   together->extract(a.get());
   one_by_one->extract(b.get());
-  EXPECT_EQ(together->fingerprint(), one_by_one->fingerprint());
   ASSERT_EQ(a->count, 3U) << "the second and the third share a voxel";
   ASSERT_EQ(b->count, 3U);
   for (std::uint32_t i = 0; i < 3; ++i) {
@@ -354,7 +306,6 @@ TEST(VoxelGrid, CrowdingChangesNothing) {
     const auto here = gridded_in(kRoom, in_order, crowded.get()), there = gridded_in(kMuchRoom, in_order, wide.get());
     ASSERT_EQ(here.size(), kRoom);
     EXPECT_EQ(here, there);
-    EXPECT_EQ(crowded->fingerprint(), wide->fingerprint());
     EXPECT_GT(crowded->crowding(), 3 * kRoom) << "or they do not crowd";
     EXPECT_LT(wide->crowding(), kRoom / 10);
   }
