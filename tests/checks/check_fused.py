@@ -4,14 +4,15 @@
 """No instruction in the libraries rounds a product and a sum in one: a machine without it would compute other bits.
 
     check_fused.py OBJDUMP ARCHIVE...
-    check_fused.py OBJDUMP --levels "LEVEL|LEVEL..." SOURCE COMPILER FLAG...
+    check_fused.py OBJDUMP --levels "LEVEL|LEVEL..." "SOURCE|SOURCE..." COMPILER FLAG...
 
-The first form reads the archives' disassembly. The second compiles SOURCE at each LEVEL ("-O3 -march=haswell") with the
-libraries' own FLAGs behind it, and reads that. Exit status 1 and one line per function with fused instructions.
+The first form reads the archives' disassembly. The second compiles each SOURCE at each LEVEL ("-O3 -march=haswell")
+with the libraries' own FLAGs behind it, and reads that. Exit status 1 and one line per function with fused ones.
 
 VMLA and VMLS of ARMv7 are none: they round the product first (Arm Architecture Reference Manual, ARMv7-A, A8.8.337)."""
 
 import collections
+import itertools
 import pathlib
 import re
 import subprocess
@@ -64,13 +65,13 @@ def report(objdump, archive, name):
     return lines, instructions
 
 
-def of_levels(objdump, levels, source, compiler):
+def of_levels(objdump, levels, sources, compiler):
     worse, total = [], 0
     with tempfile.TemporaryDirectory() as folder:
         compiled = pathlib.Path(folder) / "compiled.o"
-        for level in levels.split("|"):
+        for level, source in itertools.product(levels.split("|"), sources.split("|")):
             subprocess.run([compiler[0], *level.split(), *compiler[1:], "-c", source, "-o", compiled], check=True)
-            lines, instructions = report(objdump, compiled, level)
+            lines, instructions = report(objdump, compiled, f"{pathlib.Path(source).name}, {level}")
             worse, total = worse + lines, total + instructions
     return worse, total
 
