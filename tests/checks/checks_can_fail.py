@@ -6,6 +6,7 @@ same project unbroken and asks that it passes."""
 
 import os
 import pathlib
+import platform
 import shutil
 import subprocess
 import tempfile
@@ -687,6 +688,53 @@ class SelfTest(BrokenProject):
         self.fails("a bit fell over in the code", *self.code_crc(right))
 
 
+class Fused(BrokenProject):
+    """A planted fused instruction, as compilers make one where they may."""
+
+    PLANTED = ("double f(double, double, double);\n"
+               "double f(double a, double b, double c) { return __builtin_fma(a, b, c); }\n")
+    MAY = ["-mfma"] if platform.machine() in ("x86_64", "AMD64") else []
+
+    def check(self, source, *flags):
+        return CHECKS / "check_fused.py", tool("OBJDUMP", "objdump"), self.archive(source, *flags)
+
+    def levels(self, level, source):
+        self.write("pairs.c", source)
+        return (CHECKS / "check_fused.py", tool("OBJDUMP", "objdump"), "--levels", level, self.root / "pairs.c",
+                tool("CC", "cc"), "-ffp-contract=off")
+
+    def test_passes(self):
+        apart = self.PLANTED.replace("__builtin_fma(a, b, c)", "a * b + c")
+        self.passes(*self.check(apart, "-ffp-contract=off", *self.MAY))
+        self.passes(*self.levels(" ".join(["-O1", *self.MAY]) + "|-O2", apart))
+
+    def test_planted(self):
+        self.fails("lib.a: f: 1 ", *self.check(self.PLANTED, *self.MAY))
+        self.fails("-O3", *self.levels(" ".join(["-O3", *self.MAY]), self.PLANTED))
+
+    def test_every_name(self):
+        """As objdump prints them on each machine; those that round twice are not among them."""
+        fused = ["vfmadd132ps (%rdi),%ymm0,%ymm1", "{evex} vfnmsub231sd %xmm1,%xmm2,%xmm3", "v4fmaddps (%rax),%zmm1",
+                 "vfmsubadd213pd %zmm1,%zmm2,%zmm3", "vfmaddpd %xmm0,%xmm1,%xmm2,%xmm3", "fmadd d0, d1, d2, d3",
+                 "fnmsub s0, s1, s2, s3", "fmla v0.4s, v1.4s, v2.4s", "fmls\tv0.2d, v1.2d, v2.2d",
+                 "fcmla v0.2d, v1.2d, v2.2d, #90", "fmad z0.d, p0/m, z1.d, z2.d", "vfma.f32\tq0, q1, q2",
+                 "vfnms.f64 d0, d1, d2", "vcmla.f32 q0, q1, q2, #90"]
+        apart = ["vmulpd %ymm0,%ymm1,%ymm2", "vaddsubpd %ymm0,%ymm1,%ymm2", "fmul d0, d1, d2", "fnmul d0, d1, d2",
+                 "fmov d0, #1.0", "vmla.f64 d0, d1, d2", "vmov.f64 d0, d1", "fcadd v0.2d, v1.2d, v2.2d, #90",
+                 "fmsr s0, r1"]
+        for text, wrong in [*((text, True) for text in fused), *((text, False) for text in apart)]:
+            self.write("objdump", f"#!/bin/sh\nprintf '%s\\n' '0 <f>:' '   1c:\t{text}'\n")
+            (self.root / "objdump").chmod(0o755)
+            check = CHECKS / "check_fused.py", self.root / "objdump", "lib.a"
+            with self.subTest(text):
+                self.fails("lib.a: f: 1 ", *check) if wrong else self.passes(*check)
+
+    def test_nothing_to_check(self):
+        self.fails("nothing was checked", CHECKS / "check_fused.py", tool("OBJDUMP", "objdump"))
+        self.write("lib.a", "!<arch>\n")
+        self.fails("nothing was checked", CHECKS / "check_fused.py", tool("OBJDUMP", "objdump"), self.root / "lib.a")
+
+
 class TwoEngines(BrokenProject):
     def check(self, main):
         self.write("two.c", LICENCE + '#include <stdio.h>\n#include <string.h>\n#include "pose_wall.h"\n' + main)
@@ -717,8 +765,14 @@ class CompareBuilds(BrokenProject):
         super().setUp()
         noted = self.COMPARE.parent / "digests.txt"
         self.script("program", f'[ $# -gt 0 ] || exec cat {noted}\ncat "$(dirname "$0")/../recorded"')
+        for kind in ("motion", "planar"):
+            self.script(kind, f"cat {noted.parent}/{kind}_digests.txt")
         self.script("cmake", f'[ "$1" = -G ] || exit 0\nmkdir -p "$6/tests"\n'
-                    f'cp {self.root}/bin/program "$6/tests/pose_wall_digest"')
+                    f'cp {self.root}/bin/program "$6/tests/pose_wall_digest"\n'
+                    f'cp {self.root}/bin/motion "$6/tests/pose_wall_motion_digest"\n'
+                    f'cp {self.root}/bin/planar "$6/tests/pose_wall_planar_digest"')
+        for machine in ("", "aarch64-linux-gnu-"):
+            self.script(f"{machine}objdump", "echo '   0:\tret'")
         self.script("qemu-aarch64-static", 'shift 2; exec "$@"')
 
     def script(self, name, text):
@@ -743,6 +797,17 @@ class CompareBuilds(BrokenProject):
     def test_other_bits(self):
         other = self.BOTH.replace("00dd", "00de")
         self.fails("b.xyz: results 00de, noted 00dd", *self.compare(self.BUILDS, other, "a.xyz", "b.xyz"))
+
+    def test_other_bits_of_a_library(self):
+        for kind in ("motion", "planar"):
+            noted = self.COMPARE.parent / f"{kind}_digests.txt"
+            self.script(kind, f"sed '$ s/[0-9]*.[0-9]*$/0/' {noted}")
+            self.fails(f"{kind}_", *self.compare(self.BUILDS, ""))
+            self.script(kind, f"cat {noted}")
+
+    def test_a_fused_instruction(self):
+        self.script("objdump", "echo '   0:\tvfmaddsub132pd (%rdi),%ymm0,%ymm1'")
+        self.fails("libpose_wall_planar.a: ?: 1 vfmaddsub132pd", *self.compare(self.BUILDS, ""))
 
     def test_a_recording_is_lost(self):
         lost = self.BOTH.splitlines()[0]

@@ -56,6 +56,21 @@ class Image(BrokenProject):
             self.change(f"tools/plc/FB_PoseWall.{ending}", "xUsable", "xUseless")
             self.fails(f"FB_PoseWall.{ending} is not what", *self.check())
 
+    def test_frames_of_can_edited_by_hand(self):
+        for name in ("pose_wall_11bit.dbc", "pose_wall_j1939.dbc"):
+            self.change(f"tools/plc/can/{name}", "16|20@1-", "16|19@1-")
+            self.fails(f"tools/plc/can/{name} is not what", *self.check())
+        self.change("tools/plc/can/can_images.c", "POSE_WALL_CAN_LEVEL", "POSE_WALL_CAN_BITS")
+        self.fails("tools/plc/can/can_images.c is not what", *self.check())
+
+    def test_frames_of_can_that_cannot_be(self):
+        for old, new in (("FRAME Pitch 18 3", "FRAME Pitch 16 3"),
+                         ("roll.positive_means  bits 3", "roll.positive_means  bits 9"),
+                         ("roll.state           bits 2", "roll.status          bits 2")):
+            self.change("tools/plc/can/can.def", old, new)
+            self.fails("can.def: ", *self.check())
+            self.change("tools/plc/can/can.def", new, old)
+
     def test_state_renumbered(self):
         self.change("include/pose_wall.h", "POSE_WALL_DEGRADED = 2", "POSE_WALL_DEGRADED = 4")
         self.fails("FB_PoseWall.st is not what", *self.check())

@@ -99,7 +99,7 @@ function(pose_wall_engine_flags target)
   # do not count are computed with the others and may divide by zero, so nobody can have these trap anyway. A failed
   # Eigen assertion traps in every build type; Eigen's own would bring assert(), and with it stdio and abort().
   target_compile_options(${target} PUBLIC
-    -ffp-contract=off -fno-math-errno -fno-trapping-math
+    ${pose_wall_unfused_flags} -fno-math-errno -fno-trapping-math
     "-Deigen_assert(condition)=((condition)?(void)0:__builtin_trap())")
   target_compile_definitions(${target} PUBLIC EIGEN_DONT_VECTORIZE)
 endfunction()

@@ -43,7 +43,8 @@ install(FILES ${PROJECT_SOURCE_DIR}/include/README.md ${PROJECT_SOURCE_DIR}/incl
   ${PROJECT_SOURCE_DIR}/tools/example.c ${PROJECT_SOURCE_DIR}/tools/two_engines.c
   DESTINATION ${pose_wall_doc_dir} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/plc/ DESTINATION ${pose_wall_doc_dir}/plc COMPONENT development
-  FILES_MATCHING PATTERN "FB_PoseWall.*" PATTERN "controller.c" PATTERN "README.md")
+  FILES_MATCHING PATTERN "FB_PoseWall.*" PATTERN "controller.c" PATTERN "README.md"
+  PATTERN "*.dbc" PATTERN "can_*.[ch]")
 if(TARGET pose_wall_cli)
   install(TARGETS pose_wall_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-wall RENAME copyright
@@ -74,6 +75,8 @@ if(TARGET pose_walld)
     install(FILES ${pose_wall_daemon_dir}/${place}/README.md
       DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/${place} COMPONENT daemon)
   endforeach()
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/plc/can/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/can
+    COMPONENT daemon FILES_MATCHING PATTERN "*.dbc" PATTERN "README.md")
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   include(pose_wall_package)

@@ -26,6 +26,9 @@ struct LiveSettings {
   bool ros1 = false, ros2 = false;
   std::string ros_distro = "humble";
   std::string http, modbus, mqtt;  // HOST:PORT; empty: off
+  std::string can;                 // interface; empty: off
+  std::string can_frames = "11bit";
+  double can_first = 0, can_address = 128;
   std::string mqtt_topic = "pose_wall";
   std::string black_box;
   double black_box_mb = 2048;

@@ -3,7 +3,7 @@
 # Copyright (c) 2026 the pose_wall authors
 """Writes what follows from image.def and blocks.def: the images' structs in include/pose_wall.h and
 include/pose_wall_motion.h, the members that tests/checks/abi_layout.c looks at,
-the tables of registers in tools/live/modbus/README.md, and FB_PoseWall as plain
+the tables of registers in tools/live/modbus/README.md, what goes over CAN (can/can.def), and FB_PoseWall as plain
 text, PLCopen XML and SCL. States and numbers are those of pose_wall.h.
 
 usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if a file would change, or if
@@ -17,6 +17,7 @@ import sys
 sys.dont_write_bytecode = True  # the sources stay as they are
 
 import blocks_reader  # noqa: E402  pylint: disable=wrong-import-position
+import can_description  # noqa: E402  pylint: disable=wrong-import-position
 import dialects  # noqa: E402  pylint: disable=wrong-import-position
 import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
 import plcopen  # noqa: E402  pylint: disable=wrong-import-position
@@ -92,6 +93,7 @@ def outputs(root):
         plc / "FB_PoseWall.st": dialects.plain(read),
         plc / "FB_PoseWall.scl": dialects.scl(read),
         plc / "FB_PoseWall.xml": plcopen.xml(read, dialects.NOTE),
+        **can_description.outputs(root, structs, header_text),
         root / "tests/checks/image_members.def": layout_members(structs),
         modbus / "README.md": register_table.with_tables(structs, header_text, stop_header_text, registers_hpp, page),
     }
@@ -112,7 +114,8 @@ def main():
         print("\n".join(faults) or f"{len(outputs(root))} files are as image.def says")
         sys.exit(1 if faults else 0)
     for path, text in outputs(root).items():
-        path.write_text(text, encoding="utf-8")
+        if not path.exists() or path.read_text(encoding="utf-8") != text:  # else all that includes it is compiled again
+            path.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -13,8 +13,8 @@ packages_to_build="cmake ninja-build gcc g++ binutils libc6-dev libeigen3-dev li
 packages_to_read="liblz4-dev libzstd-dev libbz2-dev libsqlite3-dev libpcap-dev"
 # Optional: the edges of pose_walld; a build without them says so when one is asked for.
 # shellcheck disable=SC2034
-packages_to_live="libmodbus-dev libpaho-mqtt-dev libcpp-httplib-dev libssl-dev libbrotli-dev zlib1g-dev pkg-config
-  libroscpp-dev libtopic-tools-dev cyclonedds-dev cyclonedds-tools"
+packages_to_live="linux-libc-dev libmodbus-dev libpaho-mqtt-dev libcpp-httplib-dev libssl-dev libbrotli-dev zlib1g-dev
+  pkg-config libroscpp-dev libtopic-tools-dev cyclonedds-dev cyclonedds-tools"
 # Peers of the edges that others wrote.
 # shellcheck disable=SC2034
 packages_to_test_live="python3-pymodbus python3-serial-asyncio mosquitto mosquitto-clients python3-rosmaster

@@ -10,6 +10,12 @@
 #error "pose_wall relies on NaN and infinity: do not build it with -ffast-math or -ffinite-math-only"
 #endif
 
+// -ffp-contract=off does not bind the vectoriser of GCC there (tools/cmake/pose_wall_compile.cmake).
+#if defined(__GNUC__) && !defined(__clang__) && !defined(POSE_WALL_UNFUSED) && \
+    (defined(__ARM_FEATURE_COMPLEX) || defined(__ARM_FEATURE_SVE))
+#error "GCC would fuse complex products here: give -march or -mcpu in CMAKE_CXX_FLAGS, where the build can see them"
+#endif
+
 namespace pose_wall {
 
 // By the bits, so that no compiler flag can take the test away.

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause
+ * Copyright (c) 2026 the pose_wall authors
+ *
+ * Process images in, frames of CAN out, for can_peer.py. Of each line "image2 HEX" or "motion_image HEX", the bytes of
+ * an image, it prints one line: the frames of 11 bits, then those of J1939, each as "ID#DATA" in hex. An image that is
+ * refused gives an empty line. */
+
+#include <stdio.h>
+#include <string.h>
+
+#include "can_images.h"
+
+enum { kMost = POSE_WALL_CAN_IMAGE2_FRAMES + POSE_WALL_CAN_MOTION_IMAGE_FRAMES, kBytesMost = 1024 };
+
+static void print_frames(const pose_wall_can_frame* frames, uint32_t count) {
+  uint32_t i;
+  int byte;
+  for (i = 0; i < count; ++i) {
+    printf(frames[i].is_long ? "%08X#" : "%03X#", (unsigned)frames[i].id);
+    for (byte = 0; byte < 8; ++byte) printf("%02X", frames[i].data[byte]);
+    printf(" ");
+  }
+}
+
+static void print_image(const char* kind, const unsigned char* bytes) {
+  const pose_wall_can_bus buses[] = {{0, POSE_WALL_CAN_FIRST_ID, 0},
+                                     {1, POSE_WALL_CAN_FIRST_PGN, POSE_WALL_CAN_ADDRESS}};
+  pose_wall_can_frame frames[kMost];
+  pose_wall_image2 image;
+  pose_wall_motion_image motion;
+  int k;
+  memcpy(&image, bytes, sizeof(image));
+  memcpy(&motion, bytes, sizeof(motion));
+  for (k = 0; k < 2; ++k) {
+    const int is_image2 = strcmp(kind, "image2") == 0;
+    print_frames(frames, is_image2 ? pose_wall_can_of_image2(&image, &buses[k], frames)
+                                   : pose_wall_can_of_motion_image(&motion, &buses[k], frames));
+  }
+  printf("\n");
+}
+
+int main(void) {
+  char kind[32], hex[2 * kBytesMost + 1];
+  while (scanf("%31s %2048s", kind, hex) == 2) {
+    unsigned char bytes[kBytesMost] = {0};
+    size_t i;
+    for (i = 0; hex[2 * i] != '\0' && i < kBytesMost; ++i) {
+      unsigned value = 0;
+      if (sscanf(hex + 2 * i, "%2x", &value) != 1) return 1;
+      bytes[i] = (unsigned char)value;
+    }
+    print_image(kind, bytes);
+  }
+  return 0;
+}

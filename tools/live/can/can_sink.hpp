@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The process images on CAN: with each publication all frames of each image, of a frame or of silence.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "config_file/live_settings.hpp"
+#include "live/can/can_port.hpp"
+#include "live/images.hpp"
+#include "live/sink.hpp"
+
+namespace pose_wall::tools::live {
+
+// On which identifiers the settings put frames. Throws std::runtime_error where they leave no room for all of them.
+pose_wall_can_bus can_bus_of(const LiveSettings& settings);
+
+class CanSink final : public Sink {
+ public:
+  CanSink(std::string interface_name, const pose_wall_can_bus& bus, const Images& images,
+          OpenCanPort open = open_can_port);
+
+  void start() override;
+  void take(const LiveResult& result) override;
+  void stop() override;
+  PartHealth health() const override;
+
+ private:
+  std::vector<pose_wall_can_frame> frames_now() const;
+  // 0, or why not all were sent.
+  int send_all(const std::vector<pose_wall_can_frame>& frames);
+  void fail(const std::string& why);
+
+  const std::string interface_;
+  const pose_wall_can_bus bus_;
+  const Images& images_;
+  const OpenCanPort open_;
+  CanPort port_;
+  std::atomic<std::uint64_t> sent_{0}, lost_{0}, waited_{0};
+  mutable std::mutex lock_;
+  std::string fault_;
+};
+
+}  // namespace pose_wall::tools::live
