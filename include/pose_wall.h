@@ -88,7 +88,8 @@ uint32_t pose_wall_abi_version(void);
 
 /* ---------------------------------------------------------------------------------------------- status */
 
-/* Numbers are pinned by a test and never reused. */
+/* Numbers are pinned by a test and never reused. No two libraries share one: -1 to -89 stand here, -90 to -99 in
+ * pose_wall_box.h, -100 to -119 in pose_wall_runtime.h, -120 to -139 in pose_wall_planar_types.h. */
 enum pose_wall_status {
   POSE_WALL_OK = 0,
 
@@ -104,7 +105,7 @@ enum pose_wall_status {
   POSE_WALL_E_MEMENTO = -8,       /* not what pose_wall_save wrote, of another version or config, cut off or damaged */
   POSE_WALL_E_BUSY = -9,          /* another call is inside this engine, or inside the engine in this block */
   POSE_WALL_E_ABI = -10,          /* the program was built against the header of ABI 1: build it anew */
-  POSE_WALL_E_STRUCT_NEWER = -11, /* a struct of a newer pose_wall.h than the library that is linked */
+  POSE_WALL_E_STRUCT_NEWER = -11, /* a struct of a newer header than the library that is linked */
   POSE_WALL_E_INPUT = -12,        /* an unknown bit in pose_wall_inputs or pose_wall_moment, or a boot_id of zeros */
 
   /* configuration */
@@ -134,7 +135,7 @@ enum pose_wall_status {
   POSE_WALL_E_SELF_TEST = -80 /* the engine's results are not the noted ones: the report has the differences */
 };
 
-/* One English sentence, static storage; "unknown status" for anything else. */
+/* One English sentence for a status of any library, static storage; "unknown status" for anything else. */
 const char* pose_wall_status_text(int32_t status);
 
 /* ---------------------------------------------------------------------------------------------- config */

@@ -54,11 +54,12 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_match_open(void* block, uint64_t bloc
 /* All calls below fail with POSE_WALL_E_NULL, POSE_WALL_E_ENGINE (not an open matcher) and POSE_WALL_E_BUSY (another
  * call is inside). Other failures stand beside the call. */
 
-/* Forgets the references. The window's middle is here. Fails iff: POSE_WALL_E_POSE (not finite, or beyond 1e6 m). */
+/* Forgets the references. The window's middle is here. Fails iff: POSE_WALL_PLANAR_E_POSE (not finite, or beyond 1e6
+ * m). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_match_begin(pose_wall_planar_matcher* matcher, double x_m, double y_m);
 
-/* A scan that was taken with base at this pose. Fails iff: POSE_WALL_E_SCAN, POSE_WALL_E_POSE (not finite, beyond 1e6 m
- * or 10,000 rad), POSE_WALL_E_ORDER (before _begin, or after the first match). */
+/* A scan that was taken with base at this pose. Fails iff: POSE_WALL_PLANAR_E_SCAN, POSE_WALL_PLANAR_E_POSE (not
+ * finite, beyond 1e6 m or 10,000 rad), POSE_WALL_PLANAR_E_ORDER (before _begin, or after the first match). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_match_add(pose_wall_planar_matcher* matcher,
                                                      const pose_wall_planar_scan* scan,
                                                      const pose_wall_planar_pose* base);
@@ -96,9 +97,9 @@ typedef struct pose_wall_planar_match_result {
   uint32_t points;              /* of the scan, in known places */
 } pose_wall_planar_match_result;
 
-/* Places a scan on the references. Fails iff: a struct_size, POSE_WALL_E_SCAN, POSE_WALL_E_POSE (the guess, or a
- * covariance that is not finite, symmetric and positive), POSE_WALL_E_VALUE_RANGE (a reach), POSE_WALL_E_ORDER (before
- * _begin). The result is then unchanged. */
+/* Places a scan on the references. Fails iff: a struct_size, POSE_WALL_PLANAR_E_SCAN, POSE_WALL_PLANAR_E_POSE (the
+ * guess, or a covariance that is not finite, symmetric and positive), POSE_WALL_E_VALUE_RANGE (a reach),
+ * POSE_WALL_PLANAR_E_ORDER (before _begin). The result is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_match_scan(pose_wall_planar_matcher* matcher,
                                                       const pose_wall_planar_scan* scan,
                                                       const pose_wall_planar_match_input* input,

@@ -127,8 +127,8 @@ typedef struct pose_wall_planar_plan_result {
 /* Plans from start to goal, poses of the turning centre in the grid's frame. Writes up to `capacity` poses; the first
  * is the start and the last is the goal. Set result->struct_size first. That there is no route is an outcome, no error.
  * The grid is read during the call only. Fails iff: NULL (poses may be NULL with capacity 0), a struct_size of another
- * version, POSE_WALL_E_GRID (also: another resolution, or larger than the settings say), POSE_WALL_E_POSE for a start
- * or goal that is none (pose_wall_planar_types.h), not open, POSE_WALL_E_BUSY. */
+ * version, POSE_WALL_PLANAR_E_GRID (also: another resolution, or larger than the settings say), POSE_WALL_PLANAR_E_POSE
+ * for a start or goal that is none (pose_wall_planar_types.h), not open, POSE_WALL_E_BUSY. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_plan(pose_wall_planar_planner* planner, const pose_wall_planar_grid* grid,
                                                 const pose_wall_planar_pose* start, const pose_wall_planar_pose* goal,
                                                 pose_wall_planar_path_pose* poses, uint32_t capacity,

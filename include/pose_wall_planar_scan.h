@@ -185,7 +185,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_scanner_reset(pose_wall_planar_scanne
 
 /* One frame. floor NULL: none was measured. Set scan->struct_size, and that of view, first; view may be NULL. The scan
  * is complete with free_m; its arrays lie in the block and are valid until the next call. Fails iff: NULL, not open,
- * busy, a struct_size, as pose_wall_cloud_check, a measured floor out of its ranges (POSE_WALL_E_POSE). */
+ * busy, a struct_size, as pose_wall_cloud_check, a measured floor out of its ranges (POSE_WALL_PLANAR_E_POSE). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_scanner_process(pose_wall_planar_scanner* scanner,
                                                            const pose_wall_cloud* cloud,
                                                            const pose_wall_planar_floor* floor,
@@ -208,13 +208,13 @@ typedef struct pose_wall_planar_laserscan {
 } pose_wall_planar_laserscan;
 
 /* A message for this scan; its ranges are the scan's. LaserScan has no free_m: those beams are NaN. Fails iff: NULL, a
- * scan that is none (POSE_WALL_E_SCAN). */
+ * scan that is none (POSE_WALL_PLANAR_E_SCAN). */
 int32_t pose_wall_planar_laserscan_of(const pose_wall_planar_scan* scan, pose_wall_planar_laserscan* message);
 
 /* A scan for this message of a sensor that stands at `sensor` in base. sigma_m: of a range. Drivers fill in infinity
  * both for "nothing up to range_max" and for "no return", which on black rock is another thing. Where
  * infinite_is_open is 0, infinity counts as unknown: ranges_m, with room for count floats, then takes the ranges (it
- * may be NULL where infinite_is_open is 1). Fails iff: NULL, a message that is no scan (POSE_WALL_E_SCAN). */
+ * may be NULL where infinite_is_open is 1). Fails iff: NULL, a message that is no scan (POSE_WALL_PLANAR_E_SCAN). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_scan_of_laserscan(const pose_wall_planar_laserscan* message,
                                                              const pose_wall_planar_pose* sensor, double sigma_m,
                                                              int64_t stamp_ns, uint32_t infinite_is_open,

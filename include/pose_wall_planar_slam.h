@@ -109,8 +109,8 @@ typedef struct pose_wall_planar_slam_result {
   uint32_t is_settled; /* 1: the graph rests */
 } pose_wall_planar_slam_result;
 
-/* One scan. odometry may be NULL. Fails iff: struct_size, POSE_WALL_E_SCAN, POSE_WALL_E_POSE (odometry not finite or
- * beyond 1e6 m). The trail and the result are then unchanged. Cost: README.md of src/planar/slam. */
+/* One scan. odometry may be NULL. Fails iff: struct_size, POSE_WALL_PLANAR_E_SCAN, POSE_WALL_PLANAR_E_POSE (odometry
+ * not finite or beyond 1e6 m). The trail and the result are then unchanged. Cost: README.md of src/planar/slam. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_slam_process(pose_wall_planar_slam* slam, const pose_wall_planar_scan* scan,
                                                         const pose_wall_planar_pose* odometry,
                                                         pose_wall_planar_slam_result* result);
@@ -164,8 +164,8 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_slam_save(const pose_wall_planar_slam
 
 /* Takes a saved trail in place of the present one. The next scan is matched about `base`, where the machine stands in
  * map now: by pose_wall_planar_localise.h, or by hand. base NULL: where the saved trail ended. Fails iff:
- * POSE_WALL_E_MAP_FILE (another version, cut off, damaged), POSE_WALL_E_POSE, POSE_WALL_E_BLOCK_SMALL (more keyframes
- * than keyframes_most). The trail is then unchanged. */
+ * POSE_WALL_PLANAR_E_MAP_FILE (another version, cut off, damaged), POSE_WALL_PLANAR_E_POSE, POSE_WALL_E_BLOCK_SMALL
+ * (more keyframes than keyframes_most). The trail is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_slam_load(pose_wall_planar_slam* slam, const void* saved, uint64_t bytes,
                                                      const pose_wall_planar_pose* base);
 

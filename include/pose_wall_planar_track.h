@@ -77,8 +77,8 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_track_open(const pose_wall_planar_tra
 
 /* Copies a route, as pose_wall_planar_plan wrote it, and begins at its first pose. What was learnt of slip stays.
  * `clearance` may be NULL: nothing is near. Fails iff: NULL, not open, POSE_WALL_E_VALUE_RANGE for no pose or more than
- * path_max, POSE_WALL_E_POSE for a pose that is none, a curvature or length that is not finite, or lengths that fall.
- * The route before is then kept. */
+ * path_max, POSE_WALL_PLANAR_E_POSE for a pose that is none, a curvature or length that is not finite, or lengths that
+ * fall. The route before is then kept. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_track_route(pose_wall_planar_tracker* tracker,
                                                        const pose_wall_planar_path_pose* poses, uint32_t count,
                                                        pose_wall_planar_clearance clearance, void* context);

@@ -20,19 +20,19 @@ extern "C" {
 /* POSE_WALL_PLANAR_ABI_VERSION of the library that is linked. */
 uint32_t pose_wall_planar_abi_version(void);
 
-/* Status codes of this library, beside those of pose_wall.h. */
+/* Status codes of this library, beside those of pose_wall.h. No other library has these numbers. */
 enum pose_wall_planar_status {
-  POSE_WALL_E_SCAN = -100,     /* a scan whose beams, angles or ranges are outside their limits */
-  POSE_WALL_E_POSE = -101,     /* a pose or a covariance that is not finite, or no covariance */
-  POSE_WALL_E_MAP_FILE = -102, /* saved bytes of another version, cut off or damaged */
-  POSE_WALL_E_GRID = -103,     /* a grid whose size, cells or resolution are outside their limits */
-  POSE_WALL_E_ORDER = -104     /* a call that comes too early or too late */
+  POSE_WALL_PLANAR_E_SCAN = -120,     /* a scan whose beams, angles or ranges are outside their limits */
+  POSE_WALL_PLANAR_E_POSE = -121,     /* a pose or a covariance that is not finite, or no covariance */
+  POSE_WALL_PLANAR_E_MAP_FILE = -122, /* saved bytes of another version, cut off or damaged */
+  POSE_WALL_PLANAR_E_GRID = -123,     /* a grid whose size, cells or resolution are outside their limits */
+  POSE_WALL_PLANAR_E_ORDER = -124     /* a call that comes too early or too late */
 };
-/* One English sentence, also for the codes of pose_wall.h; static storage. */
+/* The same as pose_wall_status_text, which knows the statuses of all libraries; static storage. */
 const char* pose_wall_planar_status_text(int32_t status);
 
-/* Poses that callers give are refused (POSE_WALL_E_POSE) if they are not finite, or beyond these: places of 1 nm and
- * turns of 1e-12 rad are told apart within them. */
+/* Poses that callers give are refused (POSE_WALL_PLANAR_E_POSE) if they are not finite, or beyond these: places of 1 nm
+ * and turns of 1e-12 rad are told apart within them. */
 #define POSE_WALL_PLANAR_FARTHEST_M 1e6
 #define POSE_WALL_PLANAR_TURNED_MOST_RAD 1e4
 

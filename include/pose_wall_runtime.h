@@ -115,7 +115,7 @@ enum pose_wall_runtime_status {
   POSE_WALL_RUNTIME_E_STALE = -108,   /* the last publication is watchdog_ns old: see FRESHNESS */
   POSE_WALL_RUNTIME_E_MOTION = -109   /* this runtime has no motion: see MOTION */
 };
-/* One English sentence, static storage; for every status of pose_wall.h too. */
+/* The same as pose_wall_status_text, which knows the statuses of all libraries; static storage. */
 const char* pose_wall_runtime_status_text(int32_t status);
 
 /* ---------------------------------------------------------------------------------------------- publications */

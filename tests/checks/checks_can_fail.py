@@ -601,7 +601,7 @@ class Translations(BrokenProject):
 
     def test_texts_of_the_engine(self):
         self.write("src/names.def",
-                   'STATUS(POSE_WALL_E_VALUE_TYPE, "no value")\nSTATUS(POSE_WALL_E_NULL, "no pointer")\n')
+                   'STATUS(POSE_WALL_E_VALUE_TYPE, -2, "no value")\nSTATUS(POSE_WALL_E_NULL, -1, "no pointer")\n')
         self.write("src/config.cpp", 'Rule rule = {true, {"a_min", "a_max", "a_min too great"}};\n')
         broken = self.check('say("the wall {name}");\n', self.WALL)
         self.fails("no value", *broken)
@@ -803,6 +803,37 @@ class Abi(BrokenProject):
         command = list(self.layout("", ""))
         command[3] = "-DEMULATOR=false"
         self.fails("implicit padding", *command)
+
+
+class Statuses(BrokenProject):
+    def check(self, number=-1, row='STATUS(POSE_WALL_E_NULL, -1, "no pointer")', other=-100, said="no pointer"):
+        self.write("include/pose_wall.h", f"enum pose_wall_status {{ POSE_WALL_E_NULL = {number} /* = 7 */ }};\n")
+        self.write("include/pose_wall_box.h", f"enum pose_wall_box_status {{\n  POSE_WALL_BOX_E_END = {other}\n}};\n")
+        self.write("include/README.md", "| -1 to -89 | [pose_wall.h](x) |\n| -90 to -110 | [pose_wall_box.h](x) |\n")
+        self.write("src/names.def", f'{row}\nSTATUS(POSE_WALL_BOX_E_END, {other}, "no record")\n')
+        self.write("said", f"-1\tplanar\t{said}\n{other}\tplanar\tno record\n-5\tplanar\tunknown status\n")
+        return CHECKS / "check_statuses.py", self.root, "cat", self.root / "said"
+
+    def test_passes(self):
+        self.passes(*self.check())
+
+    def test_one_number_for_two(self):
+        self.fails("-1 is POSE_WALL_E_NULL and POSE_WALL_BOX_E_END", *self.check(other=-1))
+
+    def test_out_of_its_range(self):
+        self.fails("POSE_WALL_BOX_E_END = -120 lies outside", *self.check(other=-120))
+
+    def test_another_number_in_the_list(self):
+        self.fails("POSE_WALL_E_NULL is -2 in the headers and -1", *self.check(number=-2))
+
+    def test_not_in_the_list(self):
+        self.fails("POSE_WALL_E_NULL is -1 in the headers and None", *self.check(row=""))
+
+    def test_one_sentence_for_two(self):
+        self.fails("of two statuses", *self.check(row='STATUS(POSE_WALL_E_NULL, -1, "no record")'))
+
+    def test_another_text(self):
+        self.fails("planar says 'no way' of -1", *self.check(said="no way"))
 
 
 class Budget(BrokenProject):

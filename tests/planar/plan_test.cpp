@@ -280,14 +280,15 @@ TEST(Plan, WrongArgumentsAreRefusedAndChangeNothing) {
     return pose_wall_planar_plan(planner.planner, &view, &start, &pose, planner.poses.data(), 10, &result);
   };
   EXPECT_EQ(with([](auto&, auto&) {}), POSE_WALL_OK);
-  EXPECT_EQ(with([&](auto&, auto& p) { p.x_m = nan; }), POSE_WALL_E_POSE);
-  EXPECT_EQ(with([&](auto&, auto& p) { p.yaw_rad = std::numeric_limits<double>::infinity(); }), POSE_WALL_E_POSE);
-  EXPECT_EQ(with([](auto&, auto& p) { p.yaw_rad = 1.1e4; }), POSE_WALL_E_POSE);
-  EXPECT_EQ(with([](auto&, auto& p) { p.x_m = 1.1e6; }), POSE_WALL_E_POSE);
-  EXPECT_EQ(with([](auto& g, auto&) { g.width = 0; }), POSE_WALL_E_GRID);
-  EXPECT_EQ(with([](auto& g, auto&) { g.width = 801; }), POSE_WALL_E_GRID);
-  EXPECT_EQ(with([](auto& g, auto&) { g.resolution_m = 0.1; }), POSE_WALL_E_GRID);
-  EXPECT_EQ(with([&](auto& g, auto&) { g.origin_x_m = nan; }), POSE_WALL_E_GRID);
+  EXPECT_EQ(with([&](auto&, auto& p) { p.x_m = nan; }), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(with([&](auto&, auto& p) { p.yaw_rad = std::numeric_limits<double>::infinity(); }),
+            POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(with([](auto&, auto& p) { p.yaw_rad = 1.1e4; }), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(with([](auto&, auto& p) { p.x_m = 1.1e6; }), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(with([](auto& g, auto&) { g.width = 0; }), POSE_WALL_PLANAR_E_GRID);
+  EXPECT_EQ(with([](auto& g, auto&) { g.width = 801; }), POSE_WALL_PLANAR_E_GRID);
+  EXPECT_EQ(with([](auto& g, auto&) { g.resolution_m = 0.1; }), POSE_WALL_PLANAR_E_GRID);
+  EXPECT_EQ(with([&](auto& g, auto&) { g.origin_x_m = nan; }), POSE_WALL_PLANAR_E_GRID);
   EXPECT_EQ(with([](auto& g, auto&) { g.cells = nullptr; }), POSE_WALL_E_NULL);
   EXPECT_EQ(with([](auto& g, auto&) { g.struct_size = 3; }), POSE_WALL_E_STRUCT_SIZE);
   pose_wall_planar_plan_result wrong{};

@@ -262,10 +262,10 @@ TEST(Track, WrongArgumentsAreRefusedAndTheRouteStays) {
   EXPECT_EQ(set([](auto&) {}, 10), POSE_WALL_OK);
   EXPECT_EQ(set([](auto&) {}, 0), POSE_WALL_E_VALUE_RANGE);
   EXPECT_EQ(set([](auto& r) { r.resize(9000); }, 9000), POSE_WALL_E_VALUE_RANGE);
-  EXPECT_EQ(set([&](auto& r) { r[3].pose.x_m = nan; }, 10), POSE_WALL_E_POSE);
-  EXPECT_EQ(set([&](auto& r) { r[3].curvature_1_m = nan; }, 10), POSE_WALL_E_POSE);
-  EXPECT_EQ(set([&](auto& r) { r[3].along_m = -1.0; }, 10), POSE_WALL_E_POSE);
-  EXPECT_EQ(set([&](auto& r) { r[3].drive = 7; }, 10), POSE_WALL_E_POSE);
+  EXPECT_EQ(set([&](auto& r) { r[3].pose.x_m = nan; }, 10), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(set([&](auto& r) { r[3].curvature_1_m = nan; }, 10), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(set([&](auto& r) { r[3].along_m = -1.0; }, 10), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(set([&](auto& r) { r[3].drive = 7; }, 10), POSE_WALL_PLANAR_E_POSE);
   pose_wall_planar_track_input input = good_input(0.0, 1);
   pose_wall_planar_track_command command{};
   EXPECT_EQ(pose_wall_planar_track_step(tracker.tracker, &input, &command), POSE_WALL_E_STRUCT_SIZE);

@@ -236,11 +236,11 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add(pose_wall_planar_localise
                                                        const pose_wall_planar_pose* pose, const float* xy_m,
                                                        uint32_t points) {
   if (pose == nullptr || xy_m == nullptr) return POSE_WALL_E_NULL;
-  if (!is_pose(*pose)) return POSE_WALL_E_POSE;
-  if (points > POSE_WALL_PLANAR_BEAMS_MAX || !are_points(xy_m, points)) return POSE_WALL_E_SCAN;
+  if (!is_pose(*pose)) return POSE_WALL_PLANAR_E_POSE;
+  if (points > POSE_WALL_PLANAR_BEAMS_MAX || !are_points(xy_m, points)) return POSE_WALL_PLANAR_E_SCAN;
   return inside(localise, [&](Body& body) {
     PlaceMap& map = body.localiser.map();
-    if (map.is_finished()) return std::int32_t{POSE_WALL_E_ORDER};
+    if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     return add_points(&map, pose_of(*pose), xy_m, points) ? std::int32_t{POSE_WALL_OK}
                                                           : std::int32_t{POSE_WALL_E_BLOCK_SMALL};
   });
@@ -251,10 +251,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_loc
   if (grid == nullptr) return POSE_WALL_E_NULL;
   if (grid->struct_size != sizeof(*grid)) return POSE_WALL_E_STRUCT_SIZE;
   if (grid->cells == nullptr) return POSE_WALL_E_NULL;
-  if (!is_grid(*grid)) return POSE_WALL_E_GRID;
+  if (!is_grid(*grid)) return POSE_WALL_PLANAR_E_GRID;
   return inside(localise, [&](Body& body) {
     PlaceMap& map = body.localiser.map();
-    if (map.is_finished()) return std::int32_t{POSE_WALL_E_ORDER};
+    if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     return add_cells(&map, *grid) ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_BLOCK_SMALL};
   });
 }
@@ -262,7 +262,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_loc
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_finish(pose_wall_planar_localise* localise) {
   return inside(localise, [](Body& body) {
     PlaceMap& map = body.localiser.map();
-    if (map.is_finished() || map.is_empty()) return std::int32_t{POSE_WALL_E_ORDER};
+    if (map.is_finished() || map.is_empty()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     map.finish();
     return std::int32_t{POSE_WALL_OK};
   });
@@ -276,10 +276,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_loca
   if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
-  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_E_POSE;
+  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
   return inside(localise, [&](Body& body) {
     Localiser& own = body.localiser;
-    if (!own.map().is_finished()) return std::int32_t{POSE_WALL_E_ORDER};
+    if (!own.map().is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     const Pose2 given = odometry != nullptr ? pose_of(*odometry) : Pose2();
     const Where where = own.process(read_beams(*scan, own.beams()), odometry != nullptr ? &given : nullptr);
     write_result(own, where, scan->stamp_ns, result);
@@ -311,7 +311,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_place(pose_wall_planar_locali
                                                          const pose_wall_planar_pose* base, double sigma_m,
                                                          double sigma_rad) {
   if (base == nullptr) return POSE_WALL_E_NULL;
-  if (!is_pose(*base)) return POSE_WALL_E_POSE;
+  if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(sigma_m, 0.001, 1.0) || !is_within(sigma_rad, 0.001, 0.5)) return POSE_WALL_E_VALUE_RANGE;
   return inside(localise, [&](Body& body) {
     body.localiser.place(pose_of(*base), sigma_m, sigma_rad);

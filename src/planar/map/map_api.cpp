@@ -173,7 +173,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_insert(pose_wall_planar_map* map, 
   if (report->struct_size != sizeof(*report)) return POSE_WALL_E_STRUCT_SIZE;
   const std::int32_t status = pose_wall::planar::check_scan(scan);
   if (status != POSE_WALL_OK) return status;
-  if (!is_place(base->x_m, base->y_m) || !is_angle(base->yaw_rad)) return POSE_WALL_E_POSE;
+  if (!is_place(base->x_m, base->y_m) || !is_angle(base->yaw_rad)) return POSE_WALL_PLANAR_E_POSE;
   GridMap& body = inside.body();
   const MapWork work = body.insert(*scan, pose_wall::planar::pose_of(*base));
   *report = {sizeof(*report),
@@ -204,7 +204,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_cell(const pose_wall_planar_map* m
   const Map::Inside inside(map_of(map));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   if (cell->struct_size != sizeof(*cell)) return POSE_WALL_E_STRUCT_SIZE;
-  if (!is_place(x_m, y_m)) return POSE_WALL_E_POSE;
+  if (!is_place(x_m, y_m)) return POSE_WALL_PLANAR_E_POSE;
   pose_wall::planar::ask_cell(inside.body(), inside.body().place_of(x_m, y_m), cell);
   return POSE_WALL_OK;
 }
@@ -216,7 +216,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_ray(const pose_wall_planar_map* ma
   const Map::Inside inside(map_of(map));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   if (ray->struct_size != sizeof(*ray)) return POSE_WALL_E_STRUCT_SIZE;
-  if (!is_place(from->x_m, from->y_m) || !is_angle(from->yaw_rad) || !is_angle(angle_rad)) return POSE_WALL_E_POSE;
+  if (!is_place(from->x_m, from->y_m) || !is_angle(from->yaw_rad) || !is_angle(angle_rad))
+    return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(range_max_m, 0.0, 1000.0) || through_unknown > 1) return POSE_WALL_E_VALUE_RANGE;
   const MapPlace place = inside.body().place_of(from->x_m, from->y_m);
   const Turn2 turn(pose_wall::planar::wrapped(from->yaw_rad + angle_rad));
@@ -241,9 +242,9 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_grid(const pose_wall_planar_map* m
   const Map::Inside inside(map_of(map));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   if (grid->struct_size != sizeof(*grid)) return POSE_WALL_E_STRUCT_SIZE;
-  if (!is_place(x_m, y_m)) return POSE_WALL_E_POSE;
+  if (!is_place(x_m, y_m)) return POSE_WALL_PLANAR_E_POSE;
   constexpr std::uint32_t kMost = POSE_WALL_PLANAR_GRID_SIDE_MAX;  // as the header says
-  if (width < 1 || width > kMost || height < 1 || height > kMost) return POSE_WALL_E_GRID;
+  if (width < 1 || width > kMost || height < 1 || height > kMost) return POSE_WALL_PLANAR_E_GRID;
   if (capacity < static_cast<std::uint64_t>(width) * height) return POSE_WALL_E_BUFFER_SMALL;
   const MapPlace place = inside.body().place_of(x_m, y_m);
   const double cell_m = inside.body().settings().cell_m;

@@ -106,9 +106,9 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_plan(pose_wall_planar_planner* planner
   std::int32_t status = inside.status();
   if (status == POSE_WALL_OK && result->struct_size != sizeof(*result)) status = POSE_WALL_E_STRUCT_SIZE;
   if (status == POSE_WALL_OK) status = pose_wall::planar::route::check_grid(grid);
-  if (status == POSE_WALL_OK && !(is_pose(*start) && is_pose(*goal))) status = POSE_WALL_E_POSE;
+  if (status == POSE_WALL_OK && !(is_pose(*start) && is_pose(*goal))) status = POSE_WALL_PLANAR_E_POSE;
   if (status != POSE_WALL_OK) return status;
-  if (!inside.body().read(*grid)) return POSE_WALL_E_GRID;
+  if (!inside.body().read(*grid)) return POSE_WALL_PLANAR_E_GRID;
   const pose_wall::Span<pose_wall_planar_path_pose> room(poses, capacity);
   inside.body().plan(taken(*start), taken(*goal), room, result);
   return POSE_WALL_OK;

@@ -26,7 +26,7 @@ std::int32_t check_route(const pose_wall_planar_path_pose* poses, std::uint32_t 
     const pose_wall_planar_path_pose& at = poses[k];
     const bool is_whole = is_pose(at.pose) && is_finite(at.curvature_1_m) && is_finite(at.along_m) &&
                           at.along_m >= along_m && at.drive >= -1 && at.drive <= 1;
-    if (!is_whole) return POSE_WALL_E_POSE;
+    if (!is_whole) return POSE_WALL_PLANAR_E_POSE;
     along_m = at.along_m;
   }
   return POSE_WALL_OK;

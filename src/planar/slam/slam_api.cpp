@@ -163,7 +163,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_process(pose_wall_planar_slam* sl
   if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
-  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_E_POSE;
+  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
   return inside(slam, [&](Body& body) {
     Slam& own = body.slam;
     const bool is_first = own.trail().size() == 0;
@@ -269,7 +269,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_save(const pose_wall_planar_slam*
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_load(pose_wall_planar_slam* slam, const void* saved, uint64_t bytes,
                                                     const pose_wall_planar_pose* base) {
   if (saved == nullptr) return POSE_WALL_E_NULL;
-  if (base != nullptr && !is_pose(*base)) return POSE_WALL_E_POSE;
+  if (base != nullptr && !is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
   return inside(slam, [&](Body& body) {
     Trail& trail = body.slam.trail();
     const std::int32_t status = TrailImage::read(static_cast<const unsigned char*>(saved), bytes, &trail);

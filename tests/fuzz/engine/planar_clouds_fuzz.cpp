@@ -114,7 +114,7 @@ void to_scanner(Input* input, const Pair& pair, const pose_wall_cloud& cloud, bo
   const std::int32_t status = pose_wall_planar_scanner_process(pair.scanner, &cloud, &floor, &scan, &view);
   require(pose_wall_planar_scanner_process(pair.other_scanner, &cloud, &floor, &other, &other_view) == status,
           "the same status");
-  require(status == POSE_WALL_OK || status == POSE_WALL_E_POSE, "a refusal that the header knows");
+  require(status == POSE_WALL_OK || status == POSE_WALL_PLANAR_E_POSE, "a refusal that the header knows");
   if (status != POSE_WALL_OK) return;
   require(scan.beams == other.beams && std::memcmp(scan.range_m, other.range_m, scan.beams * sizeof(float)) == 0 &&
               std::memcmp(view.clear_m, other_view.clear_m, scan.beams * sizeof(float)) == 0,

@@ -123,7 +123,7 @@ std::uint32_t plan(Input* input, pose_wall_planar_path_pose* poses) {
   result.struct_size = sizeof result;
   const std::int32_t status = pose_wall_planar_plan(planner, &drawn.grid, &start, &goal, poses, kPosesMax, &result);
   if (status != POSE_WALL_OK) {
-    require(status == POSE_WALL_E_POSE || status == POSE_WALL_E_GRID, "a refusal that the header knows");
+    require(status == POSE_WALL_PLANAR_E_POSE || status == POSE_WALL_PLANAR_E_GRID, "a refusal that the header knows");
     return 0;
   }
   require(result.outcome <= POSE_WALL_PLAN_ROOM_SMALL, "a known outcome");
@@ -183,7 +183,8 @@ void track(Input* input, const pose_wall_planar_path_pose* poses, std::uint32_t 
   require_ok(pose_wall_planar_track_open(&settings, block.filled(bytes, 0xA5), bytes, &tracker), "open");
   double clearance_m = input->byte() < 200 ? input->between(0.0, 3.0) : input->take<double>();
   const std::int32_t status = pose_wall_planar_track_route(tracker, poses, count, any_clearance, &clearance_m);
-  require(status == POSE_WALL_OK || status == POSE_WALL_E_POSE || status == POSE_WALL_E_VALUE_RANGE, "a known refusal");
+  require(status == POSE_WALL_OK || status == POSE_WALL_PLANAR_E_POSE || status == POSE_WALL_E_VALUE_RANGE,
+          "a known refusal");
   pose_wall_planar_track_input now{};
   now.struct_size = sizeof now;
   if (count > 0) now.pose = poses[0].pose;
