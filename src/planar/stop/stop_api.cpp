@@ -18,9 +18,9 @@ using Mine = pose_wall::planar::Held<Stop, 0x706F74735F6E6C70ULL>;
 
 constexpr const char* kStates[] = {"stop", "slow", "go"};
 constexpr const char* kReasons[POSE_WALL_PLANAR_STOP_REASON_COUNT][2] = {
-    {"stale", "The last frame is too old, or there was none."},
+    {"stale", "The last frame is too old, there was none, or the clock stands still."},
     {"blind", "A place in the way was not seen free."},
-    {"invalid", "The stamp went back or lies in the future, or the frame has hardly a return."},
+    {"invalid", "The clock or the stamp went back, the stamp lies in the future, or the frame has hardly a return."},
     {"frozen", "The frame is the same as the one before it."},
     {"missing", "The machine's motion was not given, so every motion is assumed."},
     {"thing", "A thing is in the way."},
