@@ -11,7 +11,9 @@
 #include <random>
 #include <vector>
 
+#include "base/containers/arena.hpp"
 #include "drawn_roads.hpp"
+#include "planar/route/planner.hpp"
 #include "route_truth.hpp"
 #include "trials/trial_task.hpp"
 
@@ -176,6 +178,59 @@ TEST(Plan, StartIsGoal) {
   EXPECT_EQ(turn.outcome, POSE_WALL_PLAN_FOUND);
   EXPECT_NEAR(turn.turning_rad, 3.0, 1e-9);
   EXPECT_EQ(turn.spot_turns, 1U);
+}
+
+// Pillars of 0.2 m at random places, so near to each other that the machine passes nowhere. Start and goal are clear.
+DrawnGrid pillars(double side_m, std::uint32_t seed) {
+  DrawnGrid grid(side_m, 0);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> at(0.0, side_m - 0.2);
+  for (double drawn = 0.0; drawn < side_m * side_m; ++drawn) {
+    const double x_m = at(random), y_m = at(random);
+    grid.box(x_m, y_m, x_m + 0.2, y_m + 0.2, 100);
+  }
+  grid.box(3.0, 3.0, 9.0, 9.0, 0);
+  grid.box(side_m - 9.0, side_m - 9.0, side_m - 3.0, side_m - 3.0, 0);
+  return grid;
+}
+
+// By steps, not by time: the field of the second search looks from each place along 64 headings, once.
+TEST(Plan, TheWidestWayIsFoundWithLessWorkThanASearch) {
+  pose_wall_planar_plan_settings settings = small_plan();
+  for (std::uint32_t seed = 0; seed < 3; ++seed) {
+    const DrawnGrid grid = pillars(40.0, seed);
+    pose_wall::Arena arena(nullptr);
+    pose_wall::planar::route::Planner planner;
+    planner.lay_out(arena, settings);
+    AlignedBlock block(arena.bytes(), Dirt::kRandom);
+    pose_wall::Arena placed(block.data());
+    planner.lay_out(placed, settings);
+    planner.open();
+    ASSERT_TRUE(planner.read(grid.view()));
+    pose_wall_planar_plan_result result{};
+    planner.plan({6.0, 6.0, 0.0}, {34.0, 34.0, 0.0}, {}, &result);
+    ASSERT_EQ(result.outcome, POSE_WALL_PLAN_TOO_NARROW) << seed;
+    EXPECT_EQ(result.searches, 0U);
+    EXPECT_GT(result.width_m, 0.3);
+    EXPECT_LT(result.width_m, 1.4);
+    const std::uint64_t places = (800 / 2 + 1) * (800 / 2 + 1), coarse = (800 / 5 + 1) * (800 / 5 + 1);
+    EXPECT_LE(planner.field_looks(), 2 * 64 * places + 32 * coarse) << seed;
+  }
+}
+
+TEST(Plan, NoWayLeadsThroughAWallHoweverThin) {
+  DrawnGrid wall(40.0, 0);
+  wall.box(20.0, 0.0, 20.05, 40.0, 100);  // one cell
+  TrialPlanner planner(small_plan());
+  EXPECT_EQ(planner.plan(wall, {8.0, 20.0, 0.0}, {32.0, 20.0, 0.0}).outcome, POSE_WALL_PLAN_NOT_CONNECTED);
+  DrawnGrid stairs(40.0, 0);  // one cell, aslant: it hangs together by corners only
+  for (int k = 0; k < 800; ++k) stairs.cells[static_cast<std::size_t>(k * 800 + k)] = 100;
+  EXPECT_EQ(planner.plan(stairs, {30.0, 8.0, 0.0}, {8.0, 30.0, 0.0}).outcome, POSE_WALL_PLAN_NOT_CONNECTED);
+  stairs.box(19.8, 19.8, 20.4, 20.4, 0);
+  const pose_wall_planar_plan_result gap = planner.plan(stairs, {30.0, 8.0, 0.0}, {8.0, 30.0, 0.0});
+  EXPECT_EQ(gap.outcome, POSE_WALL_PLAN_TOO_NARROW);
+  EXPECT_NEAR(gap.place.x_m, 20.1, 0.3);
+  EXPECT_NEAR(gap.place.y_m, 20.1, 0.3);
 }
 
 TEST(Plan, WithoutARouteTheReasonIsGiven) {
