@@ -1,26 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Copyright (c) 2026 the pose_wall authors */
 
+/* clang-format off */
 /* The route planner of pose_wall_planar: from a pose to a pose through a grid, for a machine on tracks.
  * pose_wall_planar.h is the manual of what all parts share.
  *
  * MACHINE   A rectangle that drives forwards and backwards, in curves, and turns on the spot. A pose is that of its
- *           turning centre, midway between the tracks: x forward, y left. A margin goes round the rectangle.
+ *           turning centre, midway between the tracks: x forward, y left. pose_wall_planar_machine_of_base makes one of
+ *           a pose of base. A margin goes round the rectangle.
  * GRID      Cells from occupied_from on, unknown cells and all outside the grid are not driven on. A route is free when
  *           no part of the rectangle touches such a cell on the way, turns included. Straight stretches are checked
  *           exactly, turns and curves to within 3 mm and always on the safe side.
  * COST      In metres: the length, times reverse_cost where it goes backwards; turn_cost_m_rad for each radian of
  *           turning, on the spot or in a curve; cusp_cost_m for each change between forwards and backwards.
  * METHOD    Weighted A* (Pohl 1970) over places lattice_m apart and 32 headings, along which the machine drives
- * straight from place to place (a state lattice; Pivtoraiko, Knepper and Kelly 2009). The distance ahead is that of the
- * inscribed circle, by Dijkstra's algorithm from the goal, and the turn that is left. If no route is found so, a second
- * search has half the distance and 64 headings. The route is then pulled taut: corners are left out, cut and moved as
- * long as the cost falls. Last, corners become curves where there is room. BOUND     result.bound: the route costs at
- * most so many times the cheapest route over the same places and headings. The search alone keeps it below `weight`, as
- * far as that has grown. Pulling taut lowers it, at times below 1: then bound is 1. TIME src/planar/route/README.md has
- * figures. The work is bounded by expansions_max, by the sizes of grid and lists, and by a fixed share for pulling
- * taut.
+ *           straight from place to place (a state lattice; Pivtoraiko, Knepper and Kelly 2009). The distance ahead is
+ *           that of the inscribed circle, by Dijkstra's algorithm from the goal, and the turn that is left. If no route
+ *           is found so, a second search has half the distance and 64 headings. The route is then pulled taut: corners
+ *           are left out, cut and moved as long as the cost falls. Last, corners become curves where there is room.
+ * BOUND     result.bound: the route costs at most so many times the cheapest route over the same places and headings.
+ *           The search alone keeps it below `weight`, as far as that has grown. Pulling taut lowers it, at times below
+ *           1: then bound is 1.
+ * TIME      The work is bounded by expansions_max, by the sizes of grid and lists, and by a fixed share for pulling
+ *           taut. Why there is no route costs less than a search.
  */
+/* clang-format on */
 
 #ifndef POSE_WALL_PLANAR_PLAN_H
 #define POSE_WALL_PLANAR_PLAN_H

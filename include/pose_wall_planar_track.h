@@ -6,7 +6,8 @@
  * The tracker of pose_wall_planar: drives a machine on tracks along a route. pose_wall_planar.h is the manual of what
  * all parts share. The library drives nothing itself: commands go to the caller.
  *
- * POSES     of the turning centre, as in pose_wall_planar_plan.h, in the frame of the route.
+ * POSES     of the turning centre, x forward and y left, as in pose_wall_planar_plan.h, in the frame of the route.
+ *           pose_wall_planar_machine_of_base makes one of a pose of base. Speeds are along forward_axis then.
  * METHOD    Regulated pursuit (Macenski, Singh, Martin and Gines 2023: speed falls with curvature, with nearness and
  *           towards stops), with the law of a path follower in place of a point ahead: the route's own curvature, and
  *           feedback of the cross error and of the heading that lets both fade without overshoot within settle_m of

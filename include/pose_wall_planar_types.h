@@ -43,6 +43,18 @@ typedef struct pose_wall_planar_pose {
   double yaw_rad; /* counted from x to y, to the left; results are in (-pi, pi] */
 } pose_wall_planar_pose;
 
+/* The planner and the tracker take poses of the machine, everything else takes and gives poses of base (AXES.md). The
+ * machine's frame lies at its turning centre, midway between the tracks, with x along forward_axis and y to the left of
+ * that. centre_m: x, y of the turning centre in base; NULL: the origin of base. From a pose of base to the machine's,
+ * and back; both may be the same struct. yaw_rad of the result is in (-pi, pi]. Fails iff: config or a pose NULL,
+ * config not initialised, POSE_WALL_E_VALUE_RANGE (a centre that is not within 20 m), POSE_WALL_PLANAR_E_POSE. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_machine_of_base(const pose_wall_config* config, const double centre_m[2],
+                                                           const pose_wall_planar_pose* base,
+                                                           pose_wall_planar_pose* machine);
+POSE_WALL_CHECKED int32_t pose_wall_planar_base_of_machine(const pose_wall_config* config, const double centre_m[2],
+                                                           const pose_wall_planar_pose* machine,
+                                                           pose_wall_planar_pose* base);
+
 /* A fault of settings: the member's name and its range; static storage. */
 typedef struct pose_wall_planar_fault {
   const char* member;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/math/rotation.hpp"
+#include "planar/forward_axis.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -141,10 +142,7 @@ Mount mount_of(const pose_wall_config& config) {
                                     number_of(config, "extrinsic_yaw"));
   mount.sensor_base_m = {number_of(config, "extrinsic_x"), number_of(config, "extrinsic_y"),
                          number_of(config, "extrinsic_z")};
-  char axis[POSE_WALL_TEXT_MAX] = {};
-  (void)pose_wall_config_get_text(&config, "forward_axis", axis, sizeof(axis));
-  mount.forward_base = axis[1] == 'Y' ? Eigen::Vector2d::UnitY() : Eigen::Vector2d::UnitX();
-  if (axis[0] == '-') mount.forward_base = -mount.forward_base;
+  mount.forward_base = forward_of(config);
   mount.range_min_m = number_of(config, "range_min");
   mount.range_max_m = number_of(config, "range_max");
   static constexpr const char* kBoxes[] = {"body_box_1", "body_box_2", "body_box_3", "body_box_4"};
