@@ -582,6 +582,9 @@ typedef struct pose_wall_engine pose_wall_engine;
 /* Bytes of the block that an engine of this config lives in; depends on points_max only. Fails iff: NULL, not
  * initialised, POSE_WALL_E_CONFIG_RULE. */
 POSE_WALL_CHECKED int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes);
+/* Bytes that are enough for every config of this points_max, for static arrays: pose_wall_memory_needed asks for no
+ * more. Of this version: a later one may need more, and then refuses the block. */
+#define POSE_WALL_BLOCK_MOST(points_max) (1310720 + 96 * (points_max))
 
 /* Places an engine in block, which may hold anything and stays the caller's. The block must outlive the engine and not
  * move. The config is copied. Fails iff: NULL, config not initialised (POSE_WALL_E_STRUCT_SIZE),

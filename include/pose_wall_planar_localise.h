@@ -26,8 +26,7 @@
  *           the machine then moves less than 0.6 m and 0.6 rad.
  * KIDNAPPED three scans in a row that contradict the map at the tracked place, or 8 m of doubt, and it is lost: the
  *           search begins anew. A move along walls that look the same to a scanner is not seen.
- * COST      a call does at most `work` steps of search, some 60 ns each, besides a match. README.md of
- *           src/planar/localise.
+ * COST      a call does at most `work` steps of search, some 60 ns each, besides a match.
  * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009.
  *
  * The other rules are those of pose_wall_planar.h.
@@ -74,6 +73,9 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_settings_check(const pose_wa
  * refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_memory_needed(const pose_wall_planar_localise_settings* settings,
                                                                   uint64_t* bytes);
+/* Bytes that are enough with the default settings, for static arrays. Of this version: a later one may need more, and
+ * then refuses the block. */
+#define POSE_WALL_PLANAR_LOCALISE_BLOCK_MOST 46137344 /* 44 MiB */
 
 /* An empty map in the block, which may hold garbage and must not move. settings NULL: the defaults. Fails iff: block or
  * localise NULL, settings refused, block misaligned (POSE_WALL_BLOCK_ALIGNMENT) or too small. */

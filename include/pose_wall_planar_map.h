@@ -17,8 +17,8 @@
  * DISTANCE  to the nearest thing, exact to the centres of cells, up to distance_cap_m. It is kept up as cells change:
  *           a new thing at once, a vanished one by a bounded share of work in each call. Queries are exact always.
  * SOURCES   log-odds: Moravec and Elfes 1985; their limits and the hit and miss of 0.7 and 0.4: Hornung and others 2013
- *           (OctoMap). Distances that follow changes: after Lau, Sprunk and Burgard 2013, but exact (README.md of
- *           src/planar/map). Grids: nav_msgs/OccupancyGrid.
+ *           (OctoMap). Distances that follow changes: after Lau, Sprunk and Burgard 2013, but exact.
+ *           Grids: nav_msgs/OccupancyGrid.
  *
  * Cells lie within POSE_WALL_PLANAR_MAP_REACH_M of the frame's origin. The other rules are those of pose_wall_planar.h.
  */
@@ -82,6 +82,9 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_map_settings_check(const pose_wall_pl
  * Fails iff: bytes NULL, settings refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_memory_needed(const pose_wall_planar_map_settings* settings,
                                                              uint64_t* bytes);
+/* Bytes that are enough with the default settings, for static arrays. Of this version: a later one may need more, and
+ * then refuses the block. */
+#define POSE_WALL_PLANAR_MAP_BLOCK_MOST 16777216 /* 16 MiB */
 
 /* An empty map in the block, which may hold garbage and must not move. settings NULL: the defaults. Fails iff: block or
  * map NULL, settings refused, block misaligned (POSE_WALL_BLOCK_ALIGNMENT) or too small. */
@@ -132,7 +135,7 @@ typedef struct pose_wall_planar_map_report {
 
 /* Adds a scan that was taken with base at this pose in map. Fails iff: struct_size, POSE_WALL_PLANAR_E_SCAN, and
  * POSE_WALL_PLANAR_E_POSE for a pose that is not finite or outside the reach (yaw: within 10,000 rad). The map and the
- * report are then unchanged. Cost: for 720 beams in a road 5 m wide 0.4 ms (README.md of src/planar/map); at most beams
+ * report are then unchanged. Cost: for 720 beams in a road 5 m wide 0.4 ms; at most beams
  * x beam_max_m / cell_m cells, the renewal of settings.renewals tiles, and a save for each tile held. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_insert(pose_wall_planar_map* map, const pose_wall_planar_scan* scan,
                                                       const pose_wall_planar_pose* base,

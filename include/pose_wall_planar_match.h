@@ -23,7 +23,7 @@
  *           smooth walls these promise centimetres and are metres off. Points of one surface err alike, so ten count
  *           as one. Where the scan holds nothing, the variance is that of the prior, or of the reach.
  * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009; Hess and others, ICRA 2016.
- * COST      README.md of src/planar/match: 0.1 ms without a search, some milliseconds with one.
+ * COST      0.1 ms without a search, some milliseconds with one.
  *
  * The other rules are those of pose_wall_planar.h.
  */
@@ -45,6 +45,8 @@ typedef struct pose_wall_planar_matcher pose_wall_planar_matcher;
 
 /* Bytes of the block, some 7 MB. Fails iff: NULL. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_match_memory_needed(uint64_t* bytes);
+/* Bytes that are enough, for static arrays. Of this version: a later one may need more, and then refuses the block. */
+#define POSE_WALL_PLANAR_MATCH_BLOCK_MOST 8388608 /* 8 MiB */
 
 /* A matcher without references in the block, which may hold garbage and must not move. Fails iff: block or matcher
  * NULL, block misaligned (POSE_WALL_BLOCK_ALIGNMENT) or too small. */

@@ -73,19 +73,24 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_plan_settings_init(pose_wall_planar_p
 POSE_WALL_CHECKED int32_t pose_wall_planar_plan_settings_check(const pose_wall_planar_plan_settings* settings,
                                                                pose_wall_planar_fault* fault);
 
-/* Bytes of the block. 0 for settings that are not valid. */
-uint64_t pose_wall_planar_plan_memory_needed(const pose_wall_planar_plan_settings* settings);
-/* Opens a planner in a block of the caller's, aligned to POSE_WALL_BLOCK_ALIGNMENT; it may hold garbage. Fails iff:
- * NULL, settings as in the check, POSE_WALL_E_BLOCK_ALIGN, POSE_WALL_E_BLOCK_SMALL. */
+/* Bytes of the block. settings NULL: the defaults. Fails iff: bytes NULL, settings as in the check. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_plan_memory_needed(const pose_wall_planar_plan_settings* settings,
+                                                              uint64_t* bytes);
+/* Bytes that are enough with the default settings, for static arrays. Of this version: a later one may need more, and
+ * then refuses the block. */
+#define POSE_WALL_PLANAR_PLAN_BLOCK_MOST 46137344 /* 44 MiB */
+/* Opens a planner in a block of the caller's, aligned to POSE_WALL_BLOCK_ALIGNMENT; it may hold garbage. settings NULL:
+ * the defaults. Fails iff: block or planner NULL, settings as in the check, POSE_WALL_E_BLOCK_ALIGN,
+ * POSE_WALL_E_BLOCK_SMALL. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_plan_open(const pose_wall_planar_plan_settings* settings, void* block,
                                                      uint64_t block_bytes, pose_wall_planar_planner** planner);
 
 /* Bits of pose_wall_planar_path_pose.flags. */
 enum pose_wall_planar_path_flag {
-  POSE_WALL_PATH_STOP = 1,      /* the machine stands still here: a cusp, a turn on the spot, or the end */
-  POSE_WALL_PATH_CUSP = 2,      /* between forwards and backwards */
-  POSE_WALL_PATH_TURN_LEFT = 4, /* it turns on the spot to the left to get here from the pose before */
-  POSE_WALL_PATH_TURN_RIGHT = 8 /* or to the right */
+  POSE_WALL_PLANAR_PATH_STOP = 1,      /* the machine stands still here: a cusp, a turn on the spot, or the end */
+  POSE_WALL_PLANAR_PATH_CUSP = 2,      /* between forwards and backwards */
+  POSE_WALL_PLANAR_PATH_TURN_LEFT = 4, /* it turns on the spot to the left to get here from the pose before */
+  POSE_WALL_PLANAR_PATH_TURN_RIGHT = 8 /* or to the right */
 };
 
 /* A pose of a route, and how the stretch goes that leads to it. */
@@ -98,16 +103,16 @@ typedef struct pose_wall_planar_path_pose {
 } pose_wall_planar_path_pose;
 
 enum pose_wall_planar_plan_outcome {
-  POSE_WALL_PLAN_FOUND = 0,
-  POSE_WALL_PLAN_START_BLOCKED = 1, /* with its margin the rectangle does not fit at the start */
-  POSE_WALL_PLAN_GOAL_BLOCKED = 2,  /* likewise at the goal */
-  POSE_WALL_PLAN_NOT_CONNECTED = 3, /* no free cells lead from the start to the goal */
-  POSE_WALL_PLAN_TOO_NARROW = 4,    /* they do, but not even the inscribed circle passes: see place and width_m */
-  POSE_WALL_PLAN_TOO_TIGHT = 5,     /* the circle passes, the rectangle was not found to: place is how far it got,
-                                       or the goal, if it cannot get away from there */
-  POSE_WALL_PLAN_LIST_FULL = 6,     /* the open list or the room for places was full, and no route was found */
-  POSE_WALL_PLAN_WORK_LIMIT = 7,    /* expansions_max was reached before a route was found */
-  POSE_WALL_PLAN_ROOM_SMALL = 8     /* found, but the caller's room is smaller than result.poses: nothing written */
+  POSE_WALL_PLANAR_PLAN_FOUND = 0,
+  POSE_WALL_PLANAR_PLAN_START_BLOCKED = 1, /* with its margin the rectangle does not fit at the start */
+  POSE_WALL_PLANAR_PLAN_GOAL_BLOCKED = 2,  /* likewise at the goal */
+  POSE_WALL_PLANAR_PLAN_NOT_CONNECTED = 3, /* no free cells lead from the start to the goal */
+  POSE_WALL_PLANAR_PLAN_TOO_NARROW = 4, /* they do, but not even the inscribed circle passes: see place and width_m */
+  POSE_WALL_PLANAR_PLAN_TOO_TIGHT = 5,  /* the circle passes, the rectangle was not found to: place is how far it got,
+                                    or the goal, if it cannot get away from there */
+  POSE_WALL_PLANAR_PLAN_LIST_FULL = 6,  /* the open list or the room for places was full, and no route was found */
+  POSE_WALL_PLANAR_PLAN_WORK_LIMIT = 7, /* expansions_max was reached before a route was found */
+  POSE_WALL_PLANAR_PLAN_ROOM_SMALL = 8  /* found, but the caller's room is smaller than result.poses: nothing written */
 };
 
 typedef struct pose_wall_planar_plan_result {

@@ -10,7 +10,7 @@
  *
  *     pose_wall_planar_stop_settings settings;
  *     pose_wall_planar_stop_settings_init(&settings);
- *     uint64_t bytes = pose_wall_planar_stop_memory_needed();
+ *     pose_wall_planar_stop_memory_needed(&bytes);
  *     pose_wall_planar_stop *stop;
  *     pose_wall_planar_stop_open(&config, &settings, block, bytes, &stop);
  *     result.struct_size = sizeof result;
@@ -40,7 +40,7 @@
  * UNITS     metres, radians, seconds, nanoseconds (stamps). NaN where there is no number.
  * THREADS   an opened stop belongs to one thread at a time.
  *
- * NOT COVERED   src/planar/stop/README.md states what is guaranteed, for which things, and under which assumptions.
+ * NOT COVERED   planar_stop.md of the package states what is guaranteed, for which things, and under which assumptions.
  *           The library is no certified safety component.
  */
 /* clang-format on */
@@ -102,10 +102,10 @@ typedef struct pose_wall_planar_stop_settings {
 } pose_wall_planar_stop_settings;
 
 /* A roadheader of 4.5 x 1.2 m. Fails iff: NULL. */
-int32_t pose_wall_planar_stop_settings_init(pose_wall_planar_stop_settings* settings);
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_init(pose_wall_planar_stop_settings* settings);
 /* The four corners of a rectangle, front and left as forward_axis +X has them. Fails iff: NULL, struct_size. */
-int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_settings* settings, double x_min_m, double x_max_m,
-                                        double y_min_m, double y_max_m);
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_settings* settings, double x_min_m,
+                                                          double x_max_m, double y_min_m, double y_max_m);
 /* Fails iff: settings NULL, not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_VALUE_RANGE (*fault is written then,
  * unless fault is NULL). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_check(const pose_wall_planar_stop_settings* settings,
@@ -194,8 +194,10 @@ typedef struct pose_wall_planar_stop_result {
 
 typedef struct pose_wall_planar_stop pose_wall_planar_stop;
 
-/* Bytes of the block, at most 3 MiB. */
-uint64_t pose_wall_planar_stop_memory_needed(void);
+/* Bytes of the block, whatever the settings. Fails iff: NULL. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_memory_needed(uint64_t* bytes);
+/* Bytes that are enough, for static arrays. Of this version: a later one may need more, and then refuses the block. */
+#define POSE_WALL_PLANAR_STOP_BLOCK_MOST 3145728 /* 3 MiB */
 
 /* Places a stop in block, which may hold anything, stays the caller's and must not move. settings may be NULL:
  * defaults. Fails iff: config or stop or block NULL, config or settings not initialised, POSE_WALL_E_CONFIG_RULE,
@@ -213,7 +215,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* s
 
 /* One frame in, one result out. now_ns is of the clock of the stamps: see CLOCK. motion may be NULL: nothing is given.
  * Fails as pose_wall_cloud_check does and iff: stop, cloud or result NULL, a struct_size, an unknown bit in given, not
- * open, busy. All is then unchanged; treat it as a stop. Cost: README.md has it. */
+ * open, busy. All is then unchanged; treat it as a stop. Cost: planar_stop.md has it. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_process(pose_wall_planar_stop* stop, const pose_wall_cloud* cloud,
                                                         const pose_wall_planar_stop_motion* motion, int64_t now_ns,
                                                         pose_wall_planar_stop_result* result);

@@ -472,6 +472,14 @@ class ArchiveSections(BrokenProject):
         self.fails("says functions 2 of here; it is 1", *noted, "here")
         self.fails("has no 'functions' of there", *noted, "there")
 
+    def test_page_of_sizes_of_another_library(self):
+        page = self.root / "SIZES.md"
+        noted = (*self.sections(SOURCE, "--of", "motion", "--sizes", page),)
+        self.write("SIZES.md", sizes_table("motion text, KiB | motion functions", here="0.0 | 1"))
+        self.passes(*noted, "here")
+        self.write("SIZES.md", sizes_table("motion text, KiB | motion functions", here="0.0 | 2"))
+        self.fails("says motion functions 2 of here; it is 1", *noted, "here")
+
     def test_noting_one_machine_keeps_the_others(self):
         page, columns = self.root / "SIZES.md", "text, KiB | data, KiB | relocated, KiB | functions | stack, KiB"
         noted = (*self.sections(SOURCE, "--sizes", page),)
@@ -834,6 +842,37 @@ class Statuses(BrokenProject):
 
     def test_another_text(self):
         self.fails("planar says 'no way' of -1", *self.check(said="no way"))
+
+
+class Headers(BrokenProject):
+    RULES = "install(FILES ${PROJECT_SOURCE_DIR}/include/LIMITS.md x RENAME planar_stop.md)\n"
+    PAGE = "[a](pose_wall.h) [b](pose_wall_planar_x.h)\n"
+    CALL = "POSE_WALL_CHECKED int32_t pose_wall_planar_x_open(void);\n"
+
+    def check(self, header, page=PAGE):
+        self.write("tools/cmake/pose_wall_install.cmake", self.RULES)
+        self.write("include/README.md", page)
+        self.write("include/pose_wall_planar_x.h", header)
+        return CHECKS / "check_headers.py", self.root
+
+    def test_passes(self):
+        self.passes(*self.check("/* LIMITS.md, planar_stop.md */\n" + self.CALL +
+                                "enum x {\n  POSE_WALL_PLANAR_A = 1, /* POSE_WALL_B = 2 */\n"
+                                "  POSE_WALL_PLANAR_B\n};\n"))
+
+    def test_unmarked(self):
+        self.fails("pose_wall_planar_x_open returns a status without", *self.check(self.CALL[18:]))
+
+    def test_prefix(self):
+        self.fails("POSE_WALL_X_A does not begin", *self.check("enum x {\n  POSE_WALL_X_A = 1,\n};\n"))
+        self.fails("POSE_WALL_X_B does not begin", *self.check("#define POSE_WALL_X_B 3\n"))
+
+    def test_page_that_no_package_holds(self):
+        self.fails("names src/x/README.md", *self.check("/* src/x/README.md has it */\n"))
+        self.fails("names MOTION.md", *self.check("/* MOTION.md has it */\n"))
+
+    def test_not_linked(self):
+        self.fails("include/README.md does not link it", *self.check(self.CALL, page="[a](pose_wall.h)\n"))
 
 
 class Budget(BrokenProject):

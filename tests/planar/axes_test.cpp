@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "planar/bytes_needed.hpp"
 #include "planar/encounter/plans.hpp"
 #include "pose_wall_motion.h"
 #include "pose_wall_planar.h"
@@ -198,7 +199,7 @@ TEST_P(Axes, APlaceIsThatOfBaseAndTheMachineStandsInIt) {
 pose_wall_planar_track_command command_of(const pose_wall_config& config, double ahead_rad, std::int32_t drive) {
   pose_wall_planar_track_settings settings;
   EXPECT_EQ(pose_wall_planar_track_settings_init(&settings), POSE_WALL_OK);
-  AlignedBlock block(pose_wall_planar_track_memory_needed(&settings), Dirt::kRandom);
+  AlignedBlock block(bytes_needed(settings), Dirt::kRandom);
   pose_wall_planar_tracker* tracker = nullptr;
   EXPECT_EQ(pose_wall_planar_track_open(&settings, block.data(), block.size(), &tracker), POSE_WALL_OK);
   constexpr double kYaw = 0.7;  // of the machine in the map
@@ -236,7 +237,7 @@ pose_wall_planar_stop_result stop_with(pose_wall_config config, const Axis& axis
   EXPECT_EQ(pose_wall_planar_stop_rectangle(&settings, is_along_x ? -2.25 : -0.6, is_along_x ? 2.25 : 0.6,
                                             is_along_x ? -0.6 : -2.25, is_along_x ? 0.6 : 2.25),
             POSE_WALL_OK);
-  AlignedBlock block(pose_wall_planar_stop_memory_needed(), Dirt::kRandom);
+  AlignedBlock block(stop_bytes_needed(), Dirt::kRandom);
   pose_wall_planar_stop* stop = nullptr;
   EXPECT_EQ(pose_wall_planar_stop_open(&config, &settings, block.data(), block.size(), &stop), POSE_WALL_OK);
   EXPECT_EQ(pose_wall_planar_stop_confirm(stop), POSE_WALL_OK);
@@ -265,7 +266,7 @@ TEST_P(Axes, TrackerAndStopMeanTheSameByASpeed) {
     return r.nearest_m[0] * ahead[0] + r.nearest_m[1] * ahead[1];
   };
   const pose_wall_planar_track_command forwards = command_of(config_, axis().ahead_rad, 1);
-  EXPECT_EQ(forwards.state, std::uint32_t{POSE_WALL_TRACK_FOLLOWING});
+  EXPECT_EQ(forwards.state, std::uint32_t{POSE_WALL_PLANAR_TRACK_FOLLOWING});
   EXPECT_GT(forwards.speed_m_s, 0.05);
   EXPECT_NEAR(forwards.turn_rad_s, 0.0, 1e-9);
   const pose_wall_planar_stop_result person = stop_with(config_, axis(), forwards.speed_m_s);

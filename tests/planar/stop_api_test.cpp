@@ -504,8 +504,8 @@ TEST(StopApi, RefusedCallsChangeNothing) {
 TEST(StopApi, OpenRefusesWhatItCannotUse) {
   pose_wall_config config;
   ASSERT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
-  AlignedBlock block(pose_wall_planar_stop_memory_needed(), Dirt::kOnes);
-  EXPECT_LE(block.size(), 3U << 20U);
+  AlignedBlock block(pose_wall::test::stop_bytes_needed(), Dirt::kOnes);
+  EXPECT_LE(block.size(), std::uint64_t{POSE_WALL_PLANAR_STOP_BLOCK_MOST});
   pose_wall_planar_stop* stop = nullptr;
   EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.size() - 1, &stop),
             POSE_WALL_E_BLOCK_SMALL);
@@ -543,7 +543,7 @@ TEST(StopApi, SettingsOutsideTheirRangesAreNamed) {
 
 TEST(StopApi, TheSameFramesGiveTheSameBitsWhateverTheBlockHeld) {
   const auto digest = [](Dirt dirt) {
-    AlignedBlock block(pose_wall_planar_stop_memory_needed(), dirt);
+    AlignedBlock block(pose_wall::test::stop_bytes_needed(), dirt);
     pose_wall_config config;
     (void)pose_wall_config_init(&config);
     (void)pose_wall_config_set_number(&config, "extrinsic_z", 1.5);

@@ -43,6 +43,8 @@ install(FILES ${PROJECT_SOURCE_DIR}/include/README.md ${PROJECT_SOURCE_DIR}/incl
   ${PROJECT_SOURCE_DIR}/include/LIMITS.md ${PROJECT_SOURCE_DIR}/include/SIZES.md
   ${PROJECT_SOURCE_DIR}/tools/example.c ${PROJECT_SOURCE_DIR}/tools/two_engines.c
   DESTINATION ${pose_wall_doc_dir} COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/src/planar/stop/README.md DESTINATION ${pose_wall_doc_dir} RENAME planar_stop.md
+  COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/plc/ DESTINATION ${pose_wall_doc_dir}/plc COMPONENT development
   FILES_MATCHING PATTERN "FB_PoseWall.*" PATTERN "controller.c" PATTERN "README.md")
 if(TARGET pose_wall_cli)

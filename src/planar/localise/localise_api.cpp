@@ -10,6 +10,7 @@
 #include "export.hpp"
 #include "planar/held.hpp"
 #include "planar/localise/localiser.hpp"
+#include "struct_sizes.hpp"
 
 namespace {
 
@@ -184,7 +185,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_init(pose_wall_plana
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_check(const pose_wall_planar_localise_settings* settings,
                                                                   pose_wall_planar_fault* fault) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
   const struct {
     double value, least, most;
     const char *member, *rule;
@@ -249,7 +250,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add(pose_wall_planar_localise
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_localise* localise,
                                                             const pose_wall_planar_grid* grid) {
   if (grid == nullptr) return POSE_WALL_E_NULL;
-  if (grid->struct_size != sizeof(*grid)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*grid); size != POSE_WALL_OK) return size;
   if (grid->cells == nullptr) return POSE_WALL_E_NULL;
   if (!is_grid(*grid)) return POSE_WALL_PLANAR_E_GRID;
   return inside(localise, [&](Body& body) {
@@ -273,7 +274,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_loca
                                                            const pose_wall_planar_pose* odometry,
                                                            pose_wall_planar_localise_result* result) {
   if (result == nullptr) return POSE_WALL_E_NULL;
-  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*result); size != POSE_WALL_OK) return size;
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
   if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
@@ -290,7 +291,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_loca
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_planar_localise* localise, uint32_t number,
                                                              pose_wall_planar_candidate* candidate) {
   if (candidate == nullptr) return POSE_WALL_E_NULL;
-  if (candidate->struct_size != sizeof(*candidate)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*candidate); size != POSE_WALL_OK) return size;
   return inside(localise, [&](const Body& body) {
     const Localiser& own = body.localiser;
     if (own.is_tracking() || number >= own.verdict().count) return std::int32_t{POSE_WALL_E_INDEX};

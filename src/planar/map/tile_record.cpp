@@ -7,6 +7,7 @@
 
 #include "planar/fast_crc32.hpp"
 #include "planar/map/grid_map.hpp"
+#include "struct_sizes.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -110,7 +111,7 @@ std::uint32_t crc_of(const pose_wall_planar_tile& tile) {
 }
 
 std::int32_t check_tile(const pose_wall_planar_tile& tile, double cell_m) {
-  if (tile.struct_size != sizeof(tile)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(tile); size != POSE_WALL_OK) return size;
   const bool good =
       tile.crc32 == crc_of(tile) && tile.cell_m == cell_m && fits(tile.column, tile.row, tile.cells, cell_m);
   return good ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_PLANAR_E_MAP_FILE};

@@ -11,6 +11,7 @@
 #include "planar/held.hpp"
 #include "planar/match/matcher.hpp"
 #include "pose_wall_planar_match.h"
+#include "struct_sizes.hpp"
 
 namespace {
 
@@ -82,7 +83,7 @@ bool is_covariance(const double (&c)[9]) {
 std::int32_t check_input(const pose_wall_planar_match_input* input) {
   constexpr double kReach_m = 38.0, kReach_rad = 3.14159265358979;  // what Matcher::search looks through
   if (input == nullptr) return POSE_WALL_E_NULL;
-  if (input->struct_size != sizeof(*input)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*input); size != POSE_WALL_OK) return size;
   if (input->has_prior > 1) return POSE_WALL_E_VALUE_RANGE;
   if (!is_pose(input->guess)) return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(input->reach_m, 0.0, kReach_m) || !is_within(input->reach_rad, 0.0, kReach_rad)) {
@@ -214,7 +215,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_scan(pose_wall_planar_matcher* m
                                                      const pose_wall_planar_match_input* input,
                                                      pose_wall_planar_match_result* result) {
   if (result == nullptr) return POSE_WALL_E_NULL;
-  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*result); size != POSE_WALL_OK) return size;
   std::int32_t status = check_scan(scan);
   if (status == POSE_WALL_OK) status = check_input(input);
   if (status != POSE_WALL_OK) return status;

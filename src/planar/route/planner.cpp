@@ -154,14 +154,14 @@ std::uint32_t Planner::search(pose_wall_planar_plan_result* result) {
     result->expansions += search_.expansions();
     result->places = search_.places();
     ++result->searches;
-    if (found == Found::work_spent) return POSE_WALL_PLAN_WORK_LIMIT;
+    if (found == Found::work_spent) return POSE_WALL_PLANAR_PLAN_WORK_LIMIT;
   }
-  if (found == Found::list_full) return POSE_WALL_PLAN_LIST_FULL;
-  if (found != Found::way) return POSE_WALL_PLAN_TOO_TIGHT;
+  if (found == Found::list_full) return POSE_WALL_PLANAR_PLAN_LIST_FULL;
+  if (found != Found::way) return POSE_WALL_PLANAR_PLAN_TOO_TIGHT;
   count_ = search_.write(corners_);
   lower_m_ = search_.least_cost_m();
   result->search_cost_m = search_.cost_m();
-  return count_ > 0 ? POSE_WALL_PLAN_FOUND : POSE_WALL_PLAN_LIST_FULL;
+  return count_ > 0 ? POSE_WALL_PLANAR_PLAN_FOUND : POSE_WALL_PLANAR_PLAN_LIST_FULL;
 }
 
 void Planner::plan(const Pose2& start, const Pose2& goal, Span<pose_wall_planar_path_pose> poses,
@@ -170,17 +170,30 @@ void Planner::plan(const Pose2& start, const Pose2& goal, Span<pose_wall_planar_
   goal_ = goal;
   count_ = 0;
   const double none = not_a_number();
-  *result = {
-      sizeof(*result), POSE_WALL_PLAN_FOUND, 0, 0, 0, 0, 0, 0, none, none, none, none, none, {none, none, none}, none};
+  *result = {sizeof(*result),
+             POSE_WALL_PLANAR_PLAN_FOUND,
+             0,
+             0,
+             0,
+             0,
+             0,
+             0,
+             none,
+             none,
+             none,
+             none,
+             none,
+             {none, none, none},
+             none};
   if (!sweeps_.is_pose_free(start)) {
-    result->outcome = POSE_WALL_PLAN_START_BLOCKED;
+    result->outcome = POSE_WALL_PLANAR_PLAN_START_BLOCKED;
   } else if (!sweeps_.is_pose_free(goal)) {
-    result->outcome = POSE_WALL_PLAN_GOAL_BLOCKED;
+    result->outcome = POSE_WALL_PLANAR_PLAN_GOAL_BLOCKED;
   } else if (!go_straight()) {
     result->outcome = search(result);
   }
-  if (result->outcome == POSE_WALL_PLAN_TOO_TIGHT) explain(result);
-  if (result->outcome == POSE_WALL_PLAN_FOUND) finish(poses, result);
+  if (result->outcome == POSE_WALL_PLANAR_PLAN_TOO_TIGHT) explain(result);
+  if (result->outcome == POSE_WALL_PLANAR_PLAN_FOUND) finish(poses, result);
 }
 
 void Planner::finish(Span<pose_wall_planar_path_pose> poses, pose_wall_planar_plan_result* result) {
@@ -191,7 +204,7 @@ void Planner::finish(Span<pose_wall_planar_path_pose> poses, pose_wall_planar_pl
   }
   const Rounding rounding{settings_.radius_min_m, settings_.radius_max_m, settings_.pose_step_m};
   const Written written = write_poses(corners_.first(count_), start_, costs_, rounding, &sweeps_, poses);
-  if (written.poses > poses.size()) result->outcome = POSE_WALL_PLAN_ROOM_SMALL;
+  if (written.poses > poses.size()) result->outcome = POSE_WALL_PLANAR_PLAN_ROOM_SMALL;
   result->poses = written.poses;
   result->cusps = written.cusps;
   result->spot_turns = written.spot_turns;
@@ -217,7 +230,7 @@ void Planner::explain(pose_wall_planar_plan_result* result) {
   }
   double fits = 0.1, does_not = machine_cells;  // less than a cell: hardly more than a point
   if (!is_wide_enough(fits)) {
-    result->outcome = POSE_WALL_PLAN_NOT_CONNECTED;
+    result->outcome = POSE_WALL_PLANAR_PLAN_NOT_CONNECTED;
     return;
   }
   constexpr std::uint32_t kHalvings = 10;
@@ -225,7 +238,7 @@ void Planner::explain(pose_wall_planar_plan_result* result) {
     const double middle = 0.5 * (fits + does_not);
     (is_wide_enough(middle) ? fits : does_not) = middle;
   }
-  result->outcome = POSE_WALL_PLAN_TOO_NARROW;
+  result->outcome = POSE_WALL_PLANAR_PLAN_TOO_NARROW;
   if (is_wide_enough(fits)) find_bottleneck(fits, result);
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/math/rotation.hpp"
 #include "planar/forward_axis.hpp"
+#include "struct_sizes.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -118,7 +119,7 @@ void set_rectangle(StopSettings* s, double x_min_m, double x_max_m, double y_min
 }
 
 std::int32_t check_stop_settings(const StopSettings& settings, pose_wall_planar_fault* fault) {
-  if (settings.struct_size != sizeof(settings)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(settings); size != POSE_WALL_OK) return size;
   if (!is_footprint(settings)) {
     return refuse(fault, "corner_m", "corner_m must be 3 to 12 corners within 5 m, convex and counter-clockwise");
   }

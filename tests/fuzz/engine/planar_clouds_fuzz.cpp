@@ -47,7 +47,8 @@ pose_wall_planar_scanner* open_scanner(const pose_wall_config& config, std::uint
 
 pose_wall_planar_stop* open_stop(const pose_wall_config& config, const pose_wall_planar_stop_settings& settings,
                                  KeptBlock* block, int garbage) {
-  const std::uint64_t bytes = pose_wall_planar_stop_memory_needed();
+  std::uint64_t bytes = 0;
+  require_ok(pose_wall_planar_stop_memory_needed(&bytes), "memory_needed");
   pose_wall_planar_stop* stop = nullptr;
   require_ok(pose_wall_planar_stop_open(&config, &settings, block->filled(bytes, garbage), bytes, &stop), "open");
   return stop;
