@@ -29,7 +29,8 @@
  *          Both are about base X and Y, whatever forward_axis is. yaw is the angle about +Z from the machine's forward
  *          axis to the road: a machine turned LEFT by 5 degrees reports yaw = -5 degrees. In words, with forward +X:
  *          roll > 0 is right side down, pitch > 0 is nose down. With -X both change sign for the driver. With +Y or -Y
- *          the driver's pitch is roll, and the driver's roll is pitch. Distances are >= 0.
+ *          the driver's pitch is roll, and the driver's roll is pitch. Distances are >= 0. AXES.md of the package
+ *          compares the axes and signs of all libraries.
  * UNITS    metres, radians, nanoseconds (stamps), seconds (ages). NaN where there is no number.
  * MEMORY   only the caller's block, and less than 32 kB of stack. No call allocates, blocks, prints, reads a clock or
  *          throws.
@@ -40,7 +41,7 @@
  *          structs of a later header (POSE_WALL_E_STRUCT_NEWER).
  * TIME     every loop over live data has a cap from the config. A frame that has taken work_max steps stops at its
  *          next check of the budget, at most a million steps later. Unfinished results are refused
- *          (POSE_WALL_R_WORK_LIMIT). Reading the cloud is never stopped. bench/README.md has the bound.
+ *          (POSE_WALL_R_WORK_LIMIT). Reading the cloud is never stopped.
  * ERRORS   every call that can fail returns a status: POSE_WALL_OK (0) or a negative pose_wall_status. A refused call
  *          changes nothing. A status reports a wrong call. A frame that could not be measured is no error: the call
  *          returns POSE_WALL_OK, and the result's states and reasons say so.
@@ -88,7 +89,8 @@ uint32_t pose_wall_abi_version(void);
 
 /* ---------------------------------------------------------------------------------------------- status */
 
-/* Numbers are pinned by a test and never reused. */
+/* Numbers are pinned by a test and never reused. No two libraries share one: -1 to -89 stand here, -90 to -99 in
+ * pose_wall_box.h, -100 to -119 in pose_wall_runtime.h, -120 to -139 in pose_wall_planar_types.h. */
 enum pose_wall_status {
   POSE_WALL_OK = 0,
 
@@ -104,7 +106,7 @@ enum pose_wall_status {
   POSE_WALL_E_MEMENTO = -8,       /* not what pose_wall_save wrote, of another version or config, cut off or damaged */
   POSE_WALL_E_BUSY = -9,          /* another call is inside this engine, or inside the engine in this block */
   POSE_WALL_E_ABI = -10,          /* the program was built against the header of ABI 1: build it anew */
-  POSE_WALL_E_STRUCT_NEWER = -11, /* a struct of a newer pose_wall.h than the library that is linked */
+  POSE_WALL_E_STRUCT_NEWER = -11, /* a struct of a newer header than the library that is linked */
   POSE_WALL_E_INPUT = -12,        /* an unknown bit in pose_wall_inputs or pose_wall_moment, or a boot_id of zeros */
 
   /* configuration */
@@ -134,7 +136,7 @@ enum pose_wall_status {
   POSE_WALL_E_SELF_TEST = -80 /* the engine's results are not the noted ones: the report has the differences */
 };
 
-/* One English sentence, static storage; "unknown status" for anything else. */
+/* One English sentence for a status of any library, static storage; "unknown status" for anything else. */
 const char* pose_wall_status_text(int32_t status);
 
 /* ---------------------------------------------------------------------------------------------- config */
@@ -144,7 +146,7 @@ const char* pose_wall_status_text(int32_t status);
 #define POSE_WALL_CONFIG_TEXTS 3
 
 /* All settings. Treat the members as private and write through the functions below. They know every key's name, type,
- * unit and range from the one table in src/config_keys.def. Copy it freely. */
+ * unit and range from one table (pose_wall_config_key). Copy it freely. */
 typedef struct pose_wall_config {
   uint32_t struct_size; /* set by pose_wall_config_init */
   uint32_t layout;      /* set by pose_wall_config_init: identifies the table of keys */
@@ -257,7 +259,7 @@ typedef struct pose_wall_field {
  * (POSE_WALL_R_WALL_SEEN_THROUGH). Gaps may go UNNOTICED in a thinned cloud, or where the sensor has fewer than about
  * 600 returns a turn in each 2 degrees of elevation. To leave points out, use range_min, range_max and the body boxes.
  * Synthetic points must form a scan, too: rays at even angles, each to the first surface, with a roof where the walls
- * end. tools/example.c makes one. */
+ * end. example.c of the package makes one. */
 typedef struct pose_wall_cloud {
   uint32_t struct_size; /* sizeof(pose_wall_cloud) */
   uint32_t big_endian;  /* 0 or 1: byte order of the fields */
@@ -580,6 +582,9 @@ typedef struct pose_wall_engine pose_wall_engine;
 /* Bytes of the block that an engine of this config lives in; depends on points_max only. Fails iff: NULL, not
  * initialised, POSE_WALL_E_CONFIG_RULE. */
 POSE_WALL_CHECKED int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes);
+/* Bytes that are enough for every config of this points_max, for static arrays: pose_wall_memory_needed asks for no
+ * more. Of this version: a later one may need more, and then refuses the block. */
+#define POSE_WALL_BLOCK_MOST(points_max) (1310720 + 96 * (points_max))
 
 /* Places an engine in block, which may hold anything and stays the caller's. The block must outlive the engine and not
  * move. The config is copied. Fails iff: NULL, config not initialised (POSE_WALL_E_STRUCT_SIZE),
@@ -693,7 +698,7 @@ POSE_WALL_CHECKED int32_t pose_wall_last_points(const pose_wall_engine* engine, 
  * start, are left out. The code must be readable: execute-only memory does not work.
  *
  * TIME   POSE_WALL_SELF_TEST_FRAMES frames of at most POSE_WALL_SELF_TEST_POINTS points and one pass over the code:
- * always the same work. src/README.md has the figure in instructions. */
+ * always the same work. */
 
 #define POSE_WALL_SELF_TEST_FRAMES 4
 #define POSE_WALL_SELF_TEST_POINTS 19200
@@ -722,7 +727,7 @@ POSE_WALL_CHECKED int32_t pose_wall_self_test(void* block, uint64_t bytes, pose_
 /* ---------------------------------------------------------------------------------------------- process image */
 
 /* A result for a controller, in words of 4 bytes without gaps. It fits into one PROFINET submodule or one Modbus read
- * (125 registers). tools/plc has the structured text for it, and a function block that uses it.
+ * (125 registers). The folder plc of the package has the structured text for it, and a function block that uses it.
  *
  * IMAGES   image 2 (pose_wall_image2, 62 words, 124 registers) is for new controllers. Image 1 (pose_wall_image, 60
  * words, 120 registers) stays as it is, for its present readers. Both hold the same seven quantities.

@@ -37,7 +37,7 @@
  * METHOD    the stages of Shan and Englot, LeGO-LOAM, IROS 2018: range image, ground, clusters, features, and two
  *           steps of Levenberg-Marquardt. The first step finds roll, pitch and height, the second yaw and the position
  *           across. These tell nothing about the way along the road. There, heights of the rock above its own planes
- *           are matched with a map of them. src/motion/README.md has the method and its cost.
+ *           are matched with a map of them.
  */
 /* clang-format on */
 
@@ -189,8 +189,10 @@ typedef struct pose_wall_motion_result {
 
 typedef struct pose_wall_motion pose_wall_motion;
 
-/* Bytes of the block, at most 6 MiB. */
+/* Bytes of the block, the same for all settings. It cannot fail, so it gives them itself. */
 uint64_t pose_wall_motion_memory_needed(void);
+/* Bytes that are enough, for static arrays. Of this version: a later one may need more, and then refuses the block. */
+#define POSE_WALL_MOTION_BLOCK_MOST 6291456 /* 6 MiB */
 
 /* Places a motion in block, which may hold anything, stays the caller's and must not move. settings may be NULL:
  * defaults. Fails iff: config or motion or block NULL, config or settings not initialised (POSE_WALL_E_STRUCT_SIZE),

@@ -7,7 +7,8 @@
  *
  * Each part stands in a header of its own and can be used alone. This one includes them all.
  *
- * FRAMES    base as in pose_wall.h: x forward, y left. map: where the map began. Angles count from x to y.
+ * FRAMES    base as in pose_wall.h; map: base where the map began. Angles count from x to y, to the left. Planner and
+ *           tracker have poses of the machine instead, x along forward_axis: AXES.md and pose_wall_planar_types.h.
  * UNITS     metres, radians, seconds, nanoseconds (stamps). NaN where there is no number.
  * MEMORY    only the caller's block, one for each part that is opened, and less than 32 kB of stack. No call allocates,
  *           blocks, prints, reads a clock or throws.

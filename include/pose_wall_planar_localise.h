@@ -26,8 +26,7 @@
  *           the machine then moves less than 0.6 m and 0.6 rad.
  * KIDNAPPED three scans in a row that contradict the map at the tracked place, or 8 m of doubt, and it is lost: the
  *           search begins anew. A move along walls that look the same to a scanner is not seen.
- * COST      a call does at most `work` steps of search, some 60 ns each, besides a match. README.md of
- *           src/planar/localise.
+ * COST      a call does at most `work` steps of search, some 60 ns each, besides a match.
  * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009.
  *
  * The other rules are those of pose_wall_planar.h.
@@ -74,6 +73,9 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_settings_check(const pose_wa
  * refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_memory_needed(const pose_wall_planar_localise_settings* settings,
                                                                   uint64_t* bytes);
+/* Bytes that are enough with the default settings, for static arrays. Of this version: a later one may need more, and
+ * then refuses the block. */
+#define POSE_WALL_PLANAR_LOCALISE_BLOCK_MOST 46137344 /* 44 MiB */
 
 /* An empty map in the block, which may hold garbage and must not move. settings NULL: the defaults. Fails iff: block or
  * localise NULL, settings refused, block misaligned (POSE_WALL_BLOCK_ALIGNMENT) or too small. */
@@ -91,21 +93,21 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_clear(pose_wall_planar_local
 
 /* A keyframe of a trail: what was seen from where, as pose_wall_planar_slam_keyframe and pose_wall_planar_slam_points
  * give it. xy_m holds x, y, x, y ... of the surface points in base. The map's square of 4 km has the first keyframe in
- * its middle. Fails iff: POSE_WALL_E_ORDER (the map is finished), POSE_WALL_E_POSE (not finite, or beyond 1e6 m);
- * POSE_WALL_E_SCAN: points not finite or beyond 2000 m, or more than 6284;
- * POSE_WALL_E_BLOCK_SMALL: more than tiles_most, or outside the square. The map then lacks a part of the keyframe. */
+ * its middle. Fails iff: POSE_WALL_PLANAR_E_ORDER (the map is finished), POSE_WALL_PLANAR_E_POSE (not finite, or beyond
+ * 1e6 m); POSE_WALL_PLANAR_E_SCAN: points not finite or beyond 2000 m, or more than 6284; POSE_WALL_E_BLOCK_SMALL: more
+ * than tiles_most, or outside the square. The map then lacks a part of the keyframe. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_add(pose_wall_planar_localise* localise,
                                                         const pose_wall_planar_pose* pose, const float* xy_m,
                                                         uint32_t points);
 
 /* Cells of a grid, as pose_wall_planar_map or a PGM file has them: 65 per cent and more are a surface, 35 and less are
  * free. Cells of 5 cm hold less of the rock's relief than a trail does. Fails as pose_wall_planar_localise_add does,
- * and with POSE_WALL_E_GRID. */
+ * and with POSE_WALL_PLANAR_E_GRID. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_localise* localise,
                                                              const pose_wall_planar_grid* grid);
 
-/* After the last keyframe: the map is complete. Takes some 0.1 s a kilometre. Fails iff: POSE_WALL_E_ORDER (empty, or
- * finished before). */
+/* After the last keyframe: the map is complete. Takes some 0.1 s a kilometre. Fails iff: POSE_WALL_PLANAR_E_ORDER
+ * (empty, or finished before). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_finish(pose_wall_planar_localise* localise);
 
 /* ---------------------------------------------------------------------------------------------- a scan */
@@ -165,8 +167,8 @@ typedef struct pose_wall_planar_localise_result {
   uint32_t lost;           /* times that a place was lost */
 } pose_wall_planar_localise_result;
 
-/* One scan. odometry may be NULL. Fails iff: struct_size, POSE_WALL_E_SCAN, POSE_WALL_E_POSE (odometry not finite or
- * beyond 1e6 m), POSE_WALL_E_ORDER (the map is not finished). Nothing has then changed. */
+/* One scan. odometry may be NULL. Fails iff: struct_size, POSE_WALL_PLANAR_E_SCAN, POSE_WALL_PLANAR_E_POSE (odometry
+ * not finite or beyond 1e6 m), POSE_WALL_PLANAR_E_ORDER (the map is not finished). Nothing has then changed. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_process(pose_wall_planar_localise* localise,
                                                             const pose_wall_planar_scan* scan,
                                                             const pose_wall_planar_pose* odometry,
@@ -187,7 +189,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_localise_candidate(const pose_wall_pl
                                                               uint32_t number, pose_wall_planar_candidate* candidate);
 
 /* Somebody knows where base stands: it is tracked from there, DOUBTFUL until a scan agrees. Fails iff:
- * POSE_WALL_E_POSE, POSE_WALL_E_VALUE_RANGE (sigma_m not from 0.001 to 1, sigma_rad not from 0.001 to 0.5). */
+ * POSE_WALL_PLANAR_E_POSE, POSE_WALL_E_VALUE_RANGE (sigma_m not from 0.001 to 1, sigma_rad not from 0.001 to 0.5). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_localise_place(pose_wall_planar_localise* localise,
                                                           const pose_wall_planar_pose* base, double sigma_m,
                                                           double sigma_rad);

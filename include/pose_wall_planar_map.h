@@ -17,8 +17,8 @@
  * DISTANCE  to the nearest thing, exact to the centres of cells, up to distance_cap_m. It is kept up as cells change:
  *           a new thing at once, a vanished one by a bounded share of work in each call. Queries are exact always.
  * SOURCES   log-odds: Moravec and Elfes 1985; their limits and the hit and miss of 0.7 and 0.4: Hornung and others 2013
- *           (OctoMap). Distances that follow changes: after Lau, Sprunk and Burgard 2013, but exact (README.md of
- *           src/planar/map). Grids: nav_msgs/OccupancyGrid.
+ *           (OctoMap). Distances that follow changes: after Lau, Sprunk and Burgard 2013, but exact.
+ *           Grids: nav_msgs/OccupancyGrid.
  *
  * Cells lie within POSE_WALL_PLANAR_MAP_REACH_M of the frame's origin. The other rules are those of pose_wall_planar.h.
  */
@@ -82,6 +82,9 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_map_settings_check(const pose_wall_pl
  * Fails iff: bytes NULL, settings refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_memory_needed(const pose_wall_planar_map_settings* settings,
                                                              uint64_t* bytes);
+/* Bytes that are enough with the default settings, for static arrays. Of this version: a later one may need more, and
+ * then refuses the block. */
+#define POSE_WALL_PLANAR_MAP_BLOCK_MOST 16777216 /* 16 MiB */
 
 /* An empty map in the block, which may hold garbage and must not move. settings NULL: the defaults. Fails iff: block or
  * map NULL, settings refused, block misaligned (POSE_WALL_BLOCK_ALIGNMENT) or too small. */
@@ -130,10 +133,10 @@ typedef struct pose_wall_planar_map_report {
   uint32_t reserved;         /* 0 */
 } pose_wall_planar_map_report;
 
-/* Adds a scan that was taken with base at this pose in map. Fails iff: struct_size, POSE_WALL_E_SCAN, and
- * POSE_WALL_E_POSE for a pose that is not finite or outside the reach (yaw: within 10,000 rad). The map and the report
- * are then unchanged. Cost: for 720 beams in a road 5 m wide 0.4 ms (README.md of src/planar/map); at most
- * beams x beam_max_m / cell_m cells, the renewal of settings.renewals tiles, and a save for each tile held. */
+/* Adds a scan that was taken with base at this pose in map. Fails iff: struct_size, POSE_WALL_PLANAR_E_SCAN, and
+ * POSE_WALL_PLANAR_E_POSE for a pose that is not finite or outside the reach (yaw: within 10,000 rad). The map and the
+ * report are then unchanged. Cost: for 720 beams in a road 5 m wide 0.4 ms; at most beams
+ * x beam_max_m / cell_m cells, the renewal of settings.renewals tiles, and a save for each tile held. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_insert(pose_wall_planar_map* map, const pose_wall_planar_scan* scan,
                                                       const pose_wall_planar_pose* base,
                                                       pose_wall_planar_map_report* report);
@@ -157,7 +160,7 @@ typedef struct pose_wall_planar_cell {
                            cells); NaN without distances */
 } pose_wall_planar_cell;
 
-/* The cell that holds a place. Set cell->struct_size first. Fails iff: struct_size, POSE_WALL_E_POSE. */
+/* The cell that holds a place. Set cell->struct_size first. Fails iff: struct_size, POSE_WALL_PLANAR_E_POSE. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_cell(const pose_wall_planar_map* map, double x_m, double y_m,
                                                     pose_wall_planar_cell* cell);
 
@@ -174,7 +177,7 @@ typedef struct pose_wall_planar_ray {
 } pose_wall_planar_ray;
 
 /* What a beam from this pose would meet: along yaw + angle, up to range_max_m (0 to 1000). through_unknown 0: the first
- * cell that is not free ends it; else only things do. Fails iff: struct_size, POSE_WALL_E_POSE (also for angle),
+ * cell that is not free ends it; else only things do. Fails iff: struct_size, POSE_WALL_PLANAR_E_POSE (also for angle),
  * POSE_WALL_E_VALUE_RANGE. Cost: some 3 ns a cell. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_ray(const pose_wall_planar_map* map, const pose_wall_planar_pose* from,
                                                    double angle_rad, double range_max_m, uint32_t through_unknown,
@@ -196,7 +199,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_map_box(const pose_wall_planar_map* m
 
 /* Writes width x height cells into the caller's `cells`: -1 never seen, else the probability of a thing in per cent.
  * The first is the one that holds (x_m, y_m). *grid then describes them, with cells in it. Set grid->struct_size first.
- * Fails iff: struct_size, POSE_WALL_E_POSE, POSE_WALL_E_GRID (width or height 0 or above
+ * Fails iff: struct_size, POSE_WALL_PLANAR_E_POSE, POSE_WALL_PLANAR_E_GRID (width or height 0 or above
  * POSE_WALL_PLANAR_GRID_SIDE_MAX), POSE_WALL_E_BUFFER_SMALL (capacity). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_grid(const pose_wall_planar_map* map, double x_m, double y_m,
                                                     uint32_t width, uint32_t height, int8_t* cells, uint64_t capacity,
@@ -205,8 +208,8 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_map_grid(const pose_wall_planar_map* 
 /* ---------------------------------------------------------------------------------------------- save and load */
 
 /* Adds a saved tile. Where the map has the tile already, the evidence of both is added, so put back only what was
- * forgotten. Fails iff: struct_size, POSE_WALL_E_MAP_FILE (CRC, cells, place, another cell_m), POSE_WALL_E_BUFFER_SMALL
- * (no tile left and none could be saved). The map is then unchanged. */
+ * forgotten. Fails iff: struct_size, POSE_WALL_PLANAR_E_MAP_FILE (CRC, cells, place, another cell_m),
+ * POSE_WALL_E_BUFFER_SMALL (no tile left and none could be saved). The map is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_put_tile(pose_wall_planar_map* map, const pose_wall_planar_tile* tile);
 
 /* Copies tile number `index` (0 to tiles - 1; by rows, then columns) without forgetting it. Set tile->struct_size
@@ -222,9 +225,9 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_map_save_bytes(const pose_wall_planar
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_save_all(pose_wall_planar_map* map, void* bytes, uint64_t capacity,
                                                         uint64_t* written);
 
-/* Forgets what the map holds and takes what was saved. Distances are renewed at once. Fails iff: POSE_WALL_E_MAP_FILE
- * (anything that pose_wall_planar_map_save_all did not write, or another cell_m), POSE_WALL_E_BUFFER_SMALL (more tiles
- * than settings.tiles). The map is then unchanged. */
+/* Forgets what the map holds and takes what was saved. Distances are renewed at once. Fails iff:
+ * POSE_WALL_PLANAR_E_MAP_FILE (anything that pose_wall_planar_map_save_all did not write, or another cell_m),
+ * POSE_WALL_E_BUFFER_SMALL (more tiles than settings.tiles). The map is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_map_load_all(pose_wall_planar_map* map, const void* bytes, uint64_t size);
 
 #ifdef __cplusplus

@@ -23,7 +23,7 @@
  *           smooth walls these promise centimetres and are metres off. Points of one surface err alike, so ten count
  *           as one. Where the scan holds nothing, the variance is that of the prior, or of the reach.
  * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009; Hess and others, ICRA 2016.
- * COST      README.md of src/planar/match: 0.1 ms without a search, some milliseconds with one.
+ * COST      0.1 ms without a search, some milliseconds with one.
  *
  * The other rules are those of pose_wall_planar.h.
  */
@@ -45,6 +45,8 @@ typedef struct pose_wall_planar_matcher pose_wall_planar_matcher;
 
 /* Bytes of the block, some 7 MB. Fails iff: NULL. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_match_memory_needed(uint64_t* bytes);
+/* Bytes that are enough, for static arrays. Of this version: a later one may need more, and then refuses the block. */
+#define POSE_WALL_PLANAR_MATCH_BLOCK_MOST 8388608 /* 8 MiB */
 
 /* A matcher without references in the block, which may hold garbage and must not move. Fails iff: block or matcher
  * NULL, block misaligned (POSE_WALL_BLOCK_ALIGNMENT) or too small. */
@@ -54,11 +56,12 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_match_open(void* block, uint64_t bloc
 /* All calls below fail with POSE_WALL_E_NULL, POSE_WALL_E_ENGINE (not an open matcher) and POSE_WALL_E_BUSY (another
  * call is inside). Other failures stand beside the call. */
 
-/* Forgets the references. The window's middle is here. Fails iff: POSE_WALL_E_POSE (not finite, or beyond 1e6 m). */
+/* Forgets the references. The window's middle is here. Fails iff: POSE_WALL_PLANAR_E_POSE (not finite, or beyond 1e6
+ * m). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_match_begin(pose_wall_planar_matcher* matcher, double x_m, double y_m);
 
-/* A scan that was taken with base at this pose. Fails iff: POSE_WALL_E_SCAN, POSE_WALL_E_POSE (not finite, beyond 1e6 m
- * or 10,000 rad), POSE_WALL_E_ORDER (before _begin, or after the first match). */
+/* A scan that was taken with base at this pose. Fails iff: POSE_WALL_PLANAR_E_SCAN, POSE_WALL_PLANAR_E_POSE (not
+ * finite, beyond 1e6 m or 10,000 rad), POSE_WALL_PLANAR_E_ORDER (before _begin, or after the first match). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_match_add(pose_wall_planar_matcher* matcher,
                                                      const pose_wall_planar_scan* scan,
                                                      const pose_wall_planar_pose* base);
@@ -96,9 +99,9 @@ typedef struct pose_wall_planar_match_result {
   uint32_t points;              /* of the scan, in known places */
 } pose_wall_planar_match_result;
 
-/* Places a scan on the references. Fails iff: a struct_size, POSE_WALL_E_SCAN, POSE_WALL_E_POSE (the guess, or a
- * covariance that is not finite, symmetric and positive), POSE_WALL_E_VALUE_RANGE (a reach), POSE_WALL_E_ORDER (before
- * _begin). The result is then unchanged. */
+/* Places a scan on the references. Fails iff: a struct_size, POSE_WALL_PLANAR_E_SCAN, POSE_WALL_PLANAR_E_POSE (the
+ * guess, or a covariance that is not finite, symmetric and positive), POSE_WALL_E_VALUE_RANGE (a reach),
+ * POSE_WALL_PLANAR_E_ORDER (before _begin). The result is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_match_scan(pose_wall_planar_matcher* matcher,
                                                       const pose_wall_planar_scan* scan,
                                                       const pose_wall_planar_match_input* input,

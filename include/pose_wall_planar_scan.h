@@ -58,7 +58,7 @@
  *           hold_rate_angle. A ray that ends on the machine itself shows nothing.
  * LIMITS    the floor is one plane: where the ground rises further than HEIGHTS allows for, it is a thing. The motion
  *           of the machine during the scan is not removed.
- * COST      one pass over the cloud and one over its returns in the band. src/planar/scan/README.md has figures.
+ * COST      one pass over the cloud and one over its returns in the band.
  */
 /* clang-format on */
 
@@ -87,7 +87,7 @@ typedef struct pose_wall_planar_floor {
 
 /* From an engine's result; measured is 0 where this frame measured no floor. Set floor->struct_size first. Fails iff:
  * NULL, a struct_size of another version. */
-int32_t pose_wall_planar_floor_of(const pose_wall_result* result, pose_wall_planar_floor* floor);
+POSE_WALL_CHECKED int32_t pose_wall_planar_floor_of(const pose_wall_result* result, pose_wall_planar_floor* floor);
 
 enum pose_wall_planar_alone {
   POSE_WALL_PLANAR_ALONE_IS_THING = 0, /* the scan ends at it */
@@ -124,7 +124,7 @@ typedef struct pose_wall_planar_scanner_settings {
 } pose_wall_planar_scanner_settings;
 
 /* Fails iff: NULL. */
-int32_t pose_wall_planar_scanner_settings_init(pose_wall_planar_scanner_settings* settings);
+POSE_WALL_CHECKED int32_t pose_wall_planar_scanner_settings_init(pose_wall_planar_scanner_settings* settings);
 /* Fails iff: NULL, struct_size, POSE_WALL_E_VALUE_RANGE. Only in the last case it writes *fault, which may be NULL. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_scanner_settings_check(const pose_wall_planar_scanner_settings* settings,
                                                                   pose_wall_planar_fault* fault);
@@ -172,9 +172,13 @@ typedef struct pose_wall_planar_scan_view {
 
 typedef struct pose_wall_planar_scanner pose_wall_planar_scanner;
 
-/* Fails iff: NULL, as pose_wall_planar_scanner_settings_check. */
+/* Bytes of the block. settings NULL: the defaults. Fails iff: bytes NULL, as pose_wall_planar_scanner_settings_check.
+ */
 POSE_WALL_CHECKED int32_t pose_wall_planar_scanner_memory_needed(const pose_wall_planar_scanner_settings* settings,
                                                                  uint64_t* bytes);
+/* Bytes that are enough with the default settings, for static arrays. Of this version: a later one may need more, and
+ * then refuses the block. */
+#define POSE_WALL_PLANAR_SCANNER_BLOCK_MOST 2097152 /* 2 MiB */
 /* settings NULL: the defaults. Fails iff: config, block or scanner NULL, as pose_wall_config_check and
  * pose_wall_planar_scanner_settings_check, POSE_WALL_E_BLOCK_ALIGN, POSE_WALL_E_BLOCK_SMALL. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_scanner_open(const pose_wall_config* config,
@@ -185,7 +189,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_scanner_reset(pose_wall_planar_scanne
 
 /* One frame. floor NULL: none was measured. Set scan->struct_size, and that of view, first; view may be NULL. The scan
  * is complete with free_m; its arrays lie in the block and are valid until the next call. Fails iff: NULL, not open,
- * busy, a struct_size, as pose_wall_cloud_check, a measured floor out of its ranges (POSE_WALL_E_POSE). */
+ * busy, a struct_size, as pose_wall_cloud_check, a measured floor out of its ranges (POSE_WALL_PLANAR_E_POSE). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_scanner_process(pose_wall_planar_scanner* scanner,
                                                            const pose_wall_cloud* cloud,
                                                            const pose_wall_planar_floor* floor,
@@ -208,13 +212,14 @@ typedef struct pose_wall_planar_laserscan {
 } pose_wall_planar_laserscan;
 
 /* A message for this scan; its ranges are the scan's. LaserScan has no free_m: those beams are NaN. Fails iff: NULL, a
- * scan that is none (POSE_WALL_E_SCAN). */
-int32_t pose_wall_planar_laserscan_of(const pose_wall_planar_scan* scan, pose_wall_planar_laserscan* message);
+ * scan that is none (POSE_WALL_PLANAR_E_SCAN). */
+POSE_WALL_CHECKED int32_t pose_wall_planar_laserscan_of(const pose_wall_planar_scan* scan,
+                                                        pose_wall_planar_laserscan* message);
 
 /* A scan for this message of a sensor that stands at `sensor` in base. sigma_m: of a range. Drivers fill in infinity
  * both for "nothing up to range_max" and for "no return", which on black rock is another thing. Where
  * infinite_is_open is 0, infinity counts as unknown: ranges_m, with room for count floats, then takes the ranges (it
- * may be NULL where infinite_is_open is 1). Fails iff: NULL, a message that is no scan (POSE_WALL_E_SCAN). */
+ * may be NULL where infinite_is_open is 1). Fails iff: NULL, a message that is no scan (POSE_WALL_PLANAR_E_SCAN). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_scan_of_laserscan(const pose_wall_planar_laserscan* message,
                                                              const pose_wall_planar_pose* sensor, double sigma_m,
                                                              int64_t stamp_ns, uint32_t infinite_is_open,

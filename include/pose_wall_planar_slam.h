@@ -22,7 +22,7 @@
  *           contradict a belief, it is taken back. Roads that look alike stay apart while odometry keeps them apart.
  * ODOMETRY  a pose of base in any frame that may drift, at the scan's time. It may stall, slip and catch up.
  * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009; Hess and others, ICRA 2016. The graph
- *           and its solution: Lu and Milios 1997; Dellaert and others, IROS 2010. README.md of src/planar/slam.
+ *           and its solution: Lu and Milios 1997; Dellaert and others, IROS 2010.
  *
  * The other rules are those of pose_wall_planar.h.
  */
@@ -68,6 +68,9 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_slam_settings_check(const pose_wall_p
  * refused. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_slam_memory_needed(const pose_wall_planar_slam_settings* settings,
                                                               uint64_t* bytes);
+/* Bytes that are enough with the default settings, for static arrays. Of this version: a later one may need more, and
+ * then refuses the block. */
+#define POSE_WALL_PLANAR_SLAM_BLOCK_MOST 33554432 /* 32 MiB */
 
 /* An empty trail in the block, which may hold garbage and must not move. settings NULL: the defaults. Fails iff: block
  * or slam NULL, settings refused, block misaligned (POSE_WALL_BLOCK_ALIGNMENT) or too small. */
@@ -109,8 +112,8 @@ typedef struct pose_wall_planar_slam_result {
   uint32_t is_settled; /* 1: the graph rests */
 } pose_wall_planar_slam_result;
 
-/* One scan. odometry may be NULL. Fails iff: struct_size, POSE_WALL_E_SCAN, POSE_WALL_E_POSE (odometry not finite or
- * beyond 1e6 m). The trail and the result are then unchanged. Cost: README.md of src/planar/slam. */
+/* One scan. odometry may be NULL. Fails iff: struct_size, POSE_WALL_PLANAR_E_SCAN, POSE_WALL_PLANAR_E_POSE (odometry
+ * not finite or beyond 1e6 m). The trail and the result are then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_slam_process(pose_wall_planar_slam* slam, const pose_wall_planar_scan* scan,
                                                         const pose_wall_planar_pose* odometry,
                                                         pose_wall_planar_slam_result* result);
@@ -164,8 +167,8 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_slam_save(const pose_wall_planar_slam
 
 /* Takes a saved trail in place of the present one. The next scan is matched about `base`, where the machine stands in
  * map now: by pose_wall_planar_localise.h, or by hand. base NULL: where the saved trail ended. Fails iff:
- * POSE_WALL_E_MAP_FILE (another version, cut off, damaged), POSE_WALL_E_POSE, POSE_WALL_E_BLOCK_SMALL (more keyframes
- * than keyframes_most). The trail is then unchanged. */
+ * POSE_WALL_PLANAR_E_MAP_FILE (another version, cut off, damaged), POSE_WALL_PLANAR_E_POSE, POSE_WALL_E_BLOCK_SMALL
+ * (more keyframes than keyframes_most). The trail is then unchanged. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_slam_load(pose_wall_planar_slam* slam, const void* saved, uint64_t bytes,
                                                      const pose_wall_planar_pose* base);
 

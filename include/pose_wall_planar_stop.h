@@ -10,7 +10,7 @@
  *
  *     pose_wall_planar_stop_settings settings;
  *     pose_wall_planar_stop_settings_init(&settings);
- *     uint64_t bytes = pose_wall_planar_stop_memory_needed();
+ *     pose_wall_planar_stop_memory_needed(&bytes);
  *     pose_wall_planar_stop *stop;
  *     pose_wall_planar_stop_open(&config, &settings, block, bytes, &stop);
  *     result.struct_size = sizeof result;
@@ -25,6 +25,11 @@
  *           includes the turn of the tail. Margins grow with the bounds of speed and turn rate.
  * TIME      from the stamp to the first effect of the brakes may pass: scan_s + stale_s + delay_s + latency_s. The
  *           machine may be anywhere that it can reach in this time and the braking time.
+ * CLOCK     now_ns and the stamps are of one clock. While now_ns does not rise, nothing tells how old a frame is: the
+ *           heartbeat stands, and after 100 such calls the state is stop (STALE). So a controller must watch the
+ *           heartbeat. A clock that was set back is told (INVALID), and all is forgotten as by _reset. That is so where
+ *           now_ns goes back by more than 5 ms, or where the stamps of two frames in a row do. The stop then goes on by
+ *           itself as after the start: no reset is needed, but someone must look again where the sensor sees nothing.
  * DUST      returns between which most rays pass are doubtful. They count as soon as they persist in one place. That
  *           takes at most delay_s, which is part of TIME. Dense returns count at once.
  * MEMORY    of places: what was seen low, or of what hangs, is remembered for memory_s, until the bounds of the motion
@@ -35,7 +40,7 @@
  * UNITS     metres, radians, seconds, nanoseconds (stamps). NaN where there is no number.
  * THREADS   an opened stop belongs to one thread at a time.
  *
- * NOT COVERED   src/planar/stop/README.md states what is guaranteed, for which things, and under which assumptions.
+ * NOT COVERED   planar_stop.md of the package states what is guaranteed, for which things, and under which assumptions.
  *           The library is no certified safety component.
  */
 /* clang-format on */
@@ -97,10 +102,10 @@ typedef struct pose_wall_planar_stop_settings {
 } pose_wall_planar_stop_settings;
 
 /* A roadheader of 4.5 x 1.2 m. Fails iff: NULL. */
-int32_t pose_wall_planar_stop_settings_init(pose_wall_planar_stop_settings* settings);
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_init(pose_wall_planar_stop_settings* settings);
 /* The four corners of a rectangle, front and left as forward_axis +X has them. Fails iff: NULL, struct_size. */
-int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_settings* settings, double x_min_m, double x_max_m,
-                                        double y_min_m, double y_max_m);
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_settings* settings, double x_min_m,
+                                                          double x_max_m, double y_min_m, double y_max_m);
 /* Fails iff: settings NULL, not initialised (POSE_WALL_E_STRUCT_SIZE), POSE_WALL_E_VALUE_RANGE (*fault is written then,
  * unless fault is NULL). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_check(const pose_wall_planar_stop_settings* settings,
@@ -129,9 +134,9 @@ const char* pose_wall_planar_stop_state_name(uint32_t state);
 
 /* Why, in bits. */
 enum pose_wall_planar_stop_reason {
-  POSE_WALL_PLANAR_STOP_R_STALE = 1 << 0,     /* the last frame is older than stale_s, or there was none */
+  POSE_WALL_PLANAR_STOP_R_STALE = 1 << 0,     /* no frame, one older than stale_s, or a clock that stands */
   POSE_WALL_PLANAR_STOP_R_BLIND = 1 << 1,     /* a place in the way was not seen free */
-  POSE_WALL_PLANAR_STOP_R_INVALID = 1 << 2,   /* a stamp that went back or lies in the future, or hardly a return */
+  POSE_WALL_PLANAR_STOP_R_INVALID = 1 << 2,   /* a clock or stamp went back, a stamp of the future, few returns */
   POSE_WALL_PLANAR_STOP_R_FROZEN = 1 << 3,    /* the cloud came before, or 10 degrees of it and more: sensor or driver
                                                  hang, or packets were lost and the driver left the old points */
   POSE_WALL_PLANAR_STOP_R_MISSING = 1 << 4,   /* no motion was given, or it is not finite: every motion is assumed */
@@ -161,7 +166,7 @@ typedef struct pose_wall_planar_stop_result {
   uint32_t struct_size; /* set by the caller to sizeof(pose_wall_planar_stop_result) before the call */
   uint32_t state;       /* pose_wall_planar_stop_state */
   uint32_t reasons;     /* pose_wall_planar_stop_reason bits */
-  uint32_t heartbeat;   /* changes with every call */
+  uint32_t heartbeat;   /* changes with every call whose now_ns is later than those before: see CLOCK */
   int64_t stamp_ns;     /* of the last frame */
   int64_t now_ns;       /* of this call */
   uint64_t frames;      /* since it was opened or reset */
@@ -190,8 +195,10 @@ typedef struct pose_wall_planar_stop_result {
 
 typedef struct pose_wall_planar_stop pose_wall_planar_stop;
 
-/* Bytes of the block, at most 3 MiB. */
-uint64_t pose_wall_planar_stop_memory_needed(void);
+/* Bytes of the block, whatever the settings. Fails iff: NULL. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_memory_needed(uint64_t* bytes);
+/* Bytes that are enough, for static arrays. Of this version: a later one may need more, and then refuses the block. */
+#define POSE_WALL_PLANAR_STOP_BLOCK_MOST 3145728 /* 3 MiB */
 
 /* Places a stop in block, which may hold anything, stays the caller's and must not move. settings may be NULL:
  * defaults. Fails iff: config or stop or block NULL, config or settings not initialised, POSE_WALL_E_CONFIG_RULE,
@@ -207,15 +214,15 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_reset(pose_wall_planar_stop* sto
  * Fails as reset does. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* stop);
 
-/* One frame in, one result out. now_ns is of the clock of the stamps. motion may be NULL: nothing is given. Fails as
- * pose_wall_cloud_check does and iff: stop, cloud or result NULL, a struct_size, an unknown bit in given, not open,
- * busy. All is then unchanged; treat it as a stop. Cost: README.md has it. */
+/* One frame in, one result out. now_ns is of the clock of the stamps: see CLOCK. motion may be NULL: nothing is given.
+ * Fails as pose_wall_cloud_check does and iff: stop, cloud or result NULL, a struct_size, an unknown bit in given, not
+ * open, busy. All is then unchanged; treat it as a stop. Cost: planar_stop.md has it. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_process(pose_wall_planar_stop* stop, const pose_wall_cloud* cloud,
                                                         const pose_wall_planar_stop_motion* motion, int64_t now_ns,
                                                         pose_wall_planar_stop_result* result);
 
-/* The result for a moment without a frame. It is that of the last frame, until this is older than stale_s: then stop.
- * Fails iff: NULL, struct_size, not open, busy. */
+/* The result for a moment without a frame. It is that of the last frame, until this is older than stale_s or the clock
+ * goes back or stands: then stop. Fails iff: NULL, struct_size, not open, busy. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_tick(pose_wall_planar_stop* stop, int64_t now_ns,
                                                      pose_wall_planar_stop_result* result);
 

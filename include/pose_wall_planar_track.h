@@ -6,7 +6,8 @@
  * The tracker of pose_wall_planar: drives a machine on tracks along a route. pose_wall_planar.h is the manual of what
  * all parts share. The library drives nothing itself: commands go to the caller.
  *
- * POSES     of the turning centre, as in pose_wall_planar_plan.h, in the frame of the route.
+ * POSES     of the turning centre, x forward and y left, as in pose_wall_planar_plan.h, in the frame of the route.
+ *           pose_wall_planar_machine_of_base makes one of a pose of base. Speeds are along forward_axis then.
  * METHOD    Regulated pursuit (Macenski, Singh, Martin and Gines 2023: speed falls with curvature, with nearness and
  *           towards stops), with the law of a path follower in place of a point ahead: the route's own curvature, and
  *           feedback of the cross error and of the heading that lets both fade without overshoot within settle_m of
@@ -69,16 +70,20 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_track_settings_init(pose_wall_planar_
 /* POSE_WALL_OK, or POSE_WALL_E_VALUE_RANGE with the member at fault, if `fault` is not NULL. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_track_settings_check(const pose_wall_planar_track_settings* settings,
                                                                 pose_wall_planar_fault* fault);
-/* Bytes of the block. 0 for settings that are not valid. */
-uint64_t pose_wall_planar_track_memory_needed(const pose_wall_planar_track_settings* settings);
+/* Bytes of the block. settings NULL: the defaults. Fails iff: bytes NULL, settings as in the check. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_track_memory_needed(const pose_wall_planar_track_settings* settings,
+                                                               uint64_t* bytes);
+/* Bytes that are enough with the default settings, for static arrays. Of this version: a later one may need more, and
+ * then refuses the block. */
+#define POSE_WALL_PLANAR_TRACK_BLOCK_MOST 524288
 /* As pose_wall_planar_plan_open. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_track_open(const pose_wall_planar_track_settings* settings, void* block,
                                                       uint64_t block_bytes, pose_wall_planar_tracker** tracker);
 
 /* Copies a route, as pose_wall_planar_plan wrote it, and begins at its first pose. What was learnt of slip stays.
  * `clearance` may be NULL: nothing is near. Fails iff: NULL, not open, POSE_WALL_E_VALUE_RANGE for no pose or more than
- * path_max, POSE_WALL_E_POSE for a pose that is none, a curvature or length that is not finite, or lengths that fall.
- * The route before is then kept. */
+ * path_max, POSE_WALL_PLANAR_E_POSE for a pose that is none, a curvature or length that is not finite, or lengths that
+ * fall. The route before is then kept. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_track_route(pose_wall_planar_tracker* tracker,
                                                        const pose_wall_planar_path_pose* poses, uint32_t count,
                                                        pose_wall_planar_clearance clearance, void* context);
@@ -94,20 +99,20 @@ typedef struct pose_wall_planar_track_input {
 } pose_wall_planar_track_input;
 
 enum pose_wall_planar_track_state {
-  POSE_WALL_TRACK_IDLE = 0,      /* no route */
-  POSE_WALL_TRACK_FOLLOWING = 1, /* drives along the route */
-  POSE_WALL_TRACK_TURNING = 2,   /* on the spot */
-  POSE_WALL_TRACK_STOPPING = 3,  /* at a cusp, or before or after a turn: waits to stand still */
-  POSE_WALL_TRACK_DONE = 4,      /* stands at the end */
-  POSE_WALL_TRACK_OFF_PATH = 5,  /* too far from the route: a new one is needed */
-  POSE_WALL_TRACK_NO_POSE = 6    /* no good pose: stands until there is one */
+  POSE_WALL_PLANAR_TRACK_IDLE = 0,      /* no route */
+  POSE_WALL_PLANAR_TRACK_FOLLOWING = 1, /* drives along the route */
+  POSE_WALL_PLANAR_TRACK_TURNING = 2,   /* on the spot */
+  POSE_WALL_PLANAR_TRACK_STOPPING = 3,  /* at a cusp, or before or after a turn: waits to stand still */
+  POSE_WALL_PLANAR_TRACK_DONE = 4,      /* stands at the end */
+  POSE_WALL_PLANAR_TRACK_OFF_PATH = 5,  /* too far from the route: a new one is needed */
+  POSE_WALL_PLANAR_TRACK_NO_POSE = 6    /* no good pose: stands until there is one */
 };
 
 enum pose_wall_planar_track_slowed_by {
-  POSE_WALL_SLOWED_BY_NOTHING = 0,
-  POSE_WALL_SLOWED_BY_CURVE = 1,
-  POSE_WALL_SLOWED_BY_CLEARANCE = 2,
-  POSE_WALL_SLOWED_BY_STOP = 3 /* a cusp, a turn on the spot, or the end is near */
+  POSE_WALL_PLANAR_SLOWED_BY_NOTHING = 0,
+  POSE_WALL_PLANAR_SLOWED_BY_CURVE = 1,
+  POSE_WALL_PLANAR_SLOWED_BY_CLEARANCE = 2,
+  POSE_WALL_PLANAR_SLOWED_BY_STOP = 3 /* a cusp, a turn on the spot, or the end is near */
 };
 
 typedef struct pose_wall_planar_track_command {

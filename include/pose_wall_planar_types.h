@@ -20,19 +20,19 @@ extern "C" {
 /* POSE_WALL_PLANAR_ABI_VERSION of the library that is linked. */
 uint32_t pose_wall_planar_abi_version(void);
 
-/* Status codes of this library, beside those of pose_wall.h. */
+/* Status codes of this library, beside those of pose_wall.h. No other library has these numbers. */
 enum pose_wall_planar_status {
-  POSE_WALL_E_SCAN = -100,     /* a scan whose beams, angles or ranges are outside their limits */
-  POSE_WALL_E_POSE = -101,     /* a pose or a covariance that is not finite, or no covariance */
-  POSE_WALL_E_MAP_FILE = -102, /* saved bytes of another version, cut off or damaged */
-  POSE_WALL_E_GRID = -103,     /* a grid whose size, cells or resolution are outside their limits */
-  POSE_WALL_E_ORDER = -104     /* a call that comes too early or too late */
+  POSE_WALL_PLANAR_E_SCAN = -120,     /* a scan whose beams, angles or ranges are outside their limits */
+  POSE_WALL_PLANAR_E_POSE = -121,     /* a pose or a covariance that is not finite, or no covariance */
+  POSE_WALL_PLANAR_E_MAP_FILE = -122, /* saved bytes of another version, cut off or damaged */
+  POSE_WALL_PLANAR_E_GRID = -123,     /* a grid whose size, cells or resolution are outside their limits */
+  POSE_WALL_PLANAR_E_ORDER = -124     /* a call that comes too early or too late */
 };
-/* One English sentence, also for the codes of pose_wall.h; static storage. */
+/* The same as pose_wall_status_text, which knows the statuses of all libraries; static storage. */
 const char* pose_wall_planar_status_text(int32_t status);
 
-/* Poses that callers give are refused (POSE_WALL_E_POSE) if they are not finite, or beyond these: places of 1 nm and
- * turns of 1e-12 rad are told apart within them. */
+/* Poses that callers give are refused (POSE_WALL_PLANAR_E_POSE) if they are not finite, or beyond these: places of 1 nm
+ * and turns of 1e-12 rad are told apart within them. */
 #define POSE_WALL_PLANAR_FARTHEST_M 1e6
 #define POSE_WALL_PLANAR_TURNED_MOST_RAD 1e4
 
@@ -42,6 +42,18 @@ typedef struct pose_wall_planar_pose {
   double y_m;
   double yaw_rad; /* counted from x to y, to the left; results are in (-pi, pi] */
 } pose_wall_planar_pose;
+
+/* The planner and the tracker take poses of the machine, everything else takes and gives poses of base (AXES.md). The
+ * machine's frame lies at its turning centre, midway between the tracks, with x along forward_axis and y to the left of
+ * that. centre_m: x, y of the turning centre in base; NULL: the origin of base. From a pose of base to the machine's,
+ * and back; both may be the same struct. yaw_rad of the result is in (-pi, pi]. Fails iff: config or a pose NULL,
+ * config not initialised, POSE_WALL_E_VALUE_RANGE (a centre that is not within 20 m), POSE_WALL_PLANAR_E_POSE. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_machine_of_base(const pose_wall_config* config, const double centre_m[2],
+                                                           const pose_wall_planar_pose* base,
+                                                           pose_wall_planar_pose* machine);
+POSE_WALL_CHECKED int32_t pose_wall_planar_base_of_machine(const pose_wall_config* config, const double centre_m[2],
+                                                           const pose_wall_planar_pose* machine,
+                                                           pose_wall_planar_pose* base);
 
 /* A fault of settings: the member's name and its range; static storage. */
 typedef struct pose_wall_planar_fault {

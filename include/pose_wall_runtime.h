@@ -115,7 +115,7 @@ enum pose_wall_runtime_status {
   POSE_WALL_RUNTIME_E_STALE = -108,   /* the last publication is watchdog_ns old: see FRESHNESS */
   POSE_WALL_RUNTIME_E_MOTION = -109   /* this runtime has no motion: see MOTION */
 };
-/* One English sentence, static storage; for every status of pose_wall.h too. */
+/* The same as pose_wall_status_text, which knows the statuses of all libraries; static storage. */
 const char* pose_wall_runtime_status_text(int32_t status);
 
 /* ---------------------------------------------------------------------------------------------- publications */
@@ -243,15 +243,16 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_options_check(const pose_wall_runtim
 typedef struct pose_wall_runtime pose_wall_runtime;
 
 /* Bytes of the block. It holds the engine, the motion if there is one, and queue_frames + 2 frames of cloud_points_max
- * x point_bytes_max bytes. A sink adds box_backlog frames. Fails iff: NULL, struct_size, an option, the config (as
- * pose_wall_memory_needed). */
+ * x point_bytes_max bytes. A sink adds box_backlog frames. options NULL: the defaults. Fails iff: config or bytes
+ * NULL, struct_size, an option, the config (as pose_wall_memory_needed). */
 POSE_WALL_CHECKED int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config,
                                                           const pose_wall_runtime_options* options, uint64_t* bytes);
 
 /* Places a runtime in block, which may hold anything, must be aligned to POSE_WALL_BLOCK_ALIGNMENT, stays the caller's
- * and must not move. Starts no thread. *runtime is set only on success. Fails as memory_needed, for a block misaligned
- * or too small, and for one in which a runtime was started and not stopped (POSE_WALL_E_BUSY). A block in shared memory
- * outlives its process: clear it if that process died with the runtime running. */
+ * and must not move. Starts no thread. *runtime is set only on success. options NULL: the defaults, so without a
+ * callback and a sink. Fails as memory_needed, for a block misaligned or too small, and for one in which a runtime was
+ * started and not stopped (POSE_WALL_E_BUSY). A block in shared memory outlives its process: clear it if that process
+ * died with the runtime running. */
 POSE_WALL_CHECKED int32_t pose_wall_runtime_open(const pose_wall_config* config,
                                                  const pose_wall_runtime_options* options, void* block,
                                                  uint64_t block_bytes, pose_wall_runtime** runtime);
@@ -266,11 +267,11 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_start(pose_wall_runtime* runtime);
 /* Waits until every frame is worked, every tick handled and every record written, including frames pushed meanwhile.
  * For tests and offline work. Fails iff: NULL, not open, called back, not running or stopped meanwhile
  * (POSE_WALL_RUNTIME_E_STATE). */
-int32_t pose_wall_runtime_wait_idle(pose_wall_runtime* runtime);
+POSE_WALL_CHECKED int32_t pose_wall_runtime_wait_idle(pose_wall_runtime* runtime);
 
 /* Asks the worker to end after its present activity; push is refused from now on. Returns at once. Fails iff: NULL, not
  * open, not running. */
-int32_t pose_wall_runtime_request_stop(pose_wall_runtime* runtime);
+POSE_WALL_CHECKED int32_t pose_wall_runtime_request_stop(pose_wall_runtime* runtime);
 
 /* Ends the threads and waits for them: for the frame in work, the callback, and the records that wait for the sink.
  * Waiting frames are dropped and counted. Does nothing if already stopped. Fails iff: NULL, not open, called back. */
@@ -337,7 +338,7 @@ POSE_WALL_CHECKED int32_t pose_wall_runtime_motion_image(const pose_wall_runtime
 POSE_WALL_CHECKED int32_t pose_wall_runtime_last_points(const pose_wall_runtime* runtime, pose_wall_points* points);
 
 /* Makes the worker read its clock. Fails iff: NULL, not open, not running. */
-int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime);
+POSE_WALL_CHECKED int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime);
 
 /* ---------------------------------------------------------------------------------------------- statistics */
 
@@ -412,7 +413,8 @@ typedef struct pose_wall_runtime_statistics {
 
 /* A consistent copy of the counters; the times are read beside them without a lock. Set struct_size first. Fails iff:
  * NULL, not open, struct_size. */
-int32_t pose_wall_runtime_statistics_now(const pose_wall_runtime* runtime, pose_wall_runtime_statistics* statistics);
+POSE_WALL_CHECKED int32_t pose_wall_runtime_statistics_now(const pose_wall_runtime* runtime,
+                                                           pose_wall_runtime_statistics* statistics);
 
 #ifdef __cplusplus
 }

@@ -15,6 +15,7 @@
 #include "pose_wall.h"
 #include "self_test.hpp"
 #include "self_test_digest.hpp"
+#include "struct_sizes.hpp"
 #include "struct_versions.hpp"
 
 #define POSE_WALL_TEXT_OF(number) POSE_WALL_TEXT_OF_(number)
@@ -80,11 +81,11 @@ std::int32_t check_whole_cloud(const pose_wall_cloud& cloud) {
 }
 
 // The whole result in *whole, or why there is no image of it.
-std::int32_t image_status(const pose_wall_result& result, std::uint32_t image_size, std::size_t known_size,
+std::int32_t image_status(const pose_wall_result& result, std::uint32_t image_size, std::uint32_t known_size,
                           pose_wall_result* whole) {
-  const std::int32_t status = pose_wall::check_struct_size(result.struct_size, pose_wall::kResultSizes);
+  std::int32_t status = pose_wall::check_struct_size(result.struct_size, pose_wall::kResultSizes);
+  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(image_size, {0, known_size, known_size});
   if (status != POSE_WALL_OK) return status;
-  if (image_size != known_size) return POSE_WALL_E_STRUCT_SIZE;
   *whole = pose_wall::read_struct<pose_wall_result>(&result, result.struct_size);
   return whole->mark == pose_wall::mark_of(*whole) ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_RESULT;
 }
@@ -347,7 +348,7 @@ POSE_WALL_EXPORT uint64_t pose_wall_self_test_bytes(void) {
 
 POSE_WALL_EXPORT int32_t pose_wall_self_test(void* block, uint64_t bytes, pose_wall_self_test_report* report) {
   if (block == nullptr || report == nullptr) return POSE_WALL_E_NULL;
-  if (report->struct_size != sizeof(*report)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*report); size != POSE_WALL_OK) return size;
   if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
   if (bytes < pose_wall::self_test_bytes()) return POSE_WALL_E_BLOCK_SMALL;
   return pose_wall::self_test(pose_wall::kSelfTestDigest, block, report);

@@ -11,7 +11,7 @@ namespace {
 // Each table is one string of all its texts, the last one for unknown numbers. A loader has no pointers to place, and
 // the code is a ninth of a switch's:
 constexpr char kStatusTexts[] =
-#define STATUS(number, text) text "\0"
+#define STATUS(name, number, text) text "\0"
 #include "names.def"
     "unknown status";
 constexpr char kReasonNames[] =
@@ -44,8 +44,8 @@ constexpr char kSenseNames[] =
     "unknown";
 
 // The numbers of the same rows, in the order of their texts:
-constexpr std::int8_t kStatuses[] = {
-#define STATUS(number, text) number,
+constexpr std::int16_t kStatuses[] = {
+#define STATUS(name, number, text) number,
 #include "names.def"
 };
 constexpr std::int64_t kReasonBits[] = {

@@ -27,6 +27,12 @@ constexpr std::int32_t check_struct_size(std::uint32_t size, const StructSizes& 
   return size > sizes.now && size <= kStructMost ? POSE_WALL_E_STRUCT_NEWER : POSE_WALL_E_STRUCT_SIZE;
 }
 
+// Of a struct that has had one version so far.
+template <typename Struct>
+constexpr std::int32_t check_struct(const Struct& from) {
+  return check_struct_size(from.struct_size, {sizeof(Struct), sizeof(Struct), sizeof(Struct)});
+}
+
 // The whole struct, from the one that a caller gave.
 template <typename Struct>
 Struct read_struct(const void* from, std::uint32_t size) {

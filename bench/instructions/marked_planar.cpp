@@ -71,7 +71,7 @@ struct Chain {
     must(pose_wall_planar_slam_open(nullptr, blocks.take(bytes), bytes, &slam), "match");
     must(pose_wall_planar_map_memory_needed(nullptr, &bytes), "map");
     must(pose_wall_planar_map_open(nullptr, blocks.take(bytes), bytes, &map), "map");
-    bytes = pose_wall_planar_stop_memory_needed();
+    must(pose_wall_planar_stop_memory_needed(&bytes), "stop");
     must(pose_wall_planar_stop_open(&config, nullptr, blocks.take(bytes), bytes, &stop), "stop");
     motion.struct_size = sizeof motion;
     motion.given = POSE_WALL_PLANAR_STOP_MEASURED;

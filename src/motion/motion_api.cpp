@@ -13,6 +13,7 @@
 #include "motion/motion_report.hpp"
 #include "motion/odometry.hpp"
 #include "pose_wall_motion.h"
+#include "struct_sizes.hpp"
 #include "struct_versions.hpp"
 
 namespace {
@@ -263,7 +264,7 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_process(pose_wall_motion* motion, cons
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_give(const pose_wall_motion* motion, pose_wall_inputs* inputs) {
   if (motion == nullptr || inputs == nullptr) return POSE_WALL_E_NULL;
-  if (inputs->struct_size != sizeof(*inputs)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*inputs); size != POSE_WALL_OK) return size;
   const Inside inside(holder_of(motion));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   const bool told = holder_of(motion)->odometry.tell(&inputs->odometry);
@@ -315,7 +316,7 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_image_fill(const pose_wall_motion_resu
                                                      pose_wall_motion_image* image) {
   if (result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
   std::int32_t status = pose_wall::check_struct_size(result->struct_size, kMotionResultSizes);
-  if (status == POSE_WALL_OK && image->struct_size != sizeof(*image)) status = POSE_WALL_E_STRUCT_SIZE;
+  if (status == POSE_WALL_OK) status = pose_wall::check_struct(*image);
   if (status == POSE_WALL_OK && source != nullptr) {
     status = pose_wall::check_struct_size(source->struct_size, pose_wall::kSourceSizes);
   }

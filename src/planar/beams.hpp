@@ -33,7 +33,7 @@ struct BeamScan {
   }
 };
 
-// POSE_WALL_OK, POSE_WALL_E_NULL, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_E_SCAN.
+// POSE_WALL_OK, POSE_WALL_E_NULL, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_PLANAR_E_SCAN.
 std::int32_t check_scan(const pose_wall_planar_scan* scan);
 
 // A checked scan. `beams` has room for POSE_WALL_PLANAR_BEAMS_MAX.

@@ -3,8 +3,32 @@
 //
 // What the C ABIs of all parts share.
 
+#include "base/math/elementary.hpp"
 #include "export.hpp"
+#include "planar/forward_axis.hpp"
+#include "planar/pose2.hpp"
 #include "pose_wall_planar_types.h"
+
+namespace {
+
+using pose_wall::planar::Pose2;
+
+// Where the machine's frame stands in base.
+std::int32_t machine_in_base(const pose_wall_config* config, const double* centre_m, Pose2* machine) {
+  if (config == nullptr) return POSE_WALL_E_NULL;
+  const std::int32_t status = pose_wall_config_check(config, nullptr);
+  if (status != POSE_WALL_OK) return status;
+  constexpr double kFarthest_m = 20.0;  // the largest edge of the planner's rectangle
+  for (int k = 0; centre_m != nullptr && k < 2; ++k) {
+    if (!pose_wall::planar::is_within(centre_m[k], -kFarthest_m, kFarthest_m)) return POSE_WALL_E_VALUE_RANGE;
+  }
+  const Eigen::Vector2d forward = pose_wall::planar::forward_of(*config);
+  *machine = {centre_m != nullptr ? centre_m[0] : 0.0, centre_m != nullptr ? centre_m[1] : 0.0,
+              pose_wall::arc_tangent2(forward.y(), forward.x())};
+  return POSE_WALL_OK;
+}
+
+}  // namespace
 
 extern "C" {
 
@@ -13,20 +37,32 @@ POSE_WALL_EXPORT uint32_t pose_wall_planar_abi_version(void) {
 }
 
 POSE_WALL_EXPORT const char* pose_wall_planar_status_text(int32_t status) {
-  switch (status) {
-    case POSE_WALL_E_SCAN:
-      return "the planar scan's beams, angles or ranges are outside their limits";
-    case POSE_WALL_E_POSE:
-      return "a pose or a covariance is not finite, or is no covariance";
-    case POSE_WALL_E_MAP_FILE:
-      return "the saved map is of another version, cut off or damaged";
-    case POSE_WALL_E_GRID:
-      return "the grid's size, cells or resolution are outside their limits";
-    case POSE_WALL_E_ORDER:
-      return "the call comes too early or too late";
-    default:
-      return pose_wall_status_text(status);
-  }
+  return pose_wall_status_text(status);
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_machine_of_base(const pose_wall_config* config, const double centre_m[2],
+                                                          const pose_wall_planar_pose* base,
+                                                          pose_wall_planar_pose* machine) {
+  if (base == nullptr || machine == nullptr) return POSE_WALL_E_NULL;
+  Pose2 in_base;
+  const std::int32_t status = machine_in_base(config, centre_m, &in_base);
+  if (status != POSE_WALL_OK) return status;
+  if (!pose_wall::planar::is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
+  *machine = pose_wall::planar::pose_for_caller(compose(pose_wall::planar::pose_of(*base), in_base));
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_base_of_machine(const pose_wall_config* config, const double centre_m[2],
+                                                          const pose_wall_planar_pose* machine,
+                                                          pose_wall_planar_pose* base) {
+  if (machine == nullptr || base == nullptr) return POSE_WALL_E_NULL;
+  Pose2 in_base;
+  const std::int32_t status = machine_in_base(config, centre_m, &in_base);
+  if (status != POSE_WALL_OK) return status;
+  if (!pose_wall::planar::is_pose(*machine)) return POSE_WALL_PLANAR_E_POSE;
+  const Pose2 base_in_machine = between(in_base, Pose2{});
+  *base = pose_wall::planar::pose_for_caller(compose(pose_wall::planar::pose_of(*machine), base_in_machine));
+  return POSE_WALL_OK;
 }
 
 }  // extern "C"

@@ -39,8 +39,13 @@ int32_t check(const pose_wall_runtime* handle) {
 // The memory of engine and motion, after all other checks; and the options as this version reads them.
 int32_t inner_bytes(const pose_wall_config* config, const pose_wall_runtime_options* options,
                     pose_wall_runtime_options* whole, InnerBytes* bytes) {
-  if (config == nullptr || options == nullptr) return POSE_WALL_E_NULL;
-  int32_t status = pose_wall::runtime::read_options(*options, nullptr, whole);
+  if (config == nullptr) return POSE_WALL_E_NULL;
+  int32_t status = POSE_WALL_OK;
+  if (options == nullptr) {
+    pose_wall::runtime::set_defaults(whole);
+  } else {
+    status = pose_wall::runtime::read_options(*options, nullptr, whole);
+  }
   if (status == POSE_WALL_OK) status = pose_wall_memory_needed(config, &bytes->engine);
   if (status != POSE_WALL_OK) return status;
   const bool moves = whole->motion != nullptr && pose_wall::runtime::config_wants_motion(*config);

@@ -4,7 +4,9 @@
 """What the archive holds: one object without state, without code that runs before main, without anything a linker would
 merge with a user's, without tables to unwind; and of the size that the page of sizes says.
 
-    check_archive.py READELF ARCHIVE [--text-max BYTES] [--sizes PAGE MACHINE [--note]]
+    check_archive.py READELF ARCHIVE [--text-max BYTES] [--of LIBRARY] [--sizes PAGE MACHINE [--note]]
+
+--of: the page's columns begin with this word.
 """
 
 import argparse
@@ -70,6 +72,7 @@ def main():
     parser.add_argument("readelf")
     parser.add_argument("archive")
     parser.add_argument("--text-max", type=int)
+    parser.add_argument("--of", default="")
     sizes_page.add_options(parser)
     options = parser.parse_args()
     sizes, faults = sizes_of(read(options.readelf, options.archive, "-SW"))
@@ -79,9 +82,12 @@ def main():
         faults.append("there are section groups: a linker would keep one of two")
     if options.text_max is not None and sizes["text"] > options.text_max:
         faults.append(f"{sizes['text']} bytes of text are more than {options.text_max}")
-    faults += sizes_page.check_or_note(options, {
-        "text, KiB": f"{sizes['text'] / 1024:.1f}", "data, KiB": f"{sizes['writable'] / 1024:.1f}",
-        "relocated, KiB": f"{sizes['relocated'] / 1024:.1f}", "functions": str(functions)}, allowed)
+    of = options.of + " " if options.of else ""
+    found = {f"{of}text, KiB": f"{sizes['text'] / 1024:.1f}", f"{of}functions": str(functions)}
+    if not of:
+        found.update({"data, KiB": f"{sizes['writable'] / 1024:.1f}",
+                      "relocated, KiB": f"{sizes['relocated'] / 1024:.1f}"})
+    faults += sizes_page.check_or_note(options, found, allowed)
     print("\n".join(faults) or f"text {sizes['text'] / 1024:.1f} KiB, no writable data, "
           f"{sizes['relocated'] / 1024:.1f} KiB of relocated constants, {functions} functions")
     sys.exit(1 if faults else 0)

@@ -21,7 +21,7 @@ KEY_HELP = re.compile(rf'^POSE_WALL_[A-Z]+ *\(.*, {LITERAL}\)$', re.M)
 NAME = re.compile(rf'^(?:STATE|PART|SENSE) *\(\w+, {LITERAL}\)$', re.M)
 REASON = re.compile(rf'^REASON *\(\w+, "\w+", {LITERAL}\)$', re.M)
 # Of the statuses tools print only why a key refuses its value; the others are for programmers.
-STATUS = re.compile(rf'^STATUS *\(POSE_WALL_E_(?:VALUE|TEXT)_\w+, {LITERAL}\)$', re.M)
+STATUS = re.compile(rf'^STATUS *\(POSE_WALL_E_(?:VALUE|TEXT)_\w+, -\d+, {LITERAL}\)$', re.M)
 RULE = re.compile(rf'\{{"\w+", "\w+", {LITERAL}\}}')
 HAN = re.compile(r"[\u3400-\u9fff]")
 FIELD = re.compile(r"(?<!\{)\{(\w*)(:[^{}]*(?:\{\w*\}[^{}]*)*)?\}(?!\})")

@@ -473,6 +473,14 @@ class ArchiveSections(BrokenProject):
         self.fails("says functions 2 of here; it is 1", *noted, "here")
         self.fails("has no 'functions' of there", *noted, "there")
 
+    def test_page_of_sizes_of_another_library(self):
+        page = self.root / "SIZES.md"
+        noted = (*self.sections(SOURCE, "--of", "motion", "--sizes", page),)
+        self.write("SIZES.md", sizes_table("motion text, KiB | motion functions", here="0.0 | 1"))
+        self.passes(*noted, "here")
+        self.write("SIZES.md", sizes_table("motion text, KiB | motion functions", here="0.0 | 2"))
+        self.fails("says motion functions 2 of here; it is 1", *noted, "here")
+
     def test_noting_one_machine_keeps_the_others(self):
         page, columns = self.root / "SIZES.md", "text, KiB | data, KiB | relocated, KiB | functions | stack, KiB"
         noted = (*self.sections(SOURCE, "--sizes", page),)
@@ -602,7 +610,7 @@ class Translations(BrokenProject):
 
     def test_texts_of_the_engine(self):
         self.write("src/names.def",
-                   'STATUS(POSE_WALL_E_VALUE_TYPE, "no value")\nSTATUS(POSE_WALL_E_NULL, "no pointer")\n')
+                   'STATUS(POSE_WALL_E_VALUE_TYPE, -2, "no value")\nSTATUS(POSE_WALL_E_NULL, -1, "no pointer")\n')
         self.write("src/config.cpp", 'Rule rule = {true, {"a_min", "a_max", "a_min too great"}};\n')
         broken = self.check('say("the wall {name}");\n', self.WALL)
         self.fails("no value", *broken)
@@ -868,6 +876,68 @@ class Abi(BrokenProject):
         command = list(self.layout("", ""))
         command[3] = "-DEMULATOR=false"
         self.fails("implicit padding", *command)
+
+
+class Statuses(BrokenProject):
+    def check(self, number=-1, row='STATUS(POSE_WALL_E_NULL, -1, "no pointer")', other=-100, said="no pointer"):
+        self.write("include/pose_wall.h", f"enum pose_wall_status {{ POSE_WALL_E_NULL = {number} /* = 7 */ }};\n")
+        self.write("include/pose_wall_box.h", f"enum pose_wall_box_status {{\n  POSE_WALL_BOX_E_END = {other}\n}};\n")
+        self.write("include/README.md", "| -1 to -89 | [pose_wall.h](x) |\n| -90 to -110 | [pose_wall_box.h](x) |\n")
+        self.write("src/names.def", f'{row}\nSTATUS(POSE_WALL_BOX_E_END, {other}, "no record")\n')
+        self.write("said", f"-1\tplanar\t{said}\n{other}\tplanar\tno record\n-5\tplanar\tunknown status\n")
+        return CHECKS / "check_statuses.py", self.root, "cat", self.root / "said"
+
+    def test_passes(self):
+        self.passes(*self.check())
+
+    def test_one_number_for_two(self):
+        self.fails("-1 is POSE_WALL_E_NULL and POSE_WALL_BOX_E_END", *self.check(other=-1))
+
+    def test_out_of_its_range(self):
+        self.fails("POSE_WALL_BOX_E_END = -120 lies outside", *self.check(other=-120))
+
+    def test_another_number_in_the_list(self):
+        self.fails("POSE_WALL_E_NULL is -2 in the headers and -1", *self.check(number=-2))
+
+    def test_not_in_the_list(self):
+        self.fails("POSE_WALL_E_NULL is -1 in the headers and None", *self.check(row=""))
+
+    def test_one_sentence_for_two(self):
+        self.fails("of two statuses", *self.check(row='STATUS(POSE_WALL_E_NULL, -1, "no record")'))
+
+    def test_another_text(self):
+        self.fails("planar says 'no way' of -1", *self.check(said="no way"))
+
+
+class Headers(BrokenProject):
+    RULES = "install(FILES ${PROJECT_SOURCE_DIR}/include/LIMITS.md x RENAME planar_stop.md)\n"
+    PAGE = "[a](pose_wall.h) [b](pose_wall_planar_x.h)\n"
+    CALL = "POSE_WALL_CHECKED int32_t pose_wall_planar_x_open(void);\n"
+
+    def check(self, header, page=PAGE):
+        self.write("tools/cmake/pose_wall_install.cmake", self.RULES)
+        self.write("include/README.md", page)
+        self.write("include/pose_wall_planar_x.h", header)
+        return CHECKS / "check_headers.py", self.root
+
+    def test_passes(self):
+        self.passes(*self.check("/* LIMITS.md, planar_stop.md */\n" + self.CALL +
+                                "enum x {\n  POSE_WALL_PLANAR_A = 1, /* POSE_WALL_B = 2 */\n"
+                                "  POSE_WALL_PLANAR_B\n};\n"))
+
+    def test_unmarked(self):
+        self.fails("pose_wall_planar_x_open returns a status without", *self.check(self.CALL[18:]))
+
+    def test_prefix(self):
+        self.fails("POSE_WALL_X_A does not begin", *self.check("enum x {\n  POSE_WALL_X_A = 1,\n};\n"))
+        self.fails("POSE_WALL_X_B does not begin", *self.check("#define POSE_WALL_X_B 3\n"))
+
+    def test_page_that_no_package_holds(self):
+        self.fails("names src/x/README.md", *self.check("/* src/x/README.md has it */\n"))
+        self.fails("names MOTION.md", *self.check("/* MOTION.md has it */\n"))
+
+    def test_not_linked(self):
+        self.fails("include/README.md does not link it", *self.check(self.CALL, page="[a](pose_wall.h)\n"))
 
 
 class Budget(BrokenProject):

@@ -34,7 +34,7 @@ static int print_planar_blocks(void) {
   pose_wall_planar_scanner_settings scanner;
   pose_wall_planar_plan_settings plan;
   pose_wall_planar_track_settings track;
-  uint64_t scan, match, slam, map, localise;
+  uint64_t scan, match, slam, map, localise, route, drive, stop;
   if (pose_wall_planar_scanner_settings_init(&scanner) != POSE_WALL_OK) return 1;
   if (pose_wall_planar_plan_settings_init(&plan) != POSE_WALL_OK) return 1;
   if (pose_wall_planar_track_settings_init(&track) != POSE_WALL_OK) return 1;
@@ -43,14 +43,17 @@ static int print_planar_blocks(void) {
   if (pose_wall_planar_slam_memory_needed(NULL, &slam) != POSE_WALL_OK) return 1;
   if (pose_wall_planar_map_memory_needed(NULL, &map) != POSE_WALL_OK) return 1;
   if (pose_wall_planar_localise_memory_needed(NULL, &localise) != POSE_WALL_OK) return 1;
+  if (pose_wall_planar_plan_memory_needed(&plan, &route) != POSE_WALL_OK) return 1;
+  if (pose_wall_planar_track_memory_needed(&track, &drive) != POSE_WALL_OK) return 1;
+  if (pose_wall_planar_stop_memory_needed(&stop) != POSE_WALL_OK) return 1;
   print_planar("scan", scan);
   print_planar("match", match);
   print_planar("SLAM", slam);
   print_planar("map", map);
   print_planar("localise", localise);
-  print_planar("plan", pose_wall_planar_plan_memory_needed(&plan));
-  print_planar("track", pose_wall_planar_track_memory_needed(&track));
-  print_planar("stop", pose_wall_planar_stop_memory_needed());
+  print_planar("plan", route);
+  print_planar("track", drive);
+  print_planar("stop", stop);
   return 0;
 }
 

@@ -80,7 +80,7 @@ static int32_t open_parts(const roadway* road, parts* p) {
   if (status == POSE_WALL_OK) status = pose_wall_planar_map_memory_needed(NULL, &bytes);
   if (status == POSE_WALL_OK) status = pose_wall_planar_map_open(NULL, block_of(3, bytes), bytes, &p->map);
   if (status == POSE_WALL_OK) status = pose_wall_planar_stop_settings_init(&stopping);
-  bytes = pose_wall_planar_stop_memory_needed();
+  if (status == POSE_WALL_OK) status = pose_wall_planar_stop_memory_needed(&bytes);
   if (status == POSE_WALL_OK)
     status = pose_wall_planar_stop_open(&config, &stopping, block_of(4, bytes), bytes, &p->stop);
   return status;

@@ -89,16 +89,16 @@ TEST(Beams, AScanOutsideItsLimitsIsRefused) {
   EXPECT_EQ(check_scan(nullptr), POSE_WALL_E_NULL);
   EXPECT_EQ(with([](auto& s) { s.struct_size -= 16; }), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(with([](auto& s) { s.range_m = nullptr; }), POSE_WALL_E_NULL);
-  EXPECT_EQ(with([](auto& s) { s.beams = 0; }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& s) { s.beams = POSE_WALL_PLANAR_BEAMS_MAX + 1; }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& s) { s.angle_step_rad = 0.0; }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& s) { s.angle_step_rad = 7.0; }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& s) { s.angle_step_rad = std::nan(""); }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& s) { s.angle_min_rad = std::nan(""); }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& s) { s.range_max_m = 0.5; }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& s) { s.range_max_m = std::nan(""); }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& s) { s.sigma_m = 0.0; }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& s) { s.sensor.yaw_rad = std::nan(""); }), POSE_WALL_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.beams = 0; }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.beams = POSE_WALL_PLANAR_BEAMS_MAX + 1; }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.angle_step_rad = 0.0; }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.angle_step_rad = 7.0; }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.angle_step_rad = std::nan(""); }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.angle_min_rad = std::nan(""); }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.range_max_m = 0.5; }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.range_max_m = std::nan(""); }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.sigma_m = 0.0; }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& s) { s.sensor.yaw_rad = std::nan(""); }), POSE_WALL_PLANAR_E_SCAN);
 }
 
 }  // namespace

@@ -84,14 +84,15 @@ TEST(MapFiles, AnyBitThatFlipsAndAnyCutIsRefusedWithoutAChange) {
     const std::uint32_t bit =
         k < 8 * 64 ? k : random.below(static_cast<std::uint32_t>(8 * bad.size()));  // the head in full
     bad[bit / 8] = static_cast<unsigned char>(bad[bit / 8] ^ (1U << bit % 8));
-    ASSERT_EQ(other.load(bad), POSE_WALL_E_MAP_FILE) << bit;
+    ASSERT_EQ(other.load(bad), POSE_WALL_PLANAR_E_MAP_FILE) << bit;
   }
   for (std::size_t size = 1; size < good.size(); size += size < 100 ? 1 : 57) {
-    ASSERT_EQ(other.load({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)}), POSE_WALL_E_MAP_FILE);
+    ASSERT_EQ(other.load({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)}),
+              POSE_WALL_PLANAR_E_MAP_FILE);
   }
   auto longer = good;
   longer.push_back(0);
-  EXPECT_EQ(other.load(longer), POSE_WALL_E_MAP_FILE);
+  EXPECT_EQ(other.load(longer), POSE_WALL_PLANAR_E_MAP_FILE);
   EXPECT_EQ(other.saved(), before);
   EXPECT_EQ(other.load(good), POSE_WALL_OK);
 }
@@ -114,12 +115,12 @@ TEST(MapFiles, AWrongTileWithARightSumIsRefused) {
   };
   constexpr std::size_t kFirst = 40, kSecond = 40 + 4120;
   EXPECT_EQ(with([](auto&) {}), POSE_WALL_OK);
-  EXPECT_EQ(with([](auto& b) { b[8] = 2; }), POSE_WALL_E_MAP_FILE);                     // version
-  EXPECT_EQ(with([](auto& b) { b[24] = 1; }), POSE_WALL_E_MAP_FILE);                    // cell size
-  EXPECT_EQ(with([](auto& b) { b[kSecond] = 0; }), POSE_WALL_E_MAP_FILE);               // the same tile twice
-  EXPECT_EQ(with([](auto& b) { b[kFirst + 4] = 1; }), POSE_WALL_E_MAP_FILE);            // out of order
-  EXPECT_EQ(with([](auto& b) { b[kSecond + 3] = 0x10; }), POSE_WALL_E_MAP_FILE);        // out of reach
-  EXPECT_EQ(with([](auto& b) { b[kSecond + 24 + 99] = 0x80; }), POSE_WALL_E_MAP_FILE);  // a cell with the mark
+  EXPECT_EQ(with([](auto& b) { b[8] = 2; }), POSE_WALL_PLANAR_E_MAP_FILE);                     // version
+  EXPECT_EQ(with([](auto& b) { b[24] = 1; }), POSE_WALL_PLANAR_E_MAP_FILE);                    // cell size
+  EXPECT_EQ(with([](auto& b) { b[kSecond] = 0; }), POSE_WALL_PLANAR_E_MAP_FILE);               // the same tile twice
+  EXPECT_EQ(with([](auto& b) { b[kFirst + 4] = 1; }), POSE_WALL_PLANAR_E_MAP_FILE);            // out of order
+  EXPECT_EQ(with([](auto& b) { b[kSecond + 3] = 0x10; }), POSE_WALL_PLANAR_E_MAP_FILE);        // out of reach
+  EXPECT_EQ(with([](auto& b) { b[kSecond + 24 + 99] = 0x80; }), POSE_WALL_PLANAR_E_MAP_FILE);  // a cell with the mark
   EXPECT_EQ(map.saved(), good);
   auto settings = map_settings();
   settings.tiles = 1;
@@ -127,7 +128,7 @@ TEST(MapFiles, AWrongTileWithARightSumIsRefused) {
   EXPECT_EQ(small.load(good), POSE_WALL_E_BUFFER_SMALL);
   settings.tiles = 2;
   settings.cell_m = 0.1;
-  EXPECT_EQ(OpenedMap(settings).load(good), POSE_WALL_E_MAP_FILE);
+  EXPECT_EQ(OpenedMap(settings).load(good), POSE_WALL_PLANAR_E_MAP_FILE);
 }
 
 TEST(MapFiles, ATileWithAWrongSumIsRefused) {
@@ -144,13 +145,14 @@ TEST(MapFiles, ATileWithAWrongSumIsRefused) {
     change(bad);
     return pose_wall_planar_map_put_tile(other.get(), &bad);
   };
-  EXPECT_EQ(with([](auto& t) { t.cells[77] ^= 1; }), POSE_WALL_E_MAP_FILE);
-  EXPECT_EQ(with([](auto& t) { t.column = 1; }), POSE_WALL_E_MAP_FILE);
-  EXPECT_EQ(with([](auto& t) { t.stamp_ns = 1; }), POSE_WALL_E_MAP_FILE);
+  EXPECT_EQ(with([](auto& t) { t.cells[77] ^= 1; }), POSE_WALL_PLANAR_E_MAP_FILE);
+  EXPECT_EQ(with([](auto& t) { t.column = 1; }), POSE_WALL_PLANAR_E_MAP_FILE);
+  EXPECT_EQ(with([](auto& t) { t.stamp_ns = 1; }), POSE_WALL_PLANAR_E_MAP_FILE);
   EXPECT_EQ(with([](auto& t) { t.struct_size = 8; }), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(with([](auto& t) { t.cell_m = std::nan(""), t.crc32 = pose_wall::planar::crc_of(t); }),
-            POSE_WALL_E_MAP_FILE);
-  EXPECT_EQ(with([](auto& t) { t.row = 2000000000, t.crc32 = pose_wall::planar::crc_of(t); }), POSE_WALL_E_MAP_FILE);
+            POSE_WALL_PLANAR_E_MAP_FILE);
+  EXPECT_EQ(with([](auto& t) { t.row = 2000000000, t.crc32 = pose_wall::planar::crc_of(t); }),
+            POSE_WALL_PLANAR_E_MAP_FILE);
   EXPECT_EQ(other.saved(), empty);
   EXPECT_EQ(with([](auto&) {}), POSE_WALL_OK);
   EXPECT_EQ(other.saved(), map.saved());
@@ -240,9 +242,9 @@ TEST(MapFiles, AGridHasTheCellsOfTheMapAndUnknownElsewhere) {
   const auto with = [&](std::uint32_t width, std::uint32_t height, std::uint64_t capacity) {
     return pose_wall_planar_map_grid(map.get(), 0.0, 0.0, width, height, cells.data(), capacity, &grid);
   };
-  EXPECT_EQ(with(0, 1, 100), POSE_WALL_E_GRID);
-  EXPECT_EQ(with(1, 0, 100), POSE_WALL_E_GRID);
-  EXPECT_EQ(with(40000, 1, 50000), POSE_WALL_E_GRID);
+  EXPECT_EQ(with(0, 1, 100), POSE_WALL_PLANAR_E_GRID);
+  EXPECT_EQ(with(1, 0, 100), POSE_WALL_PLANAR_E_GRID);
+  EXPECT_EQ(with(40000, 1, 50000), POSE_WALL_PLANAR_E_GRID);
   EXPECT_EQ(with(10, 10, 99), POSE_WALL_E_BUFFER_SMALL);
 }
 

@@ -246,20 +246,20 @@ TEST(MapLimits, PosesAndPlacesThatAreNoneAreRefusedWithoutAChange) {
     for (int member = 0; member < 3; ++member) {
       pose_wall_planar_pose pose{0.0, 0.0, 0.0};
       (member == 0 ? pose.x_m : member == 1 ? pose.y_m : pose.yaw_rad) = bad;
-      EXPECT_EQ(pose_wall_planar_map_insert(map.get(), &beam->scan, &pose, &report), POSE_WALL_E_POSE) << bad;
+      EXPECT_EQ(pose_wall_planar_map_insert(map.get(), &beam->scan, &pose, &report), POSE_WALL_PLANAR_E_POSE) << bad;
       pose_wall_planar_ray ray{};
       ray.struct_size = sizeof(ray);
-      EXPECT_EQ(pose_wall_planar_map_ray(map.get(), &pose, 0.0, 1.0, 0, &ray), POSE_WALL_E_POSE);
+      EXPECT_EQ(pose_wall_planar_map_ray(map.get(), &pose, 0.0, 1.0, 0, &ray), POSE_WALL_PLANAR_E_POSE);
     }
     pose_wall_planar_cell cell{};
     cell.struct_size = sizeof(cell);
-    EXPECT_EQ(pose_wall_planar_map_cell(map.get(), bad, 0.0, &cell), POSE_WALL_E_POSE);
-    EXPECT_EQ(pose_wall_planar_map_cell(map.get(), 0.0, bad, &cell), POSE_WALL_E_POSE);
+    EXPECT_EQ(pose_wall_planar_map_cell(map.get(), bad, 0.0, &cell), POSE_WALL_PLANAR_E_POSE);
+    EXPECT_EQ(pose_wall_planar_map_cell(map.get(), 0.0, bad, &cell), POSE_WALL_PLANAR_E_POSE);
   }
   EXPECT_EQ(report.tiles, 77U);
   beam->scan.sigma_m = nan;
   const pose_wall_planar_pose pose{0.0, 0.0, 0.0};
-  EXPECT_EQ(pose_wall_planar_map_insert(map.get(), &beam->scan, &pose, &report), POSE_WALL_E_SCAN);
+  EXPECT_EQ(pose_wall_planar_map_insert(map.get(), &beam->scan, &pose, &report), POSE_WALL_PLANAR_E_SCAN);
   report.struct_size = 4;
   EXPECT_EQ(pose_wall_planar_map_insert(map.get(), &one_beam(2.0F)->scan, &pose, &report), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(map.saved(), before);

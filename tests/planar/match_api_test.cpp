@@ -179,27 +179,27 @@ TEST(MatchApi, ARefusedCallChangesNothing) {
     change(input);
     return pose_wall_planar_match_scan(matcher.get(), &scan, &input, &result);
   };
-  EXPECT_EQ(match([](auto&) {}), POSE_WALL_E_ORDER);
-  EXPECT_EQ(pose_wall_planar_match_add(matcher.get(), &scan, &pose), POSE_WALL_E_ORDER);
-  EXPECT_EQ(pose_wall_planar_match_begin(matcher.get(), std::nan(""), 0.0), POSE_WALL_E_POSE);
+  EXPECT_EQ(match([](auto&) {}), POSE_WALL_PLANAR_E_ORDER);
+  EXPECT_EQ(pose_wall_planar_match_add(matcher.get(), &scan, &pose), POSE_WALL_PLANAR_E_ORDER);
+  EXPECT_EQ(pose_wall_planar_match_begin(matcher.get(), std::nan(""), 0.0), POSE_WALL_PLANAR_E_POSE);
   ASSERT_EQ(pose_wall_planar_match_begin(matcher.get(), 0.0, 0.0), POSE_WALL_OK);
-  EXPECT_EQ(pose_wall_planar_match_add(matcher.get(), &bad, &pose), POSE_WALL_E_SCAN);
-  EXPECT_EQ(pose_wall_planar_match_add(matcher.get(), &scan, &nowhere), POSE_WALL_E_POSE);
-  EXPECT_EQ(pose_wall_planar_match_scan(matcher.get(), &bad, &good, &result), POSE_WALL_E_SCAN);
-  EXPECT_EQ(match([&](auto& in) { in.guess = nowhere; }), POSE_WALL_E_POSE);
+  EXPECT_EQ(pose_wall_planar_match_add(matcher.get(), &bad, &pose), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(pose_wall_planar_match_add(matcher.get(), &scan, &nowhere), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(pose_wall_planar_match_scan(matcher.get(), &bad, &good, &result), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(match([&](auto& in) { in.guess = nowhere; }), POSE_WALL_PLANAR_E_POSE);
   EXPECT_EQ(match([](auto& in) { in.reach_m = 38.1; }), POSE_WALL_E_VALUE_RANGE);
   EXPECT_EQ(match([](auto& in) { in.reach_rad = std::nan(""); }), POSE_WALL_E_VALUE_RANGE);
   EXPECT_EQ(match([](auto& in) { in.struct_size = 4; }), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(match([](auto& in) { in.has_prior = 2; }), POSE_WALL_E_VALUE_RANGE);
-  EXPECT_EQ(match([](auto& in) { in.has_prior = 1; }), POSE_WALL_E_POSE);  // all zeros are no covariance
+  EXPECT_EQ(match([](auto& in) { in.has_prior = 1; }), POSE_WALL_PLANAR_E_POSE);  // all zeros are no covariance
   const auto with_covariance = [&](std::vector<double> c) {
     return match([&](auto& in) {
       in.has_prior = 1;
       std::copy(c.begin(), c.end(), in.covariance);
     });
   };
-  EXPECT_EQ(with_covariance({1, 2, 0, 2, 1, 0, 0, 0, 1}), POSE_WALL_E_POSE);    // not positive
-  EXPECT_EQ(with_covariance({1, 0.5, 0, 0, 1, 0, 0, 0, 1}), POSE_WALL_E_POSE);  // not symmetric
+  EXPECT_EQ(with_covariance({1, 2, 0, 2, 1, 0, 0, 0, 1}), POSE_WALL_PLANAR_E_POSE);    // not positive
+  EXPECT_EQ(with_covariance({1, 0.5, 0, 0, 1, 0, 0, 0, 1}), POSE_WALL_PLANAR_E_POSE);  // not symmetric
   EXPECT_EQ(pose_wall_planar_match_scan(matcher.get(), nullptr, &good, &result), POSE_WALL_E_NULL);
   EXPECT_EQ(pose_wall_planar_match_scan(matcher.get(), &scan, nullptr, &result), POSE_WALL_E_NULL);
   EXPECT_EQ(pose_wall_planar_match_scan(nullptr, &scan, &good, &result), POSE_WALL_E_NULL);
@@ -210,7 +210,7 @@ TEST(MatchApi, ARefusedCallChangesNothing) {
   pose_wall_planar_matcher* opened = nullptr;
   EXPECT_EQ(pose_wall_planar_match_open(matcher.block(), 1000, &opened), POSE_WALL_E_BLOCK_SMALL);
   EXPECT_EQ(match([](auto&) {}), POSE_WALL_OK);
-  EXPECT_EQ(pose_wall_planar_match_add(matcher.get(), &scan, &pose), POSE_WALL_E_ORDER);
+  EXPECT_EQ(pose_wall_planar_match_add(matcher.get(), &scan, &pose), POSE_WALL_PLANAR_E_ORDER);
 }
 
 }  // namespace

@@ -80,12 +80,12 @@ TEST(ScanLaserScan, WhatIsNoScanIsRefused) {
     change(message);
     return scan_of(message, 1, nullptr, &scan);
   };
-  EXPECT_EQ(with([](auto& m) { m.count = 0; }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& m) { m.count = 7000; }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& m) { m.angle_min = std::nanf(""); }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& m) { m.angle_increment = std::nanf(""); }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& m) { m.angle_increment = 0.0F, m.angle_max = m.angle_min; }), POSE_WALL_E_SCAN);
-  EXPECT_EQ(with([](auto& m) { m.range_max = kInfinite; }), POSE_WALL_E_SCAN);
+  EXPECT_EQ(with([](auto& m) { m.count = 0; }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& m) { m.count = 7000; }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& m) { m.angle_min = std::nanf(""); }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& m) { m.angle_increment = std::nanf(""); }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& m) { m.angle_increment = 0.0F, m.angle_max = m.angle_min; }), POSE_WALL_PLANAR_E_SCAN);
+  EXPECT_EQ(with([](auto& m) { m.range_max = kInfinite; }), POSE_WALL_PLANAR_E_SCAN);
   EXPECT_EQ(with([](auto& m) { m.ranges = nullptr; }), POSE_WALL_E_NULL);
   EXPECT_EQ(scan_of(half_turn(ranges), 0, nullptr, &scan), POSE_WALL_E_NULL);
   EXPECT_EQ(scan.struct_size, 0U);

@@ -40,13 +40,13 @@ TEST(SlamRefusals, ABadCallChangesNothing) {
   result.struct_size = sizeof(result);
   pose_wall_planar_scan scan = scan_of(run, 1);
   const pose_wall_planar_pose nowhere{std::nan(""), 0.0, 0.0}, far_off{2e6, 0.0, 0.0};
-  EXPECT_EQ(pose_wall_planar_slam_process(slam.get(), &scan, &nowhere, &result), POSE_WALL_E_POSE);
-  EXPECT_EQ(pose_wall_planar_slam_process(slam.get(), &scan, &far_off, &result), POSE_WALL_E_POSE);
+  EXPECT_EQ(pose_wall_planar_slam_process(slam.get(), &scan, &nowhere, &result), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(pose_wall_planar_slam_process(slam.get(), &scan, &far_off, &result), POSE_WALL_PLANAR_E_POSE);
   EXPECT_EQ(pose_wall_planar_slam_process(slam.get(), nullptr, nullptr, &result), POSE_WALL_E_NULL);
   EXPECT_EQ(pose_wall_planar_slam_process(slam.get(), &scan, nullptr, nullptr), POSE_WALL_E_NULL);
   EXPECT_EQ(pose_wall_planar_slam_process(nullptr, &scan, nullptr, &result), POSE_WALL_E_NULL);
   scan.beams = 0;
-  EXPECT_EQ(pose_wall_planar_slam_process(slam.get(), &scan, nullptr, &result), POSE_WALL_E_SCAN);
+  EXPECT_EQ(pose_wall_planar_slam_process(slam.get(), &scan, nullptr, &result), POSE_WALL_PLANAR_E_SCAN);
   result.struct_size = 8;
   EXPECT_EQ(pose_wall_planar_slam_process(slam.get(), &scan, nullptr, &result), POSE_WALL_E_STRUCT_SIZE);
   pose_wall_planar_keyframe keyframe{};
@@ -79,11 +79,13 @@ TEST(SavedTrail, NoDamageIsTakenIn) {
   std::vector<unsigned char> damaged = saved;
   for (std::size_t k = 0; k < saved.size(); k += 1 + saved.size() / 200) {
     damaged[k] ^= static_cast<unsigned char>(1U << (k % 8));
-    EXPECT_EQ(pose_wall_planar_slam_load(to.get(), damaged.data(), damaged.size(), nullptr), POSE_WALL_E_MAP_FILE) << k;
+    EXPECT_EQ(pose_wall_planar_slam_load(to.get(), damaged.data(), damaged.size(), nullptr),
+              POSE_WALL_PLANAR_E_MAP_FILE)
+        << k;
     damaged[k] = saved[k];
   }
   for (const std::size_t cut : {std::size_t{0}, std::size_t{3}, std::size_t{20}, saved.size() / 2, saved.size() - 1}) {
-    EXPECT_EQ(pose_wall_planar_slam_load(to.get(), saved.data(), cut, nullptr), POSE_WALL_E_MAP_FILE) << cut;
+    EXPECT_EQ(pose_wall_planar_slam_load(to.get(), saved.data(), cut, nullptr), POSE_WALL_PLANAR_E_MAP_FILE) << cut;
   }
   EXPECT_EQ(to.saved(), empty);
   const OpenedSlam small(16);

@@ -71,6 +71,8 @@ class Standing {
       frame();
     }
   }
+  // The clock of stamps and calls.
+  void set_clock(std::int64_t by_ns) { stamp_ns_ += by_ns; }
   pose_wall_planar_stop_result tick_after(std::int64_t after_ns) {
     EXPECT_EQ(pose_wall_planar_stop_tick(stop_.get(), stamp_ns_ + after_ns, &stop_.result()), POSE_WALL_OK);
     return stop_.result();
@@ -299,6 +301,69 @@ TEST(StopApi, AFrozenFrameAnOldOneAndOneOfTheFutureStop) {
   EXPECT_EQ(future.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
 }
 
+constexpr std::uint32_t kStop = POSE_WALL_PLANAR_STOP_STOP, kGo = POSE_WALL_PLANAR_STOP_GO;
+
+TEST(StopApi, TheHeartDoesNotBeatWhileTheClockStandsAndThenItStops) {
+  Standing standing(road());
+  const std::uint32_t beat = standing.frames(30).heartbeat;
+  for (int k = 1; k < 100; ++k) {  // a clock in coarse steps
+    const auto result = standing.tick_after(1000000);
+    ASSERT_EQ(result.heartbeat, beat) << k;
+    ASSERT_EQ(result.state, kGo) << k;
+  }
+  const auto stands = standing.tick_after(1000000);
+  EXPECT_EQ(stands.state, kStop);
+  EXPECT_NE(stands.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
+  EXPECT_EQ(stands.heartbeat, beat);
+  EXPECT_EQ(standing.tick_after(1000001).heartbeat, beat + 1);
+  EXPECT_EQ(standing.tick_after(1000000).heartbeat, beat + 1);  // a little back is no beat
+  EXPECT_EQ(standing.frames(30).state, kGo);
+}
+
+TEST(StopApi, AClockThatIsSetBackIsToldAndTheStopGoesOnByItselfWithoutOldKnowledge) {
+  constexpr std::int64_t kHour_ns = 3600 * std::int64_t{1000000000};
+  for (const bool ticks : {false, true}) {
+    Standing standing(road());
+    ASSERT_EQ(standing.frames(30).state, kGo);
+    standing.set_clock(-kHour_ns);
+    const auto told = ticks ? standing.tick_after(1000000) : standing.frame();
+    EXPECT_EQ(told.state, kStop);
+    EXPECT_NE(told.reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);
+    // What someone saw before nobody knows any more: the places without a ray are blind.
+    const auto after = standing.frames(30);
+    EXPECT_EQ(after.reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);
+    EXPECT_EQ(after.state, kStop);
+    EXPECT_NE(after.reasons & POSE_WALL_PLANAR_STOP_R_BLIND, 0U);
+    standing.confirm();
+    EXPECT_EQ(standing.frames(30).state, kGo);
+  }
+}
+
+TEST(StopApi, StampsThatGoBackAloneAreOneLateFrameOrAClock) {
+  Standing standing(road());
+  ASSERT_EQ(standing.frames(30).state, kGo);
+  const auto at = [&](std::int64_t stamp_ns) {
+    standing.take();
+    const pose_wall_cloud cloud = standing.scan().cloud(stamp_ns);
+    standing.set_clock(10000000);
+    EXPECT_EQ(pose_wall_planar_stop_process(standing.stop().get(), &cloud, &standing.motion(),
+                                            standing.stamp_ns() + 2000000, &standing.stop().result()),
+              POSE_WALL_OK);
+    return standing.stop().result();
+  };
+  const std::int64_t last = standing.stamp_ns();
+  EXPECT_NE(at(last - 50000000).reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);
+  EXPECT_EQ(standing.frames(30).state, kGo);  // one late frame: nothing is forgotten
+  const std::int64_t then = standing.stamp_ns();
+  EXPECT_NE(at(then - 50000000).reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);
+  EXPECT_NE(at(then - 50000000).reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);  // the same once more is no clock
+  const auto second = at(then - 40000000);
+  EXPECT_EQ(second.reasons & POSE_WALL_PLANAR_STOP_R_INVALID, 0U);
+  EXPECT_EQ(second.state, kStop);
+  EXPECT_EQ(second.frames, 1U);
+  EXPECT_EQ(standing.frames(30).state, kStop);  // forgotten
+}
+
 TEST(StopApi, ACoveredSensorADirtySectorAndALongPuddleAreBlind) {
   Standing covered(road());
   covered.frames(30);
@@ -439,8 +504,8 @@ TEST(StopApi, RefusedCallsChangeNothing) {
 TEST(StopApi, OpenRefusesWhatItCannotUse) {
   pose_wall_config config;
   ASSERT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
-  AlignedBlock block(pose_wall_planar_stop_memory_needed(), Dirt::kOnes);
-  EXPECT_LE(block.size(), 3U << 20U);
+  AlignedBlock block(pose_wall::test::stop_bytes_needed(), Dirt::kOnes);
+  EXPECT_LE(block.size(), std::uint64_t{POSE_WALL_PLANAR_STOP_BLOCK_MOST});
   pose_wall_planar_stop* stop = nullptr;
   EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.size() - 1, &stop),
             POSE_WALL_E_BLOCK_SMALL);
@@ -478,7 +543,7 @@ TEST(StopApi, SettingsOutsideTheirRangesAreNamed) {
 
 TEST(StopApi, TheSameFramesGiveTheSameBitsWhateverTheBlockHeld) {
   const auto digest = [](Dirt dirt) {
-    AlignedBlock block(pose_wall_planar_stop_memory_needed(), dirt);
+    AlignedBlock block(pose_wall::test::stop_bytes_needed(), dirt);
     pose_wall_config config;
     (void)pose_wall_config_init(&config);
     (void)pose_wall_config_set_number(&config, "extrinsic_z", 1.5);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../support/aligned_block.hpp"
+#include "bytes_needed.hpp"
 #include "pose_wall_planar_track.h"
 
 namespace pose_wall::test {
@@ -96,8 +97,7 @@ struct LoopTracker {
   AlignedBlock block;
   pose_wall_planar_tracker* tracker = nullptr;
 
-  explicit LoopTracker(const pose_wall_planar_track_settings& settings)
-      : block(pose_wall_planar_track_memory_needed(&settings), Dirt::kRandom) {
+  explicit LoopTracker(const pose_wall_planar_track_settings& settings) : block(bytes_needed(settings), Dirt::kRandom) {
     if (pose_wall_planar_track_open(&settings, block.data(), block.size(), &tracker) != POSE_WALL_OK) tracker = nullptr;
   }
 };
@@ -183,10 +183,10 @@ inline LoopRun run_loop(LoopTracker& tracker, const std::vector<pose_wall_planar
       moment.turn_rad_s = command.turn_rad_s;
       moment.state = command.state;
       moment.slowed_by = command.slowed_by;
-      if (command.state == POSE_WALL_TRACK_FOLLOWING) run.moments.push_back(moment);
+      if (command.state == POSE_WALL_PLANAR_TRACK_FOLLOWING) run.moments.push_back(moment);
       run.last_state = command.state;
       run.seconds = moment.time_s;
-      if (command.state == POSE_WALL_TRACK_DONE || command.state == POSE_WALL_TRACK_OFF_PATH) break;
+      if (command.state == POSE_WALL_PLANAR_TRACK_DONE || command.state == POSE_WALL_PLANAR_TRACK_OFF_PATH) break;
     }
     machine.run(now_s, kStep_s);
   }
@@ -208,7 +208,7 @@ inline std::vector<pose_wall_planar_path_pose> route_of(const std::vector<RouteP
   double along = 0.0;
   for (const RoutePiece& piece : pieces) {
     const int steps = piece.length_m > 0.0 ? std::max(1, static_cast<int>(piece.length_m / 0.25)) : 1;
-    if (route.back().drive * piece.drive != 1 && route.size() > 1) route.back().flags |= POSE_WALL_PATH_STOP;
+    if (route.back().drive * piece.drive != 1 && route.size() > 1) route.back().flags |= POSE_WALL_PLANAR_PATH_STOP;
     for (int k = 0; k < steps; ++k) {
       const double s = piece.length_m / steps, turn = piece.turn_rad / steps, half = 0.5 * turn;
       const double chord = piece.drive * s * (std::abs(half) > 1e-9 ? std::sin(half) / half : 1.0);
@@ -217,12 +217,12 @@ inline std::vector<pose_wall_planar_path_pose> route_of(const std::vector<RouteP
       at.yaw_rad = std::remainder(at.yaw_rad + turn, 2.0 * 3.14159265358979323846);
       along += s;
       const double curvature = piece.length_m > 0.0 ? piece.drive * piece.turn_rad / piece.length_m : 0.0;
-      std::uint32_t flags = turn > 0.0 ? POSE_WALL_PATH_TURN_LEFT : POSE_WALL_PATH_TURN_RIGHT;
+      std::uint32_t flags = turn > 0.0 ? POSE_WALL_PLANAR_PATH_TURN_LEFT : POSE_WALL_PLANAR_PATH_TURN_RIGHT;
       if (piece.length_m > 0.0) flags = 0;
       route.push_back({at, curvature, along, piece.length_m > 0.0 ? piece.drive : 0, flags});
     }
   }
-  route.back().flags |= POSE_WALL_PATH_STOP;
+  route.back().flags |= POSE_WALL_PLANAR_PATH_STOP;
   return route;
 }
 

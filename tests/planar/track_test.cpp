@@ -45,7 +45,7 @@ TEST(Track, OnCurvesWithSlipDelayAndNoiseItStaysWithinFiveCentimetres) {
     const auto route = drawn_route(seed);
     LoopTracker tracker(settings);
     const LoopRun run = run_loop(tracker, route, route[0].pose, drawn_ground(seed), seed);
-    EXPECT_EQ(run.last_state, static_cast<std::uint32_t>(POSE_WALL_TRACK_DONE)) << seed;
+    EXPECT_EQ(run.last_state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_TRACK_DONE)) << seed;
     EXPECT_LT(run.worst_cross(0.0, true), 0.05) << seed;
     EXPECT_LT(run.worst_cross(0.0, false), 0.10) << seed;
     const auto& goal = route.back().pose;
@@ -63,7 +63,7 @@ TEST(Track, DoesNotOscillate) {
       const auto route = route_of({{60.0, 0.0, drive}});
       LoopTracker tracker(usual_track());
       const LoopRun run = run_loop(tracker, route, {0.0, 0.0, 0.0}, ground, 3);
-      EXPECT_EQ(run.last_state, static_cast<std::uint32_t>(POSE_WALL_TRACK_DONE));
+      EXPECT_EQ(run.last_state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_TRACK_DONE));
       EXPECT_LT(run.worst_cross(5.0, false), 0.03) << delay;
       EXPECT_LE(run.swings(5.0, 0.015), 4) << delay;
     }
@@ -132,7 +132,7 @@ TEST(Track, StopsAtCuspsAndTurnsOnTheSpotTheLongWayIfToldSo) {
   const auto route = route_of({{4.0, 0.0, 1}, {5.0, 0.5, -1}, {0.0, 4.0, 0}, {4.0, 0.0, 1}});
   LoopTracker tracker(usual_track());
   const LoopRun run = run_loop(tracker, route, {0.0, 0.0, 0.0}, drawn_ground(4), 5);
-  EXPECT_EQ(run.last_state, static_cast<std::uint32_t>(POSE_WALL_TRACK_DONE));
+  EXPECT_EQ(run.last_state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_TRACK_DONE));
   const auto& goal = route.back().pose;
   EXPECT_LT(std::hypot(run.end.x_m - goal.x_m, run.end.y_m - goal.y_m), 0.08);
   bool forward = false, backward = false;
@@ -159,7 +159,7 @@ TEST(Track, ThePlannersRoutesAreDrivenWithinTheirMargin) {
     };
     const pose_wall_planar_pose start = at(0, 0.3), goal = at(grid.places_xy.size() / 2 - 1, 1.0);
     const auto result = planner.plan(grid, start, goal);
-    if (result.outcome != POSE_WALL_PLAN_FOUND) continue;
+    if (result.outcome != POSE_WALL_PLANAR_PLAN_FOUND) continue;
     ++driven;
     const std::vector<pose_wall_planar_path_pose> route(planner.poses.begin(), planner.poses.begin() + result.poses);
     LoopTracker tracker(usual_track());
@@ -167,7 +167,7 @@ TEST(Track, ThePlannersRoutesAreDrivenWithinTheirMargin) {
       return pose_wall_planar_plan_clearance(static_cast<const pose_wall_planar_planner*>(context), x, y);
     };
     const LoopRun run = run_loop(tracker, route, start, drawn_ground(seed), seed + 1, clearance, planner.planner);
-    EXPECT_EQ(run.last_state, static_cast<std::uint32_t>(POSE_WALL_TRACK_DONE)) << seed;
+    EXPECT_EQ(run.last_state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_TRACK_DONE)) << seed;
     EXPECT_LT(run.worst_cross(0.0, false), 0.1) << seed;
   }
   EXPECT_GE(driven, 5);
@@ -197,7 +197,7 @@ TEST(Track, WithoutAGoodPoseItStandsAndGoesOnWithTheNext) {
   LoopTracker tracker(usual_track());
   std::int64_t now_ns = 5;
   const auto as_it_is = [](auto&) {};
-  EXPECT_EQ(steps(tracker, 1, &now_ns, as_it_is).state, static_cast<std::uint32_t>(POSE_WALL_TRACK_IDLE));
+  EXPECT_EQ(steps(tracker, 1, &now_ns, as_it_is).state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_TRACK_IDLE));
   ASSERT_EQ(pose_wall_planar_track_route(tracker.tracker, route.data(), static_cast<std::uint32_t>(route.size()),
                                          nullptr, nullptr),
             POSE_WALL_OK);
@@ -205,7 +205,7 @@ TEST(Track, WithoutAGoodPoseItStandsAndGoesOnWithTheNext) {
   const auto expect_stop = [&](auto change) {
     EXPECT_GT(steps(tracker, 40, &now_ns, as_it_is).speed_m_s, 0.1);
     const auto command = steps(tracker, 1, &now_ns, change);
-    EXPECT_EQ(command.state, static_cast<std::uint32_t>(POSE_WALL_TRACK_NO_POSE));
+    EXPECT_EQ(command.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_TRACK_NO_POSE));
     EXPECT_EQ(command.speed_m_s, 0.0);
     EXPECT_EQ(command.left_m_s, 0.0);
     EXPECT_TRUE(std::isnan(command.cross_error_m));
@@ -221,9 +221,9 @@ TEST(Track, WithoutAGoodPoseItStandsAndGoesOnWithTheNext) {
   expect_stop([](auto& i) { i.pose_ns = std::numeric_limits<std::int64_t>::max(); });
   expect_stop([](auto& i) { i.pose_ns = std::numeric_limits<std::int64_t>::min(); });
   const auto off = steps(tracker, 40, &now_ns, [](auto& i) { i.pose.y_m = 0.6; });
-  EXPECT_EQ(off.state, static_cast<std::uint32_t>(POSE_WALL_TRACK_OFF_PATH));
+  EXPECT_EQ(off.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_TRACK_OFF_PATH));
   EXPECT_EQ(off.speed_m_s, 0.0);
-  EXPECT_EQ(steps(tracker, 40, &now_ns, as_it_is).state, static_cast<std::uint32_t>(POSE_WALL_TRACK_OFF_PATH));
+  EXPECT_EQ(steps(tracker, 40, &now_ns, as_it_is).state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_TRACK_OFF_PATH));
 }
 
 TEST(Track, OddRoutesEndWell) {
@@ -237,16 +237,16 @@ TEST(Track, OddRoutesEndWell) {
     return steps(tracker, 200, &now_ns, as_it_is).state;
   };
   const pose_wall_planar_path_pose here{{1.0, 0.0, 0.0}, 0.0, 0.0, 0, 0};
-  const auto done = static_cast<std::uint32_t>(POSE_WALL_TRACK_DONE);
+  const auto done = static_cast<std::uint32_t>(POSE_WALL_PLANAR_TRACK_DONE);
   EXPECT_EQ(state_after({here}), done);
   auto same = here;
   same.drive = 1;
   EXPECT_EQ(state_after({here, same, same, same}), done);
   auto spot = here;
-  spot.flags = POSE_WALL_PATH_TURN_LEFT;
+  spot.flags = POSE_WALL_PLANAR_PATH_TURN_LEFT;
   EXPECT_EQ(state_after({here, spot, spot}), done);
   auto stops = same;
-  stops.flags = POSE_WALL_PATH_STOP;
+  stops.flags = POSE_WALL_PLANAR_PATH_STOP;
   EXPECT_EQ(state_after({here, stops, stops, stops, stops}), done);
 }
 
@@ -262,10 +262,10 @@ TEST(Track, WrongArgumentsAreRefusedAndTheRouteStays) {
   EXPECT_EQ(set([](auto&) {}, 10), POSE_WALL_OK);
   EXPECT_EQ(set([](auto&) {}, 0), POSE_WALL_E_VALUE_RANGE);
   EXPECT_EQ(set([](auto& r) { r.resize(9000); }, 9000), POSE_WALL_E_VALUE_RANGE);
-  EXPECT_EQ(set([&](auto& r) { r[3].pose.x_m = nan; }, 10), POSE_WALL_E_POSE);
-  EXPECT_EQ(set([&](auto& r) { r[3].curvature_1_m = nan; }, 10), POSE_WALL_E_POSE);
-  EXPECT_EQ(set([&](auto& r) { r[3].along_m = -1.0; }, 10), POSE_WALL_E_POSE);
-  EXPECT_EQ(set([&](auto& r) { r[3].drive = 7; }, 10), POSE_WALL_E_POSE);
+  EXPECT_EQ(set([&](auto& r) { r[3].pose.x_m = nan; }, 10), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(set([&](auto& r) { r[3].curvature_1_m = nan; }, 10), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(set([&](auto& r) { r[3].along_m = -1.0; }, 10), POSE_WALL_PLANAR_E_POSE);
+  EXPECT_EQ(set([&](auto& r) { r[3].drive = 7; }, 10), POSE_WALL_PLANAR_E_POSE);
   pose_wall_planar_track_input input = good_input(0.0, 1);
   pose_wall_planar_track_command command{};
   EXPECT_EQ(pose_wall_planar_track_step(tracker.tracker, &input, &command), POSE_WALL_E_STRUCT_SIZE);
@@ -275,7 +275,9 @@ TEST(Track, WrongArgumentsAreRefusedAndTheRouteStays) {
   settings.settle_m = nan;
   EXPECT_EQ(pose_wall_planar_track_settings_check(&settings, &fault), POSE_WALL_E_VALUE_RANGE);
   EXPECT_EQ(std::string(fault.member), "settle_m");
-  EXPECT_EQ(pose_wall_planar_track_memory_needed(&settings), 0U);
+  std::uint64_t bytes = 7;
+  EXPECT_EQ(pose_wall_planar_track_memory_needed(&settings, &bytes), POSE_WALL_E_VALUE_RANGE);
+  EXPECT_EQ(bytes, 7U);
 }
 
 // A stop lets the machine stand: what is learnt must not change, and the next command begins at rest.

@@ -76,7 +76,7 @@ TEST(RuntimeLife, TheCallbackMayAskForTheEndButNotWaitForIt) {
   };
   runtime.start();
   runtime.push(few(), 0);
-  pose_wall_runtime_wait_idle(runtime.get());  // idle or stopped, whichever it is first
+  (void)pose_wall_runtime_wait_idle(runtime.get());  // idle or stopped, whichever it is first
   EXPECT_EQ(pose_wall_runtime_stop(runtime.get()), POSE_WALL_OK);
   EXPECT_EQ(answers, (std::vector<std::int32_t>{POSE_WALL_RUNTIME_E_THREAD, POSE_WALL_RUNTIME_E_THREAD,
                                                 POSE_WALL_RUNTIME_E_THREAD, POSE_WALL_RUNTIME_E_THREAD, POSE_WALL_OK,
@@ -313,7 +313,7 @@ TEST(RuntimeLife, Storm) {
         reader.look();
         broken += accounts_balance(runtime.statistics()) ? 0 : 1;
         runtime.clock.advance(kMs);
-        pose_wall_runtime_tick(runtime.get());
+        (void)pose_wall_runtime_tick(runtime.get());
       }
     });
     threads.emplace_back([&] {
@@ -324,8 +324,8 @@ TEST(RuntimeLife, Storm) {
       for (int i = 0; i < kStormStarts; ++i) {
         (void)pose_wall_runtime_start(runtime.get());  // the other thread may have
         push_next(&runtime, pusher, &round);
-        if (i % 3 == 0) pose_wall_runtime_wait_idle(runtime.get());
-        if (i % 5 == 0) pose_wall_runtime_request_stop(runtime.get());
+        if (i % 3 == 0) (void)pose_wall_runtime_wait_idle(runtime.get());
+        if (i % 5 == 0) (void)pose_wall_runtime_request_stop(runtime.get());
         EXPECT_EQ(pose_wall_runtime_stop(runtime.get()), POSE_WALL_OK);
       }
     };

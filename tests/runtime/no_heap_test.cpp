@@ -56,16 +56,16 @@ TEST(RuntimeNoHeap, NothingAfterStart) {
     pose_wall_cloud cloud = cloud_of(i % 3 == 0 ? few : room, i * kMs);
     if (i % 10 == 9) cloud.data_bytes = 1;
     (void)pose_wall_runtime_push(r, &cloud);
-    if (i % 4 == 0) pose_wall_runtime_wait_idle(r);
+    if (i % 4 == 0) (void)pose_wall_runtime_wait_idle(r);
     clock.advance(400 * kMs);
-    pose_wall_runtime_tick(r);
+    (void)pose_wall_runtime_tick(r);
     (void)pose_wall_runtime_latest(r, &p);
     (void)pose_wall_runtime_image(r, &image);
-    pose_wall_runtime_statistics_now(r, &s);
+    (void)pose_wall_runtime_statistics_now(r, &s);
   }
-  pose_wall_runtime_wait_idle(r);
+  (void)pose_wall_runtime_wait_idle(r);
   EXPECT_EQ(stop_counting_heap_calls(), 0U);
-  pose_wall_runtime_statistics_now(r, &s);
+  (void)pose_wall_runtime_statistics_now(r, &s);
   EXPECT_GT(s.processed, 10U);
   EXPECT_GT(s.silences, 0U);
   EXPECT_GT(s.box_written, 10U);

@@ -44,6 +44,21 @@ TEST(RuntimeAbi, Numbers) {
   for (int i = 0; i < 7; ++i) EXPECT_EQ(activities[i], i);
 }
 
+TEST(RuntimeOptions, NullMeansTheDefaults) {
+  pose_wall_config config;
+  ASSERT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
+  pose_wall_runtime_options options;
+  ASSERT_EQ(pose_wall_runtime_options_init(&options), POSE_WALL_OK);
+  std::uint64_t bytes = 0, of_null = 0;
+  ASSERT_EQ(pose_wall_runtime_memory_needed(&config, &options, &bytes), POSE_WALL_OK);
+  ASSERT_EQ(pose_wall_runtime_memory_needed(&config, nullptr, &of_null), POSE_WALL_OK);
+  EXPECT_EQ(of_null, bytes);
+  AlignedBlock block(bytes, Dirt::kRandom);
+  pose_wall_runtime* runtime = nullptr;
+  ASSERT_EQ(pose_wall_runtime_open(&config, nullptr, block.data(), block.size(), &runtime), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_runtime_close(runtime), POSE_WALL_OK);
+}
+
 TEST(RuntimeAbi, EveryStatusAndDropHasAText) {
   std::set<std::string> texts;
   for (int status = -100; status >= -108; --status) texts.insert(pose_wall_runtime_status_text(status));

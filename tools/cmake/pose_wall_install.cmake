@@ -38,10 +38,13 @@ set(pose_wall_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libpose-wall-dev)
 pose_wall_sbom(${PROJECT_BINARY_DIR}/pose_wall.spdx.json pose_wall pose_wall_motion pose_wall_planar)
 install(FILES ${PROJECT_BINARY_DIR}/pose_wall.spdx.json DESTINATION ${pose_wall_doc_dir} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pose_wall_doc_dir} RENAME copyright COMPONENT development)
-install(FILES ${PROJECT_SOURCE_DIR}/include/README.md ${PROJECT_SOURCE_DIR}/include/SAFETY.md
+install(FILES ${PROJECT_SOURCE_DIR}/include/README.md ${PROJECT_SOURCE_DIR}/include/AXES.md
+  ${PROJECT_SOURCE_DIR}/include/SAFETY.md
   ${PROJECT_SOURCE_DIR}/include/LIMITS.md ${PROJECT_SOURCE_DIR}/include/SIZES.md
   ${PROJECT_SOURCE_DIR}/tools/example.c ${PROJECT_SOURCE_DIR}/tools/two_engines.c
   DESTINATION ${pose_wall_doc_dir} COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/src/planar/stop/README.md DESTINATION ${pose_wall_doc_dir} RENAME planar_stop.md
+  COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/plc/ DESTINATION ${pose_wall_doc_dir}/plc COMPONENT development
   FILES_MATCHING PATTERN "FB_PoseWall.*" PATTERN "controller.c" PATTERN "README.md"
   PATTERN "*.dbc" PATTERN "can_*.[ch]")

@@ -33,7 +33,7 @@ pose_wall_planar_stop_motion motion_of(const Motion& measured, const Motion& com
 
 }  // namespace
 
-DriveGuard::DriveGuard(const sim::SensorModel& model, bool has_looked) : block_(pose_wall_planar_stop_memory_needed()) {
+DriveGuard::DriveGuard(const sim::SensorModel& model, bool has_looked) : block_(POSE_WALL_PLANAR_STOP_BLOCK_MOST) {
   const api::Config config = drive_config(model);
   const pose_wall_planar_stop_settings settings = drive_stop_settings();
   require_ok(pose_wall_planar_stop_open(config.get(), &settings, block_.data(), block_.bytes(), &stop_),

@@ -74,7 +74,9 @@ DrivePilot::DrivePilot(const MapFile& map, std::vector<pose_wall_planar_pose> go
                        double patience_s)
     : goals_(std::move(goals)), patience_s_(patience_s), finder_(map), track_block_([speed_max_m_s] {
         const pose_wall_planar_track_settings settings = drive_track_settings(speed_max_m_s);
-        return pose_wall_planar_track_memory_needed(&settings);
+        std::uint64_t bytes = 0;
+        require_ok(pose_wall_planar_track_memory_needed(&settings, &bytes), translatable("the settings of the drive"));
+        return bytes;
       }()) {
   const pose_wall_planar_track_settings settings = drive_track_settings(speed_max_m_s);
   require_ok(pose_wall_planar_track_open(&settings, track_block_.data(), track_block_.bytes(), &tracker_),
@@ -101,8 +103,8 @@ void DrivePilot::plan_from(const pose_wall_planar_pose& base) {
   if (plans_ >= kPlansMost) return give_up(say("after {} routes it is not there", kPlansMost));
   leads_out_ = false;
   PlannedRoute route = finder_.to_goal(base, goals_);
-  if (route.result.outcome == POSE_WALL_PLAN_START_BLOCKED && leave_from(base)) return;
-  if (route.result.outcome == POSE_WALL_PLAN_GOAL_BLOCKED) {
+  if (route.result.outcome == POSE_WALL_PLANAR_PLAN_START_BLOCKED && leave_from(base)) return;
+  if (route.result.outcome == POSE_WALL_PLANAR_PLAN_GOAL_BLOCKED) {
     return give_up(say("there is no route. {} Another --goal may have room.", no_route_text(route.result)));
   }
   if (!route.is_found()) return give_up(say("there is no route. {}", no_route_text(route.result)));
@@ -182,10 +184,10 @@ Motion DrivePilot::follow(const Look& look) {
   input.pose_level_m = kLevel * position_sigma_m(*look.where);
   input.speed_m_s = look.measured.speed_m_s;
   require_ok(pose_wall_planar_track_step(tracker_, &input, &command_), translatable("the route"));
-  const bool is_back = command_.state == POSE_WALL_TRACK_DONE && leads_out_;
-  if (command_.state == POSE_WALL_TRACK_DONE && !leads_out_) phase_ = PilotPhase::kArrived;
-  if (is_back || command_.state == POSE_WALL_TRACK_OFF_PATH) plan_from(look.where->pose);
-  if (command_.state != POSE_WALL_TRACK_NO_POSE) {
+  const bool is_back = command_.state == POSE_WALL_PLANAR_TRACK_DONE && leads_out_;
+  if (command_.state == POSE_WALL_PLANAR_TRACK_DONE && !leads_out_) phase_ = PilotPhase::kArrived;
+  if (is_back || command_.state == POSE_WALL_PLANAR_TRACK_OFF_PATH) plan_from(look.where->pose);
+  if (command_.state != POSE_WALL_PLANAR_TRACK_NO_POSE) {
     sought_ns_ = look.now_ns;
     remember(look.where->pose);
     if (phase_ == PilotPhase::kFollowing && is_held()) look_for_another_way(look.where->pose);

@@ -223,7 +223,7 @@ void LiveRuntime::reopen(const api::Config& config) {
 
 void LiveRuntime::wait_idle() {
   const std::shared_lock<std::shared_mutex> locked(handle_lock_);
-  pose_wall_runtime_wait_idle(runtime_);
+  (void)pose_wall_runtime_wait_idle(runtime_);
 }
 
 void LiveRuntime::called_back(void* user, const pose_wall_publication* publication) {
@@ -301,7 +301,7 @@ pose_wall_runtime_statistics LiveRuntime::statistics() const {
   pose_wall_runtime_statistics statistics{};
   statistics.struct_size = sizeof statistics;
   const std::shared_lock<std::shared_mutex> locked(handle_lock_);
-  pose_wall_runtime_statistics_now(runtime_, &statistics);
+  (void)pose_wall_runtime_statistics_now(runtime_, &statistics);
   return statistics;
 }
 

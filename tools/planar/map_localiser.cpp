@@ -103,7 +103,7 @@ bool MapLocaliser::open(const KnownMap& map, const pose_wall_planar_localise_set
              translatable("the settings of localisation"));
   if (!(map.trail ? add_trail(map, localise_) : add_cells(map.cells, localise_))) return false;
   const std::int32_t status = pose_wall_planar_localise_finish(localise_);
-  if (status == POSE_WALL_E_ORDER) {
+  if (status == POSE_WALL_PLANAR_E_ORDER) {
     throw PlanarError(say("{}: the map is empty: nothing was seen in it", map.file.string()));
   }
   require_ok(status, translatable("the map"));

@@ -44,8 +44,8 @@ constexpr SettingWord<PlanSettings> kPlanWords[] = {
 };
 
 const char* turn_word(std::uint32_t flags) {
-  if ((flags & POSE_WALL_PATH_TURN_LEFT) != 0) return "left";
-  return (flags & POSE_WALL_PATH_TURN_RIGHT) != 0 ? "right" : "";
+  if ((flags & POSE_WALL_PLANAR_PATH_TURN_LEFT) != 0) return "left";
+  return (flags & POSE_WALL_PLANAR_PATH_TURN_RIGHT) != 0 ? "right" : "";
 }
 
 }  // namespace
@@ -88,7 +88,11 @@ pose_wall_planar_plan_settings take_plan_settings(const pose_wall_planar_grid& g
 }
 
 RoutePlanner::RoutePlanner(const pose_wall_planar_plan_settings& settings)
-    : block_(pose_wall_planar_plan_memory_needed(&settings)) {
+    : block_([&settings] {
+        std::uint64_t bytes = 0;
+        require_ok(pose_wall_planar_plan_memory_needed(&settings, &bytes), translatable("the settings of the route"));
+        return bytes;
+      }()) {
   require_ok(pose_wall_planar_plan_open(&settings, block_.data(), block_.bytes(), &planner_),
              translatable("the settings of the route"));
 }
@@ -104,7 +108,7 @@ PlannedRoute RoutePlanner::plan(const pose_wall_planar_grid& grid, const pose_wa
                                      static_cast<std::uint32_t>(route.poses.size()), &route.result),
                translatable("the route"));
     route.processor_ms = thread_ms() - started_ms;
-    if (route.result.outcome != POSE_WALL_PLAN_ROOM_SMALL) break;
+    if (route.result.outcome != POSE_WALL_PLANAR_PLAN_ROOM_SMALL) break;
     route.poses.resize(route.result.poses);
   }
   route.poses.resize(route.is_found() ? route.result.poses : 0);
@@ -158,26 +162,26 @@ std::string blocked_place_text(const pose_wall_planar_grid& grid, const pose_wal
 
 std::string no_route_text(const pose_wall_planar_plan_result& result) {
   switch (result.outcome) {
-    case POSE_WALL_PLAN_START_BLOCKED:
+    case POSE_WALL_PLANAR_PLAN_START_BLOCKED:
       return tr(
           "The machine does not fit at the start: with its margin it stands on cells that are occupied or unknown.");
-    case POSE_WALL_PLAN_GOAL_BLOCKED:
+    case POSE_WALL_PLANAR_PLAN_GOAL_BLOCKED:
       return tr(
           "The machine does not fit at the goal: with its margin it would stand on cells that are occupied or "
           "unknown.");
-    case POSE_WALL_PLAN_NOT_CONNECTED:
+    case POSE_WALL_PLANAR_PLAN_NOT_CONNECTED:
       return tr("No free cells lead from the start to the goal: a wall or unknown ground lies between them.");
-    case POSE_WALL_PLAN_TOO_NARROW:
+    case POSE_WALL_PLANAR_PLAN_TOO_NARROW:
       return say("The widest way is too narrow: at x {:.2f} m, y {:.2f} m it is {:.2f} m wide.", result.place.x_m,
                  result.place.y_m, result.width_m);
-    case POSE_WALL_PLAN_TOO_TIGHT:
+    case POSE_WALL_PLANAR_PLAN_TOO_TIGHT:
       return say(
           "The machine cannot turn through: the search got as far as x {:.2f} m, y {:.2f} m. A corner is too "
           "tight for its length.",
           result.place.x_m, result.place.y_m);
-    case POSE_WALL_PLAN_LIST_FULL:
+    case POSE_WALL_PLANAR_PLAN_LIST_FULL:
       return say("The search ran out of room after {} places.", result.places);
-    case POSE_WALL_PLAN_WORK_LIMIT:
+    case POSE_WALL_PLANAR_PLAN_WORK_LIMIT:
       return say("The search ended at its limit of {} expansions.", result.expansions);
     default:
       return pose_wall_planar_plan_outcome_text(result.outcome);
@@ -191,8 +195,8 @@ std::string route_as_csv(const PlannedRoute& route) {
   for (const pose_wall_planar_path_pose& at : route.poses) {
     csv += csv_line({std::to_string(number++), csv_number(at.pose.x_m), csv_number(at.pose.y_m),
                      csv_number(at.pose.yaw_rad), csv_number(at.curvature_1_m), csv_number(at.along_m),
-                     std::to_string(at.drive), (at.flags & POSE_WALL_PATH_STOP) != 0 ? "1" : "0",
-                     (at.flags & POSE_WALL_PATH_CUSP) != 0 ? "1" : "0", turn_word(at.flags)});
+                     std::to_string(at.drive), (at.flags & POSE_WALL_PLANAR_PATH_STOP) != 0 ? "1" : "0",
+                     (at.flags & POSE_WALL_PLANAR_PATH_CUSP) != 0 ? "1" : "0", turn_word(at.flags)});
   }
   return csv;
 }
@@ -221,7 +225,7 @@ void draw_route(const PlannedRoute& route, const pose_wall_planar_plan_settings&
       scene->machines.push_back({at.pose, outline, "#9fc6ad", ""});
       drawn_m = at.along_m;
     }
-    if ((at.flags & POSE_WALL_PATH_CUSP) != 0) scene->dots.push_back({here, kReverseColour, ""});
+    if ((at.flags & POSE_WALL_PLANAR_PATH_CUSP) != 0) scene->dots.push_back({here, kReverseColour, ""});
   }
   scene->legend.push_back({kPathColour, tr("route, forwards")});
   scene->legend.push_back({kReverseColour, tr("route, backwards")});

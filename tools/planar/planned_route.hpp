@@ -29,7 +29,7 @@ struct PlannedRoute {
   std::vector<pose_wall_planar_path_pose> poses;  // empty: there is none
   double processor_ms = 0.0;
 
-  bool is_found() const { return result.outcome == POSE_WALL_PLAN_FOUND; }
+  bool is_found() const { return result.outcome == POSE_WALL_PLANAR_PLAN_FOUND; }
 };
 
 class RoutePlanner {

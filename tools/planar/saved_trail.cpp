@@ -79,7 +79,7 @@ SavedTrail::SavedTrail(const std::filesystem::path& file, const std::string& byt
                translatable("the settings of the map"));
     status = pose_wall_planar_slam_load(slam_, bytes.data(), bytes.size(), nullptr);
   }
-  if (status == POSE_WALL_E_MAP_FILE) {
+  if (status == POSE_WALL_PLANAR_E_MAP_FILE) {
     refuse_trail(file,
                  tr("the trail is cut off or damaged: its checksum does not fit. Copy it again, or make the map again "
                     "with pose_wall map"));

@@ -82,7 +82,7 @@ class Soak {
     need(pose_wall_runtime_start(runtime_));
     start_counting_heap_calls();
     plan_.accelerated > 0 ? run_accelerated() : run_by_the_clock();
-    pose_wall_runtime_wait_idle(runtime_);
+    (void)pose_wall_runtime_wait_idle(runtime_);
     look();
     outcome_.resident_end_kb = resident_kb();
     outcome_.heap_calls = stop_counting_heap_calls();

@@ -71,23 +71,23 @@ std::string route_table(const PlannedRoute& route, const RoutePlanner& planner) 
 std::optional<BlockingCell> blocking_of(const MapFile& map, const pose_wall_planar_plan_settings& settings,
                                         const PlannedRoute& route, const pose_wall_planar_pose& from,
                                         const pose_wall_planar_pose& to) {
-  if (route.result.outcome == POSE_WALL_PLAN_START_BLOCKED) return blocking_cell(map.grid(), settings, from);
-  if (route.result.outcome == POSE_WALL_PLAN_GOAL_BLOCKED) return blocking_cell(map.grid(), settings, to);
+  if (route.result.outcome == POSE_WALL_PLANAR_PLAN_START_BLOCKED) return blocking_cell(map.grid(), settings, from);
+  if (route.result.outcome == POSE_WALL_PLANAR_PLAN_GOAL_BLOCKED) return blocking_cell(map.grid(), settings, to);
   return std::nullopt;
 }
 
 std::string why_none(const PlanOptions& options, const MapFile& map, const pose_wall_planar_plan_settings& settings,
                      const PlannedRoute& route, const pose_wall_planar_pose& from, const pose_wall_planar_pose& to) {
-  if (route.result.outcome == POSE_WALL_PLAN_START_BLOCKED) {
+  if (route.result.outcome == POSE_WALL_PLANAR_PLAN_START_BLOCKED) {
     return blocked_place_text(map.grid(), settings, from, "--from " + options.from);
   }
-  if (route.result.outcome == POSE_WALL_PLAN_GOAL_BLOCKED) {
+  if (route.result.outcome == POSE_WALL_PLANAR_PLAN_GOAL_BLOCKED) {
     return blocked_place_text(map.grid(), settings, to, "--to " + options.to);
   }
   std::string text = no_route_text(route.result);
-  if (route.result.outcome == POSE_WALL_PLAN_LIST_FULL) {
+  if (route.result.outcome == POSE_WALL_PLANAR_PLAN_LIST_FULL) {
     text += std::string(" ") + tr("--set places_max and open_max give it more.");
-  } else if (route.result.outcome == POSE_WALL_PLAN_WORK_LIMIT) {
+  } else if (route.result.outcome == POSE_WALL_PLANAR_PLAN_WORK_LIMIT) {
     text += std::string(" ") + tr("--set expansions_max gives it more.");
   }
   return text;

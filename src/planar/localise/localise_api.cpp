@@ -10,6 +10,7 @@
 #include "export.hpp"
 #include "planar/held.hpp"
 #include "planar/localise/localiser.hpp"
+#include "struct_sizes.hpp"
 
 namespace {
 
@@ -184,7 +185,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_init(pose_wall_plana
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_check(const pose_wall_planar_localise_settings* settings,
                                                                   pose_wall_planar_fault* fault) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
   const struct {
     double value, least, most;
     const char *member, *rule;
@@ -236,11 +237,11 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add(pose_wall_planar_localise
                                                        const pose_wall_planar_pose* pose, const float* xy_m,
                                                        uint32_t points) {
   if (pose == nullptr || xy_m == nullptr) return POSE_WALL_E_NULL;
-  if (!is_pose(*pose)) return POSE_WALL_E_POSE;
-  if (points > POSE_WALL_PLANAR_BEAMS_MAX || !are_points(xy_m, points)) return POSE_WALL_E_SCAN;
+  if (!is_pose(*pose)) return POSE_WALL_PLANAR_E_POSE;
+  if (points > POSE_WALL_PLANAR_BEAMS_MAX || !are_points(xy_m, points)) return POSE_WALL_PLANAR_E_SCAN;
   return inside(localise, [&](Body& body) {
     PlaceMap& map = body.localiser.map();
-    if (map.is_finished()) return std::int32_t{POSE_WALL_E_ORDER};
+    if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     return add_points(&map, pose_of(*pose), xy_m, points) ? std::int32_t{POSE_WALL_OK}
                                                           : std::int32_t{POSE_WALL_E_BLOCK_SMALL};
   });
@@ -249,12 +250,12 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add(pose_wall_planar_localise
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_localise* localise,
                                                             const pose_wall_planar_grid* grid) {
   if (grid == nullptr) return POSE_WALL_E_NULL;
-  if (grid->struct_size != sizeof(*grid)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*grid); size != POSE_WALL_OK) return size;
   if (grid->cells == nullptr) return POSE_WALL_E_NULL;
-  if (!is_grid(*grid)) return POSE_WALL_E_GRID;
+  if (!is_grid(*grid)) return POSE_WALL_PLANAR_E_GRID;
   return inside(localise, [&](Body& body) {
     PlaceMap& map = body.localiser.map();
-    if (map.is_finished()) return std::int32_t{POSE_WALL_E_ORDER};
+    if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     return add_cells(&map, *grid) ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_BLOCK_SMALL};
   });
 }
@@ -262,7 +263,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_loc
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_finish(pose_wall_planar_localise* localise) {
   return inside(localise, [](Body& body) {
     PlaceMap& map = body.localiser.map();
-    if (map.is_finished() || map.is_empty()) return std::int32_t{POSE_WALL_E_ORDER};
+    if (map.is_finished() || map.is_empty()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     map.finish();
     return std::int32_t{POSE_WALL_OK};
   });
@@ -273,13 +274,13 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_loca
                                                            const pose_wall_planar_pose* odometry,
                                                            pose_wall_planar_localise_result* result) {
   if (result == nullptr) return POSE_WALL_E_NULL;
-  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*result); size != POSE_WALL_OK) return size;
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
-  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_E_POSE;
+  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
   return inside(localise, [&](Body& body) {
     Localiser& own = body.localiser;
-    if (!own.map().is_finished()) return std::int32_t{POSE_WALL_E_ORDER};
+    if (!own.map().is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     const Pose2 given = odometry != nullptr ? pose_of(*odometry) : Pose2();
     const Where where = own.process(read_beams(*scan, own.beams()), odometry != nullptr ? &given : nullptr);
     write_result(own, where, scan->stamp_ns, result);
@@ -290,7 +291,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_loca
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_planar_localise* localise, uint32_t number,
                                                              pose_wall_planar_candidate* candidate) {
   if (candidate == nullptr) return POSE_WALL_E_NULL;
-  if (candidate->struct_size != sizeof(*candidate)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*candidate); size != POSE_WALL_OK) return size;
   return inside(localise, [&](const Body& body) {
     const Localiser& own = body.localiser;
     if (own.is_tracking() || number >= own.verdict().count) return std::int32_t{POSE_WALL_E_INDEX};
@@ -311,7 +312,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_place(pose_wall_planar_locali
                                                          const pose_wall_planar_pose* base, double sigma_m,
                                                          double sigma_rad) {
   if (base == nullptr) return POSE_WALL_E_NULL;
-  if (!is_pose(*base)) return POSE_WALL_E_POSE;
+  if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(sigma_m, 0.001, 1.0) || !is_within(sigma_rad, 0.001, 0.5)) return POSE_WALL_E_VALUE_RANGE;
   return inside(localise, [&](Body& body) {
     body.localiser.place(pose_of(*base), sigma_m, sigma_rad);

@@ -8,6 +8,7 @@
 #include "planar/map/grid_map.hpp"
 #include "planar/map/map_queries.hpp"
 #include "planar/map/tile_record.hpp"
+#include "struct_sizes.hpp"
 
 namespace {
 
@@ -109,7 +110,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_settings_init(pose_wall_planar_map
 POSE_WALL_EXPORT int32_t pose_wall_planar_map_settings_check(const pose_wall_planar_map_settings* settings,
                                                              pose_wall_planar_fault* fault) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
   const std::int32_t status = check_numbers(*settings, fault);
   if (status != POSE_WALL_OK) return status;
   const double cap_cells = settings->distance_cap_m / settings->cell_m;
@@ -170,10 +171,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_insert(pose_wall_planar_map* map, 
   if (map == nullptr || scan == nullptr || base == nullptr || report == nullptr) return POSE_WALL_E_NULL;
   const Map::Inside inside(map_of(map));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  if (report->struct_size != sizeof(*report)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*report); size != POSE_WALL_OK) return size;
   const std::int32_t status = pose_wall::planar::check_scan(scan);
   if (status != POSE_WALL_OK) return status;
-  if (!is_place(base->x_m, base->y_m) || !is_angle(base->yaw_rad)) return POSE_WALL_E_POSE;
+  if (!is_place(base->x_m, base->y_m) || !is_angle(base->yaw_rad)) return POSE_WALL_PLANAR_E_POSE;
   GridMap& body = inside.body();
   const MapWork work = body.insert(*scan, pose_wall::planar::pose_of(*base));
   *report = {sizeof(*report),
@@ -203,8 +204,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_cell(const pose_wall_planar_map* m
   if (map == nullptr || cell == nullptr) return POSE_WALL_E_NULL;
   const Map::Inside inside(map_of(map));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  if (cell->struct_size != sizeof(*cell)) return POSE_WALL_E_STRUCT_SIZE;
-  if (!is_place(x_m, y_m)) return POSE_WALL_E_POSE;
+  if (const std::int32_t size = pose_wall::check_struct(*cell); size != POSE_WALL_OK) return size;
+  if (!is_place(x_m, y_m)) return POSE_WALL_PLANAR_E_POSE;
   pose_wall::planar::ask_cell(inside.body(), inside.body().place_of(x_m, y_m), cell);
   return POSE_WALL_OK;
 }
@@ -215,8 +216,9 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_ray(const pose_wall_planar_map* ma
   if (map == nullptr || from == nullptr || ray == nullptr) return POSE_WALL_E_NULL;
   const Map::Inside inside(map_of(map));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  if (ray->struct_size != sizeof(*ray)) return POSE_WALL_E_STRUCT_SIZE;
-  if (!is_place(from->x_m, from->y_m) || !is_angle(from->yaw_rad) || !is_angle(angle_rad)) return POSE_WALL_E_POSE;
+  if (const std::int32_t size = pose_wall::check_struct(*ray); size != POSE_WALL_OK) return size;
+  if (!is_place(from->x_m, from->y_m) || !is_angle(from->yaw_rad) || !is_angle(angle_rad))
+    return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(range_max_m, 0.0, 1000.0) || through_unknown > 1) return POSE_WALL_E_VALUE_RANGE;
   const MapPlace place = inside.body().place_of(from->x_m, from->y_m);
   const Turn2 turn(pose_wall::planar::wrapped(from->yaw_rad + angle_rad));
@@ -229,7 +231,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_box(const pose_wall_planar_map* ma
   if (map == nullptr || box == nullptr) return POSE_WALL_E_NULL;
   const Map::Inside inside(map_of(map));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  if (box->struct_size != sizeof(*box)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*box); size != POSE_WALL_OK) return size;
   pose_wall::planar::ask_box(inside.body(), box);
   return POSE_WALL_OK;
 }
@@ -240,10 +242,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_grid(const pose_wall_planar_map* m
   if (map == nullptr || cells == nullptr || grid == nullptr) return POSE_WALL_E_NULL;
   const Map::Inside inside(map_of(map));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  if (grid->struct_size != sizeof(*grid)) return POSE_WALL_E_STRUCT_SIZE;
-  if (!is_place(x_m, y_m)) return POSE_WALL_E_POSE;
+  if (const std::int32_t size = pose_wall::check_struct(*grid); size != POSE_WALL_OK) return size;
+  if (!is_place(x_m, y_m)) return POSE_WALL_PLANAR_E_POSE;
   constexpr std::uint32_t kMost = POSE_WALL_PLANAR_GRID_SIDE_MAX;  // as the header says
-  if (width < 1 || width > kMost || height < 1 || height > kMost) return POSE_WALL_E_GRID;
+  if (width < 1 || width > kMost || height < 1 || height > kMost) return POSE_WALL_PLANAR_E_GRID;
   if (capacity < static_cast<std::uint64_t>(width) * height) return POSE_WALL_E_BUFFER_SMALL;
   const MapPlace place = inside.body().place_of(x_m, y_m);
   const double cell_m = inside.body().settings().cell_m;
@@ -266,7 +268,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_get_tile(pose_wall_planar_map* map
   if (map == nullptr || tile == nullptr) return POSE_WALL_E_NULL;
   const Map::Inside inside(map_of(map));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  if (tile->struct_size != sizeof(*tile)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*tile); size != POSE_WALL_OK) return size;
   if (index >= inside.body().tiles().count()) return POSE_WALL_E_INDEX;
   inside.body().copy_out(inside.body().in_order()[index], tile);
   return POSE_WALL_OK;

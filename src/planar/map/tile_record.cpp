@@ -7,6 +7,7 @@
 
 #include "planar/fast_crc32.hpp"
 #include "planar/map/grid_map.hpp"
+#include "struct_sizes.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -110,10 +111,10 @@ std::uint32_t crc_of(const pose_wall_planar_tile& tile) {
 }
 
 std::int32_t check_tile(const pose_wall_planar_tile& tile, double cell_m) {
-  if (tile.struct_size != sizeof(tile)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(tile); size != POSE_WALL_OK) return size;
   const bool good =
       tile.crc32 == crc_of(tile) && tile.cell_m == cell_m && fits(tile.column, tile.row, tile.cells, cell_m);
-  return good ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_MAP_FILE};
+  return good ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_PLANAR_E_MAP_FILE};
 }
 
 std::uint64_t map_bytes(std::uint32_t tiles) {
@@ -145,16 +146,16 @@ void write_map(GridMap* map, unsigned char* bytes) {
 }
 
 std::int32_t read_map(GridMap* map, const unsigned char* bytes, std::uint64_t size) {
-  if (size < kHeadBytes + kTailBytes) return POSE_WALL_E_MAP_FILE;
+  if (size < kHeadBytes + kTailBytes) return POSE_WALL_PLANAR_E_MAP_FILE;
   Reader reader(bytes);
   const bool known = reader.get<std::uint64_t>() == kMagic && reader.get<std::uint32_t>() == kVersion;
   const auto tiles = reader.get<std::uint32_t>();
   const double cell_m = map->settings().cell_m;
   const bool fitting = reader.get<std::uint64_t>() == size && map_bytes(tiles) == size &&
                        reader.get<std::uint64_t>() == bits_of(cell_m) && reader.get<std::uint64_t>() == 0;
-  if (!known || !fitting || !is_whole(bytes, size)) return POSE_WALL_E_MAP_FILE;
+  if (!known || !fitting || !is_whole(bytes, size)) return POSE_WALL_PLANAR_E_MAP_FILE;
   if (tiles > map->tiles().capacity()) return POSE_WALL_E_BUFFER_SMALL;
-  if (!are_tiles(bytes, tiles, cell_m)) return POSE_WALL_E_MAP_FILE;
+  if (!are_tiles(bytes, tiles, cell_m)) return POSE_WALL_PLANAR_E_MAP_FILE;
   map->clear();
   pose_wall_planar_tile tile{};
   for (std::uint32_t k = 0; k < tiles; ++k) {

@@ -20,13 +20,13 @@ class GridMap;
 // Of all of a record but struct_size and the sum itself.
 std::uint32_t crc_of(const pose_wall_planar_tile& tile);
 
-// POSE_WALL_OK, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_E_MAP_FILE.
+// POSE_WALL_OK, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_PLANAR_E_MAP_FILE.
 std::int32_t check_tile(const pose_wall_planar_tile& tile, double cell_m);
 
 std::uint64_t map_bytes(std::uint32_t tiles);
 // `bytes` has room for map_bytes().
 void write_map(GridMap* map, unsigned char* bytes);
-// POSE_WALL_OK, POSE_WALL_E_MAP_FILE or POSE_WALL_E_BUFFER_SMALL; the map is unchanged unless POSE_WALL_OK.
+// POSE_WALL_OK, POSE_WALL_PLANAR_E_MAP_FILE or POSE_WALL_E_BUFFER_SMALL; the map is unchanged unless POSE_WALL_OK.
 std::int32_t read_map(GridMap* map, const unsigned char* bytes, std::uint64_t size);
 
 }  // namespace pose_wall::planar

@@ -11,6 +11,7 @@
 #include "planar/held.hpp"
 #include "planar/match/matcher.hpp"
 #include "pose_wall_planar_match.h"
+#include "struct_sizes.hpp"
 
 namespace {
 
@@ -82,13 +83,14 @@ bool is_covariance(const double (&c)[9]) {
 std::int32_t check_input(const pose_wall_planar_match_input* input) {
   constexpr double kReach_m = 38.0, kReach_rad = 3.14159265358979;  // what Matcher::search looks through
   if (input == nullptr) return POSE_WALL_E_NULL;
-  if (input->struct_size != sizeof(*input)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*input); size != POSE_WALL_OK) return size;
   if (input->has_prior > 1) return POSE_WALL_E_VALUE_RANGE;
-  if (!is_pose(input->guess)) return POSE_WALL_E_POSE;
+  if (!is_pose(input->guess)) return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(input->reach_m, 0.0, kReach_m) || !is_within(input->reach_rad, 0.0, kReach_rad)) {
     return POSE_WALL_E_VALUE_RANGE;
   }
-  return input->has_prior == 0 || is_covariance(input->covariance) ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_POSE;
+  return input->has_prior == 0 || is_covariance(input->covariance) ? std::int32_t{POSE_WALL_OK}
+                                                                   : POSE_WALL_PLANAR_E_POSE;
 }
 
 Prior prior_of(const pose_wall_planar_match_input& input) {
@@ -176,7 +178,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_open(void* block, uint64_t block
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_match_begin(pose_wall_planar_matcher* matcher, double x_m, double y_m) {
-  if (!is_place(x_m, y_m)) return POSE_WALL_E_POSE;
+  if (!is_place(x_m, y_m)) return POSE_WALL_PLANAR_E_POSE;
   return inside(matcher, [&](Body& body) {
     body.map.begin({x_m, y_m});
     body.has_begun = true;
@@ -191,9 +193,9 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_add(pose_wall_planar_matcher* ma
   if (base == nullptr) return POSE_WALL_E_NULL;
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
-  if (!is_pose(*base)) return POSE_WALL_E_POSE;
+  if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
   return inside(matcher, [&](Body& body) {
-    if (!body.has_begun || body.is_finished) return std::int32_t{POSE_WALL_E_ORDER};
+    if (!body.has_begun || body.is_finished) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     body.map.add(even_points(read_beams(*scan, body.beams), kMatchSpacing_m, body.points), pose_of(*base), true);
     return std::int32_t{POSE_WALL_OK};
   });
@@ -213,12 +215,12 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_scan(pose_wall_planar_matcher* m
                                                      const pose_wall_planar_match_input* input,
                                                      pose_wall_planar_match_result* result) {
   if (result == nullptr) return POSE_WALL_E_NULL;
-  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*result); size != POSE_WALL_OK) return size;
   std::int32_t status = check_scan(scan);
   if (status == POSE_WALL_OK) status = check_input(input);
   if (status != POSE_WALL_OK) return status;
   return inside(matcher, [&](Body& body) {
-    if (!body.has_begun) return std::int32_t{POSE_WALL_E_ORDER};
+    if (!body.has_begun) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     if (!body.is_finished) body.map.finish();
     body.is_finished = true;
     *result = match(body, read_beams(*scan, body.beams), *input);

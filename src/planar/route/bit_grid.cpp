@@ -8,6 +8,7 @@
 
 #include "base/math/finite.hpp"
 #include "planar/pose2.hpp"
+#include "struct_sizes.hpp"
 
 namespace pose_wall::planar::route {
 namespace {
@@ -28,12 +29,12 @@ std::uint64_t blocked_of_eight(const std::int8_t* cells, std::uint64_t lift) {
 
 std::int32_t check_grid(const pose_wall_planar_grid* grid) {
   if (grid == nullptr) return POSE_WALL_E_NULL;
-  if (grid->struct_size != sizeof(*grid)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*grid); size != POSE_WALL_OK) return size;
   if (grid->cells == nullptr) return POSE_WALL_E_NULL;
   const bool fits = grid->width >= 1 && grid->width <= POSE_WALL_PLANAR_GRID_SIDE_MAX && grid->height >= 1 &&
                     grid->height <= POSE_WALL_PLANAR_GRID_SIDE_MAX && grid->resolution_m >= 0.01 &&
                     grid->resolution_m <= 1.0 && is_place(grid->origin_x_m, grid->origin_y_m) && grid->reserved == 0;
-  return fits ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_GRID};
+  return fits ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_PLANAR_E_GRID};
 }
 
 void BitGrid::lay_out(Arena& arena, std::uint32_t width_max, std::uint32_t height_max) {

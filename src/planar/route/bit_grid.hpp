@@ -14,7 +14,7 @@
 
 namespace pose_wall::planar::route {
 
-// POSE_WALL_OK, POSE_WALL_E_NULL, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_E_GRID.
+// POSE_WALL_OK, POSE_WALL_E_NULL, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_PLANAR_E_GRID.
 std::int32_t check_grid(const pose_wall_planar_grid* grid);
 
 class BitGrid {

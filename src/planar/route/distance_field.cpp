@@ -14,8 +14,12 @@ void DistanceField::lay_out(Arena& arena, std::uint32_t places) {
   before_ = arena.take<std::uint32_t>(places);
 }
 
-void DistanceField::begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const Places& places) {
-  lattice_ = lattice;
+void DistanceField::begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const Places& places,
+                          std::uint32_t longest) {
+  moves_count_ = 0;
+  for (std::uint32_t k = 0; k < lattice->headings(); ++k) {
+    if (lattice->heading(k).length <= longest) moves_[moves_count_++] = &lattice->heading(k);
+  }
   grid_ = grid;
   circle_ = circle;
   places_ = places;
@@ -67,8 +71,9 @@ void DistanceField::seed(std::uint32_t place, std::uint32_t distance) {
 
 void DistanceField::relax_from(std::uint32_t place) {
   const std::int32_t column = places_.column(place), row = places_.row(place);
-  for (std::uint32_t k = 0; k < lattice_->headings(); ++k) {
-    const Heading& heading = lattice_->heading(k);
+  looks_ += moves_count_;
+  for (std::uint32_t k = 0; k < moves_count_; ++k) {
+    const Heading& heading = *moves_[k];
     const std::int32_t c = column + heading.dx, r = row + heading.dy;
     if (!places_.holds(c, r)) continue;
     const std::uint32_t to = places_.number(c, r), distance = distance_[place] + heading.length;
@@ -108,13 +113,13 @@ bool DistanceField::spread(const Target& target) {
 
 std::uint32_t DistanceField::step_down(std::uint32_t place) const {
   std::uint32_t best = place;
-  for (std::uint32_t k = 0; k < lattice_->headings(); ++k) {
-    const std::int32_t c = places_.column(place) + lattice_->heading(k).dx;
-    const std::int32_t r = places_.row(place) + lattice_->heading(k).dy;
+  for (std::uint32_t k = 0; k < moves_count_; ++k) {
+    const std::int32_t c = places_.column(place) + moves_[k]->dx;
+    const std::int32_t r = places_.row(place) + moves_[k]->dy;
     if (!places_.holds(c, r)) continue;
     const std::uint32_t to = places_.number(c, r);
     // The predecessor by distance and length: the least distance alone would cross corners.
-    if (distance_[to] < kFar && distance_[to] + lattice_->heading(k).length == distance_[place]) best = to;
+    if (distance_[to] < kFar && distance_[to] + moves_[k]->length == distance_[place]) best = to;
   }
   return best;
 }

@@ -45,7 +45,9 @@ class DistanceField {
   std::uint32_t capacity() const { return distance_.size(); }
 
   // begin, seeds, then spread. The field ends `beyond` of the distance behind the place where it first meets `target`.
-  void begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const Places& places);
+  // Only the lattice's vectors up to `longest` (in units) are moves: a longer one leaps over rock that is thinner.
+  void begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const Places& places,
+             std::uint32_t longest);
   void seed(std::uint32_t place, std::uint32_t distance);
   struct Target {
     std::int32_t column = 0, row = 0, reach = 0;  // a square of places
@@ -64,6 +66,7 @@ class DistanceField {
     return is_cut_ ? end_ : kBlocked;
   }
   std::uint32_t settled() const { return settled_; }
+  std::uint64_t looks() const { return looks_; }  // at places, from others, since it was laid out: the work
 
   // Of the target's places the one that the field met first; and from any that it met the next on a way to the goal, or
   // the same one at its end.
@@ -81,10 +84,12 @@ class DistanceField {
 
   Span<std::uint32_t> distance_, next_, before_;
   std::uint32_t head_[kBuckets] = {};
+  const Heading* moves_[kHeadingsMost] = {};
+  std::uint32_t moves_count_ = 0;
+  std::uint64_t looks_ = 0;
   std::uint32_t width_ = 1, end_ = 0, settled_ = 0, waiting_ = 0, met_ = 0;
   bool is_cut_ = false;
   Places places_;
-  const Lattice* lattice_ = nullptr;
   LatticeGrid grid_;
   const Shape* circle_ = nullptr;
 };

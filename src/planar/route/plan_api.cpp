@@ -8,6 +8,7 @@
 #include "planar/held.hpp"
 #include "planar/route/planner.hpp"
 #include "pose_wall_planar_plan.h"
+#include "struct_sizes.hpp"
 
 namespace {
 
@@ -24,6 +25,14 @@ const HeldPlanner* held_of(const pose_wall_planar_planner* planner) {
 
 pose_wall::planar::Pose2 taken(const pose_wall_planar_pose& pose) {
   return {pose.x_m, pose.y_m, pose_wall::planar::wrapped(pose.yaw_rad)};
+}
+
+// The caller's settings, checked, or the defaults.
+std::int32_t choose(const pose_wall_planar_plan_settings* settings, pose_wall_planar_plan_settings* chosen) {
+  if (settings == nullptr) return pose_wall_planar_plan_settings_init(chosen);
+  const std::int32_t status = pose_wall_planar_plan_settings_check(settings, nullptr);
+  if (status == POSE_WALL_OK) *chosen = *settings;
+  return status;
 }
 
 constexpr const char* kOutcomes[][2] = {
@@ -72,24 +81,29 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_plan_settings_init(pose_wall_planar_pl
 POSE_WALL_EXPORT int32_t pose_wall_planar_plan_settings_check(const pose_wall_planar_plan_settings* settings,
                                                               pose_wall_planar_fault* fault) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
   const pose_wall_planar_fault* const found = pose_wall::planar::route::fault_of(*settings);
   if (found == nullptr) return POSE_WALL_OK;
   if (fault != nullptr) *fault = *found;
   return POSE_WALL_E_VALUE_RANGE;
 }
 
-POSE_WALL_EXPORT uint64_t pose_wall_planar_plan_memory_needed(const pose_wall_planar_plan_settings* settings) {
-  if (pose_wall_planar_plan_settings_check(settings, nullptr) != POSE_WALL_OK) return 0;
-  return HeldPlanner::bytes(*settings);
+POSE_WALL_EXPORT int32_t pose_wall_planar_plan_memory_needed(const pose_wall_planar_plan_settings* settings,
+                                                             uint64_t* bytes) {
+  if (bytes == nullptr) return POSE_WALL_E_NULL;
+  pose_wall_planar_plan_settings chosen;
+  const std::int32_t status = choose(settings, &chosen);
+  if (status == POSE_WALL_OK) *bytes = HeldPlanner::bytes(chosen);
+  return status;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_plan_open(const pose_wall_planar_plan_settings* settings, void* block,
                                                     uint64_t block_bytes, pose_wall_planar_planner** planner) {
-  if (settings == nullptr || block == nullptr || planner == nullptr) return POSE_WALL_E_NULL;
-  std::int32_t status = pose_wall_planar_plan_settings_check(settings, nullptr);
+  if (block == nullptr || planner == nullptr) return POSE_WALL_E_NULL;
+  pose_wall_planar_plan_settings chosen;
+  std::int32_t status = choose(settings, &chosen);
   HeldPlanner* held = nullptr;
-  if (status == POSE_WALL_OK) status = HeldPlanner::place(block, block_bytes, &held, *settings);
+  if (status == POSE_WALL_OK) status = HeldPlanner::place(block, block_bytes, &held, chosen);
   if (status != POSE_WALL_OK) return status;
   held->body().open();
   *planner = reinterpret_cast<pose_wall_planar_planner*>(held);
@@ -104,11 +118,11 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_plan(pose_wall_planar_planner* planner
   if (poses == nullptr && capacity > 0) return POSE_WALL_E_NULL;
   const HeldPlanner::Inside inside(held_of(planner));
   std::int32_t status = inside.status();
-  if (status == POSE_WALL_OK && result->struct_size != sizeof(*result)) status = POSE_WALL_E_STRUCT_SIZE;
+  if (status == POSE_WALL_OK) status = pose_wall::check_struct(*result);
   if (status == POSE_WALL_OK) status = pose_wall::planar::route::check_grid(grid);
-  if (status == POSE_WALL_OK && !(is_pose(*start) && is_pose(*goal))) status = POSE_WALL_E_POSE;
+  if (status == POSE_WALL_OK && !(is_pose(*start) && is_pose(*goal))) status = POSE_WALL_PLANAR_E_POSE;
   if (status != POSE_WALL_OK) return status;
-  if (!inside.body().read(*grid)) return POSE_WALL_E_GRID;
+  if (!inside.body().read(*grid)) return POSE_WALL_PLANAR_E_GRID;
   const pose_wall::Span<pose_wall_planar_path_pose> room(poses, capacity);
   inside.body().plan(taken(*start), taken(*goal), room, result);
   return POSE_WALL_OK;

@@ -99,11 +99,11 @@ bool Planner::go_straight() {
   return is_best;
 }
 
-bool Planner::spread(const Lattice& lattice, const Shape& circle) {
+bool Planner::spread(const Lattice& lattice, const Shape& circle, std::uint32_t longest) {
   const Places places = Places::of(grid_, lattice.step_cells());
   if (places.count() > field_.capacity()) return false;
   coarse_.read_coarse(grid_, lattice.step_cells());
-  field_.begin(&lattice, seen_by(lattice), &circle, places);
+  field_.begin(&lattice, seen_by(lattice), &circle, places, longest);
   const DistanceField::Target about_goal = Search::around(grid_, lattice, goal_);
   for (std::int32_t r = about_goal.row - about_goal.reach; r <= about_goal.row + about_goal.reach; ++r) {
     for (std::int32_t c = about_goal.column - about_goal.reach; c <= about_goal.column + about_goal.reach; ++c) {
@@ -136,7 +136,7 @@ std::uint32_t Planner::search(pose_wall_planar_plan_result* result) {
   is_goal_tight_ = false;
   for (std::uint32_t level = 0; level < kLevels && found != Found::way; ++level) {
     const Lattice& lattice = lattice_[level];
-    if (!spread(lattice, lattice.circle())) continue;
+    if (!spread(lattice, lattice.circle(), kUnitsMost)) continue;
     const Search::Task task{&lattice,
                             seen_by(lattice),
                             &field_,
@@ -154,14 +154,14 @@ std::uint32_t Planner::search(pose_wall_planar_plan_result* result) {
     result->expansions += search_.expansions();
     result->places = search_.places();
     ++result->searches;
-    if (found == Found::work_spent) return POSE_WALL_PLAN_WORK_LIMIT;
+    if (found == Found::work_spent) return POSE_WALL_PLANAR_PLAN_WORK_LIMIT;
   }
-  if (found == Found::list_full) return POSE_WALL_PLAN_LIST_FULL;
-  if (found != Found::way) return POSE_WALL_PLAN_TOO_TIGHT;
+  if (found == Found::list_full) return POSE_WALL_PLANAR_PLAN_LIST_FULL;
+  if (found != Found::way) return POSE_WALL_PLANAR_PLAN_TOO_TIGHT;
   count_ = search_.write(corners_);
   lower_m_ = search_.least_cost_m();
   result->search_cost_m = search_.cost_m();
-  return count_ > 0 ? POSE_WALL_PLAN_FOUND : POSE_WALL_PLAN_LIST_FULL;
+  return count_ > 0 ? POSE_WALL_PLANAR_PLAN_FOUND : POSE_WALL_PLANAR_PLAN_LIST_FULL;
 }
 
 void Planner::plan(const Pose2& start, const Pose2& goal, Span<pose_wall_planar_path_pose> poses,
@@ -170,17 +170,30 @@ void Planner::plan(const Pose2& start, const Pose2& goal, Span<pose_wall_planar_
   goal_ = goal;
   count_ = 0;
   const double none = not_a_number();
-  *result = {
-      sizeof(*result), POSE_WALL_PLAN_FOUND, 0, 0, 0, 0, 0, 0, none, none, none, none, none, {none, none, none}, none};
+  *result = {sizeof(*result),
+             POSE_WALL_PLANAR_PLAN_FOUND,
+             0,
+             0,
+             0,
+             0,
+             0,
+             0,
+             none,
+             none,
+             none,
+             none,
+             none,
+             {none, none, none},
+             none};
   if (!sweeps_.is_pose_free(start)) {
-    result->outcome = POSE_WALL_PLAN_START_BLOCKED;
+    result->outcome = POSE_WALL_PLANAR_PLAN_START_BLOCKED;
   } else if (!sweeps_.is_pose_free(goal)) {
-    result->outcome = POSE_WALL_PLAN_GOAL_BLOCKED;
+    result->outcome = POSE_WALL_PLANAR_PLAN_GOAL_BLOCKED;
   } else if (!go_straight()) {
     result->outcome = search(result);
   }
-  if (result->outcome == POSE_WALL_PLAN_TOO_TIGHT) explain(result);
-  if (result->outcome == POSE_WALL_PLAN_FOUND) finish(poses, result);
+  if (result->outcome == POSE_WALL_PLANAR_PLAN_TOO_TIGHT) explain(result);
+  if (result->outcome == POSE_WALL_PLANAR_PLAN_FOUND) finish(poses, result);
 }
 
 void Planner::finish(Span<pose_wall_planar_path_pose> poses, pose_wall_planar_plan_result* result) {
@@ -191,7 +204,7 @@ void Planner::finish(Span<pose_wall_planar_path_pose> poses, pose_wall_planar_pl
   }
   const Rounding rounding{settings_.radius_min_m, settings_.radius_max_m, settings_.pose_step_m};
   const Written written = write_poses(corners_.first(count_), start_, costs_, rounding, &sweeps_, poses);
-  if (written.poses > poses.size()) result->outcome = POSE_WALL_PLAN_ROOM_SMALL;
+  if (written.poses > poses.size()) result->outcome = POSE_WALL_PLANAR_PLAN_ROOM_SMALL;
   result->poses = written.poses;
   result->cusps = written.cusps;
   result->spot_turns = written.spot_turns;
@@ -202,7 +215,8 @@ void Planner::finish(Span<pose_wall_planar_path_pose> poses, pose_wall_planar_pl
   result->bound = lower_m_ > 0.0 ? larger(written.cost_m / lower_m_, 1.0) : 1.0;
 }
 
-// The circle of the machine may not pass either: then how wide is the widest way?
+// The circle of the machine may not pass either: then how wide is the widest way? All fields of this question together
+// look at fewer places than the last search's field, whose lattice has 64 headings: they go by at most eight.
 void Planner::explain(pose_wall_planar_plan_result* result) {
   const double machine_cells = footprint_of(settings_).inscribed_m() / settings_.resolution_m;
   if (is_goal_tight_) {
@@ -216,7 +230,7 @@ void Planner::explain(pose_wall_planar_plan_result* result) {
   }
   double fits = 0.1, does_not = machine_cells;  // less than a cell: hardly more than a point
   if (!is_wide_enough(fits)) {
-    result->outcome = POSE_WALL_PLAN_NOT_CONNECTED;
+    result->outcome = POSE_WALL_PLANAR_PLAN_NOT_CONNECTED;
     return;
   }
   constexpr std::uint32_t kHalvings = 10;
@@ -224,13 +238,18 @@ void Planner::explain(pose_wall_planar_plan_result* result) {
     const double middle = 0.5 * (fits + does_not);
     (is_wide_enough(middle) ? fits : does_not) = middle;
   }
-  result->outcome = POSE_WALL_PLAN_TOO_NARROW;
+  result->outcome = POSE_WALL_PLANAR_PLAN_TOO_NARROW;
   if (is_wide_enough(fits)) find_bottleneck(fits, result);
 }
 
+// From neighbour to neighbour; to one across a corner where the circle covers what lies between.
 bool Planner::is_wide_enough(double radius_cells) {
   lattice_[1].write_circle(radius_cells, &narrow_);
-  return spread(lattice_[1], narrow_);
+  const double step_cells = lattice_[1].step_cells(), step = lattice_[1].step_m() / kUnits_m;
+  constexpr double kRoot2 = 1.41421356237309505;
+  const double longest =
+      2.0 * radius_cells >= kRoot2 * step_cells ? 1.5 * step : 1.1 * step;  // the next are 1, 1.41, 2
+  return spread(lattice_[1], narrow_, static_cast<std::uint32_t>(longest));
 }
 
 // Down the field from the start to the goal. Where the way cuts corners it is as near to the rock as in the narrow

@@ -28,6 +28,7 @@ class Planner {
   void plan(const Pose2& start, const Pose2& goal, Span<pose_wall_planar_path_pose> poses,
             pose_wall_planar_plan_result* result);
   double clearance_m(const Eigen::Vector2d& at_m) const;
+  std::uint64_t field_looks() const { return field_.looks(); }  // since it was opened
 
  private:
   static constexpr std::uint32_t kLevels = 2, kCornersMost = 4096;
@@ -35,7 +36,7 @@ class Planner {
   bool go_straight();
   std::uint32_t search(pose_wall_planar_plan_result* result);
   bool can_leave_goal(const Search::Task& task, pose_wall_planar_plan_result* result);
-  bool spread(const Lattice& lattice, const Shape& circle);
+  bool spread(const Lattice& lattice, const Shape& circle, std::uint32_t longest);
   LatticeGrid seen_by(const Lattice& lattice) const { return {&grid_, &coarse_, lattice.step_cells()}; }
   void explain(pose_wall_planar_plan_result* result);
   bool is_wide_enough(double radius_cells);

@@ -36,7 +36,8 @@ class Writer {
       take_corner(k, curve);
       cut_m = curve.cut_m;
     }
-    if (written_.poses > 0 && written_.poses <= out_.size()) out_[written_.poses - 1].flags |= POSE_WALL_PATH_STOP;
+    if (written_.poses > 0 && written_.poses <= out_.size())
+      out_[written_.poses - 1].flags |= POSE_WALL_PLANAR_PATH_STOP;
     return written_;
   }
 
@@ -50,7 +51,7 @@ class Writer {
       at_.y_m = corner.y_m;
       if (std::abs(corner.turn_rad) > kTurnLeast_rad) turn(corner.turn_rad);
       const bool is_cusp = k > 0 && corner.gear * corners_[k - 1].gear < 0;
-      if (is_cusp) stop(POSE_WALL_PATH_CUSP);
+      if (is_cusp) stop(POSE_WALL_PLANAR_PATH_CUSP);
       written_.cusps += is_cusp ? 1 : 0;
       written_.cost_m += is_cusp ? costs_.cusp_m : 0.0;
     }
@@ -100,7 +101,7 @@ class Writer {
     const double from_rad = at_.yaw_rad;
     for (std::uint32_t k = 1; k <= steps; ++k) {
       at_.yaw_rad = from_rad + k * turn_rad / steps;
-      add(0.0, 0, turn_rad > 0.0 ? POSE_WALL_PATH_TURN_LEFT : POSE_WALL_PATH_TURN_RIGHT);
+      add(0.0, 0, turn_rad > 0.0 ? POSE_WALL_PLANAR_PATH_TURN_LEFT : POSE_WALL_PLANAR_PATH_TURN_RIGHT);
     }
     stop(0);
     ++written_.spot_turns;
@@ -111,7 +112,7 @@ class Writer {
   // The machine stands still at the pose written last.
   void stop(std::uint32_t more_flags) {
     if (written_.poses > 0 && written_.poses <= out_.size()) {
-      out_[written_.poses - 1].flags |= POSE_WALL_PATH_STOP | more_flags;
+      out_[written_.poses - 1].flags |= POSE_WALL_PLANAR_PATH_STOP | more_flags;
     }
   }
 

@@ -8,6 +8,7 @@
 #include "planar/held.hpp"
 #include "planar/route/tracker.hpp"
 #include "pose_wall_planar_track.h"
+#include "struct_sizes.hpp"
 
 namespace {
 
@@ -26,10 +27,18 @@ std::int32_t check_route(const pose_wall_planar_path_pose* poses, std::uint32_t 
     const pose_wall_planar_path_pose& at = poses[k];
     const bool is_whole = is_pose(at.pose) && is_finite(at.curvature_1_m) && is_finite(at.along_m) &&
                           at.along_m >= along_m && at.drive >= -1 && at.drive <= 1;
-    if (!is_whole) return POSE_WALL_E_POSE;
+    if (!is_whole) return POSE_WALL_PLANAR_E_POSE;
     along_m = at.along_m;
   }
   return POSE_WALL_OK;
+}
+
+// The caller's settings, checked, or the defaults.
+std::int32_t choose(const pose_wall_planar_track_settings* settings, pose_wall_planar_track_settings* chosen) {
+  if (settings == nullptr) return pose_wall_planar_track_settings_init(chosen);
+  const std::int32_t status = pose_wall_planar_track_settings_check(settings, nullptr);
+  if (status == POSE_WALL_OK) *chosen = *settings;
+  return status;
 }
 
 constexpr const char* kStates[] = {"idle", "following", "turning", "stopping", "done", "off_path", "no_pose"};
@@ -65,24 +74,29 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_init(pose_wall_planar_t
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_check(const pose_wall_planar_track_settings* settings,
                                                                pose_wall_planar_fault* fault) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
   const pose_wall_planar_fault* const found = pose_wall::planar::route::fault_of(*settings);
   if (found == nullptr) return POSE_WALL_OK;
   if (fault != nullptr) *fault = *found;
   return POSE_WALL_E_VALUE_RANGE;
 }
 
-POSE_WALL_EXPORT uint64_t pose_wall_planar_track_memory_needed(const pose_wall_planar_track_settings* settings) {
-  if (pose_wall_planar_track_settings_check(settings, nullptr) != POSE_WALL_OK) return 0;
-  return HeldTracker::bytes(*settings);
+POSE_WALL_EXPORT int32_t pose_wall_planar_track_memory_needed(const pose_wall_planar_track_settings* settings,
+                                                              uint64_t* bytes) {
+  if (bytes == nullptr) return POSE_WALL_E_NULL;
+  pose_wall_planar_track_settings chosen;
+  const std::int32_t status = choose(settings, &chosen);
+  if (status == POSE_WALL_OK) *bytes = HeldTracker::bytes(chosen);
+  return status;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_open(const pose_wall_planar_track_settings* settings, void* block,
                                                      uint64_t block_bytes, pose_wall_planar_tracker** tracker) {
-  if (settings == nullptr || block == nullptr || tracker == nullptr) return POSE_WALL_E_NULL;
-  std::int32_t status = pose_wall_planar_track_settings_check(settings, nullptr);
+  if (block == nullptr || tracker == nullptr) return POSE_WALL_E_NULL;
+  pose_wall_planar_track_settings chosen;
+  std::int32_t status = choose(settings, &chosen);
   HeldTracker* held = nullptr;
-  if (status == POSE_WALL_OK) status = HeldTracker::place(block, block_bytes, &held, *settings);
+  if (status == POSE_WALL_OK) status = HeldTracker::place(block, block_bytes, &held, chosen);
   if (status != POSE_WALL_OK) return status;
   held->body().open();
   *tracker = reinterpret_cast<pose_wall_planar_tracker*>(held);
@@ -107,9 +121,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_track_step(pose_wall_planar_tracker* t
   if (tracker == nullptr || input == nullptr || command == nullptr) return POSE_WALL_E_NULL;
   const HeldTracker::Inside inside(held_of(tracker));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  if (input->struct_size != sizeof(*input) || command->struct_size != sizeof(*command)) {
-    return POSE_WALL_E_STRUCT_SIZE;
-  }
+  if (const std::int32_t size = pose_wall::check_struct(*input); size != POSE_WALL_OK) return size;
+  if (const std::int32_t size = pose_wall::check_struct(*command); size != POSE_WALL_OK) return size;
   inside.body().step(*input, command);
   return POSE_WALL_OK;
 }

@@ -21,7 +21,7 @@ Leg TrackPath::leg_from(std::uint32_t first) const {
   leg.drive = poses_[first + 1].drive;
   leg.last = first + 1;
   while (leg.last + 1 < poses_.size() && poses_[leg.last + 1].drive == leg.drive) {
-    const bool is_stop = leg.drive != 0 && (poses_[leg.last].flags & POSE_WALL_PATH_STOP) != 0;
+    const bool is_stop = leg.drive != 0 && (poses_[leg.last].flags & POSE_WALL_PLANAR_PATH_STOP) != 0;
     if (is_stop) break;
     ++leg.last;
   }
@@ -72,7 +72,7 @@ OnPath TrackPath::nearest(const Leg& leg, std::uint32_t from, const Pose2& pose)
 }
 
 double TrackPath::left_to_turn(const Leg& leg, double yaw_rad) const {
-  const bool is_left = (poses_[leg.last].flags & POSE_WALL_PATH_TURN_LEFT) != 0;
+  const bool is_left = (poses_[leg.last].flags & POSE_WALL_PLANAR_PATH_TURN_LEFT) != 0;
   double left_rad = wrapped(poses_[leg.last].pose.yaw_rad - yaw_rad);
   // A long turn must not be taken for the short one the other way round; a small excess is no whole turn.
   constexpr double kExcess_rad = 1.0;

@@ -76,7 +76,8 @@ void Tracker::report(const OnPath& at, pose_wall_planar_track_command* command) 
 
 void Tracker::step(const pose_wall_planar_track_input& input, pose_wall_planar_track_command* command) {
   const double none = not_a_number();
-  *command = {sizeof(*command), POSE_WALL_TRACK_IDLE, 0, 0, 0.0, 0.0, 0.0, 0.0, none, none, none, none, 0.0, 0.0};
+  *command = {
+      sizeof(*command), POSE_WALL_PLANAR_TRACK_IDLE, 0, 0, 0.0, 0.0, 0.0, 0.0, none, none, none, none, 0.0, 0.0};
   const double step_s = step_seconds(input.now_ns);
   model_.advance(step_s);
   const bool is_late = input.pose_ns <= last_ns_;
@@ -90,7 +91,7 @@ void Tracker::step(const pose_wall_planar_track_input& input, pose_wall_planar_t
   } else if (!is_good(input, age_s)) {
     halt();
     model_.learn_anew();
-    command->state = POSE_WALL_TRACK_NO_POSE;
+    command->state = POSE_WALL_PLANAR_TRACK_NO_POSE;
   } else {
     const Pose2 pose{input.pose.x_m, input.pose.y_m, wrapped(input.pose.yaw_rad)};
     age_s = age_s > 0.0 ? age_s : 0.0;
@@ -128,13 +129,13 @@ void Tracker::drive(const Pose2& given, double age_s, double step_s, pose_wall_p
   }
   if (phase_ == Phase::stopping && model_.stands() && !seen_to_move_)
     phase_ = leg_.last > leg_.first ? Phase::leg : Phase::done;
-  command->state = POSE_WALL_TRACK_STOPPING;
+  command->state = POSE_WALL_PLANAR_TRACK_STOPPING;
   if (phase_ == Phase::leg && leg_.drive != 0) follow(ahead, step_s, command);
   if (phase_ == Phase::leg && leg_.drive == 0) turn(ahead, step_s, command);
   if (phase_ == Phase::leg) return;
   halt();
-  if (phase_ == Phase::done) command->state = POSE_WALL_TRACK_DONE;
-  if (phase_ == Phase::off_path) command->state = POSE_WALL_TRACK_OFF_PATH;
+  if (phase_ == Phase::done) command->state = POSE_WALL_PLANAR_TRACK_DONE;
+  if (phase_ == Phase::off_path) command->state = POSE_WALL_PLANAR_TRACK_OFF_PATH;
 }
 
 // The curvature to drive, as the way is driven: the route's own, without what the tracks add by themselves, and two
@@ -149,7 +150,7 @@ double Tracker::steering(const OnPath& at) const {
 
 double Tracker::allowed_speed(const OnPath& at, const Pose2& ahead, double left_m, std::uint32_t* slowed_by) const {
   double speed_m_s = settings_.speed_max_m_s;
-  *slowed_by = POSE_WALL_SLOWED_BY_NOTHING;
+  *slowed_by = POSE_WALL_PLANAR_SLOWED_BY_NOTHING;
   const auto limit = [&](double most_m_s, std::uint32_t reason) {
     const double at_least_m_s = most_m_s > settings_.speed_min_m_s ? most_m_s : settings_.speed_min_m_s;
     if (!(at_least_m_s < speed_m_s)) return;
@@ -159,13 +160,14 @@ double Tracker::allowed_speed(const OnPath& at, const Pose2& ahead, double left_
   const double brake_m_s2 = kBrake * settings_.speed_change_m_s2;
   const double ahead_m = 0.2 + 0.5 * now_.speed_m_s * now_.speed_m_s / brake_m_s2;
   const double sharpest_1_m = path_.sharpest_1_m(leg_, at, ahead_m);
-  if (sharpest_1_m > 1e-6) limit(kTurnShare * settings_.turn_max_rad_s / sharpest_1_m, POSE_WALL_SLOWED_BY_CURVE);
+  if (sharpest_1_m > 1e-6)
+    limit(kTurnShare * settings_.turn_max_rad_s / sharpest_1_m, POSE_WALL_PLANAR_SLOWED_BY_CURVE);
   if (clearance_ != nullptr && settings_.slow_below_m > 0.0) {
     const double room_m = clearance_(context_, ahead.x_m, ahead.y_m) - settings_.half_width_m;
     const double share = room_m > 0.0 ? room_m / settings_.slow_below_m : 0.0;  // not known: 0
-    if (share < 1.0) limit(share * settings_.speed_max_m_s, POSE_WALL_SLOWED_BY_CLEARANCE);
+    if (share < 1.0) limit(share * settings_.speed_max_m_s, POSE_WALL_PLANAR_SLOWED_BY_CLEARANCE);
   }
-  limit(std::sqrt(2.0 * brake_m_s2 * (left_m > 0.0 ? left_m : 0.0)), POSE_WALL_SLOWED_BY_STOP);
+  limit(std::sqrt(2.0 * brake_m_s2 * (left_m > 0.0 ? left_m : 0.0)), POSE_WALL_PLANAR_SLOWED_BY_STOP);
   return speed_m_s;
 }
 
@@ -175,19 +177,19 @@ void Tracker::follow(const Pose2& ahead, double step_s, pose_wall_planar_track_c
   // What the lag lets the machine roll on is way that is left no more.
   const double rolls_m = std::abs(now_.speed_m_s) * (1.0 - model_.slip()) * settings_.lag_s;
   const double left_m = path_.end_m(leg_) - at.along_m - rolls_m;
-  command->state = POSE_WALL_TRACK_FOLLOWING;
+  command->state = POSE_WALL_PLANAR_TRACK_FOLLOWING;
   if (left_m <= 0.5 * settings_.stop_within_m) {
     halt();
     next_leg();
     phase_ = Phase::stopping;
-    command->state = POSE_WALL_TRACK_STOPPING;
+    command->state = POSE_WALL_PLANAR_TRACK_STOPPING;
     return;
   }
   double speed_m_s = allowed_speed(at, ahead, left_m, &command->slowed_by);
   const double curvature_1_m = steering(at);
   if (std::abs(curvature_1_m) * speed_m_s > settings_.turn_max_rad_s) {
     speed_m_s = settings_.turn_max_rad_s / std::abs(curvature_1_m);
-    command->slowed_by = POSE_WALL_SLOWED_BY_CURVE;
+    command->slowed_by = POSE_WALL_PLANAR_SLOWED_BY_CURVE;
   }
   const double before_m_s = std::abs(now_.speed_m_s);
   speed_m_s = towards(before_m_s, speed_m_s, settings_.speed_change_m_s2 * step_s);
@@ -199,12 +201,12 @@ void Tracker::follow(const Pose2& ahead, double step_s, pose_wall_planar_track_c
 void Tracker::turn(const Pose2& ahead, double step_s, pose_wall_planar_track_command* command) {
   const double rolls_rad = now_.turn_rad_s * (1.0 - model_.slip()) * settings_.lag_s;
   const double left_rad = path_.left_to_turn(leg_, ahead.yaw_rad) - rolls_rad;
-  command->state = POSE_WALL_TRACK_TURNING;
+  command->state = POSE_WALL_PLANAR_TRACK_TURNING;
   if (std::abs(left_rad) <= 0.5 * settings_.stop_within_rad) {
     halt();
     next_leg();
     phase_ = Phase::stopping;
-    command->state = POSE_WALL_TRACK_STOPPING;
+    command->state = POSE_WALL_PLANAR_TRACK_STOPPING;
     return;
   }
   constexpr double kSlowest = 0.08;  // of turn_max: slower, tracks stick

@@ -80,9 +80,11 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_settings_check(const pose_wall
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_memory_needed(const pose_wall_planar_scanner_settings* settings,
                                                                 uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
-  const std::int32_t status = pose_wall::planar::check_scan_settings(settings, nullptr);
+  const pose_wall_planar_scanner_settings standard = pose_wall::planar::default_scan_settings();
+  const pose_wall_planar_scanner_settings& chosen = settings != nullptr ? *settings : standard;
+  const std::int32_t status = pose_wall::planar::check_scan_settings(&chosen, nullptr);
   if (status != POSE_WALL_OK) return status;
-  *bytes = HeldScanner::bytes(pose_wall::planar::scan_settings_of(*settings));
+  *bytes = HeldScanner::bytes(pose_wall::planar::scan_settings_of(chosen));
   return POSE_WALL_OK;
 }
 

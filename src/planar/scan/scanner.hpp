@@ -12,7 +12,7 @@
 
 namespace pose_wall::planar {
 
-// POSE_WALL_OK or POSE_WALL_E_POSE.
+// POSE_WALL_OK or POSE_WALL_PLANAR_E_POSE.
 std::int32_t check_floor(const pose_wall_planar_floor& floor);
 
 class Scanner {

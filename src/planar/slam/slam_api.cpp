@@ -8,6 +8,7 @@
 #include "planar/slam/slam.hpp"
 #include "planar/slam/trail_image.hpp"
 #include "pose_wall_planar_slam.h"
+#include "struct_sizes.hpp"
 
 namespace {
 
@@ -108,7 +109,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settings_init(pose_wall_planar_sl
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settings_check(const pose_wall_planar_slam_settings* settings,
                                                               pose_wall_planar_fault* fault) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
   const struct {
     double value, least, most;
     const char *member, *rule;
@@ -160,10 +161,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_process(pose_wall_planar_slam* sl
                                                        const pose_wall_planar_pose* odometry,
                                                        pose_wall_planar_slam_result* result) {
   if (result == nullptr) return POSE_WALL_E_NULL;
-  if (result->struct_size != sizeof(*result)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*result); size != POSE_WALL_OK) return size;
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
-  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_E_POSE;
+  if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
   return inside(slam, [&](Body& body) {
     Slam& own = body.slam;
     const bool is_first = own.trail().size() == 0;
@@ -200,7 +201,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settle(pose_wall_planar_slam* sla
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_keyframe(const pose_wall_planar_slam* slam, uint32_t number,
                                                         pose_wall_planar_keyframe* keyframe) {
   if (keyframe == nullptr) return POSE_WALL_E_NULL;
-  if (keyframe->struct_size != sizeof(*keyframe)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*keyframe); size != POSE_WALL_OK) return size;
   return inside(slam, [&](const Body& body) {
     const Trail& trail = body.slam.trail();
     if (number >= trail.size()) return std::int32_t{POSE_WALL_E_INDEX};
@@ -229,7 +230,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_points(const pose_wall_planar_sla
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_edge(const pose_wall_planar_slam* slam, uint32_t number,
                                                     pose_wall_planar_edge* edge) {
   if (edge == nullptr) return POSE_WALL_E_NULL;
-  if (edge->struct_size != sizeof(*edge)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*edge); size != POSE_WALL_OK) return size;
   return inside(slam, [&](const Body& body) {
     const Trail& trail = body.slam.trail();
     if (number >= trail.edges().size()) return std::int32_t{POSE_WALL_E_INDEX};
@@ -269,7 +270,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_save(const pose_wall_planar_slam*
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_load(pose_wall_planar_slam* slam, const void* saved, uint64_t bytes,
                                                     const pose_wall_planar_pose* base) {
   if (saved == nullptr) return POSE_WALL_E_NULL;
-  if (base != nullptr && !is_pose(*base)) return POSE_WALL_E_POSE;
+  if (base != nullptr && !is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
   return inside(slam, [&](Body& body) {
     Trail& trail = body.slam.trail();
     const std::int32_t status = TrailImage::read(static_cast<const unsigned char*>(saved), bytes, &trail);

@@ -190,17 +190,18 @@ void TrailImage::write(const Trail& trail, unsigned char* to) {
 }
 
 std::int32_t TrailImage::read(const unsigned char* from, std::uint64_t bytes, Trail* trail) {
-  if (bytes < kHead + kTail) return POSE_WALL_E_MAP_FILE;
+  if (bytes < kHead + kTail) return POSE_WALL_PLANAR_E_MAP_FILE;
   Reader reader(from);
-  if (reader.get_u32() != kMagic || reader.get_u32() != kVersion) return POSE_WALL_E_MAP_FILE;
+  if (reader.get_u32() != kMagic || reader.get_u32() != kVersion) return POSE_WALL_PLANAR_E_MAP_FILE;
   Head head{};
   head.keyframes = reader.get_u32();
   head.points = reader.get_u32();
   head.edges = reader.get_u32();
-  if (head.bytes() != bytes) return POSE_WALL_E_MAP_FILE;
+  if (head.bytes() != bytes) return POSE_WALL_PLANAR_E_MAP_FILE;
   Crc32 crc;
   for (std::uint64_t k = 0; k < bytes - kTail; ++k) crc.add_byte(from[k]);
-  if (Reader(from + bytes - kTail).get_u32() != crc.value() || !is_trail(head, reader)) return POSE_WALL_E_MAP_FILE;
+  if (Reader(from + bytes - kTail).get_u32() != crc.value() || !is_trail(head, reader))
+    return POSE_WALL_PLANAR_E_MAP_FILE;
   if (head.keyframes > trail->keyframes_.size() || head.points > trail->points_.size() ||
       head.edges > trail->edges_.size()) {
     return POSE_WALL_E_BLOCK_SMALL;

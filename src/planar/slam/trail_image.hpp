@@ -16,7 +16,7 @@ class TrailImage {
  public:
   static std::uint64_t bytes(const Trail& trail);
   static void write(const Trail& trail, unsigned char* to);
-  // POSE_WALL_OK, POSE_WALL_E_MAP_FILE, POSE_WALL_E_BLOCK_SMALL. The trail is then unchanged.
+  // POSE_WALL_OK, POSE_WALL_PLANAR_E_MAP_FILE, POSE_WALL_E_BLOCK_SMALL. The trail is then unchanged.
   static std::int32_t read(const unsigned char* from, std::uint64_t bytes, Trail* trail);
 };
 

@@ -7,6 +7,8 @@
 #include <cstring>
 
 #include "base/math/rotation.hpp"
+#include "planar/forward_axis.hpp"
+#include "struct_sizes.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -117,7 +119,7 @@ void set_rectangle(StopSettings* s, double x_min_m, double x_max_m, double y_min
 }
 
 std::int32_t check_stop_settings(const StopSettings& settings, pose_wall_planar_fault* fault) {
-  if (settings.struct_size != sizeof(settings)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(settings); size != POSE_WALL_OK) return size;
   if (!is_footprint(settings)) {
     return refuse(fault, "corner_m", "corner_m must be 3 to 12 corners within 5 m, convex and counter-clockwise");
   }
@@ -141,10 +143,7 @@ Mount mount_of(const pose_wall_config& config) {
                                     number_of(config, "extrinsic_yaw"));
   mount.sensor_base_m = {number_of(config, "extrinsic_x"), number_of(config, "extrinsic_y"),
                          number_of(config, "extrinsic_z")};
-  char axis[POSE_WALL_TEXT_MAX] = {};
-  (void)pose_wall_config_get_text(&config, "forward_axis", axis, sizeof(axis));
-  mount.forward_base = axis[1] == 'Y' ? Eigen::Vector2d::UnitY() : Eigen::Vector2d::UnitX();
-  if (axis[0] == '-') mount.forward_base = -mount.forward_base;
+  mount.forward_base = forward_of(config);
   mount.range_min_m = number_of(config, "range_min");
   mount.range_max_m = number_of(config, "range_max");
   static constexpr const char* kBoxes[] = {"body_box_1", "body_box_2", "body_box_3", "body_box_4"};

@@ -18,6 +18,7 @@ constexpr std::uint32_t kReturnsLeast = SeenClouds::kReturnsLeast;
 constexpr std::uint32_t kMomentFirst_ms = 1000000;  // the first frame's time: that of a place that was never seen is 0
 constexpr std::uint32_t kMomentMost_ms = 0xF0000000U;  // after 46 days all is forgotten once
 constexpr double kFuture_s = 0.005;                    // a stamp may lie so far ahead of the caller's clock
+constexpr std::uint32_t kStandsMost = 100;             // calls with one time: a clock in steps of 16 ms takes some
 constexpr double kGap_s = 1.0;                         // beyond stale_s: what the machine did in between is not known
 constexpr double kStill = 1e-9;                        // m/s and rad/s: it stands
 
@@ -59,17 +60,55 @@ void Stop::open(const StopSettings& settings, const Mount& mount) {
 }
 
 void Stop::reset() {
+  has_now_ = false;
+  now_ns_ = 0;
+  standing_calls_ = 0;
+  freshness_ = Freshness{};  // a clock that is set back leaves it: what was seen is old all the same
+  forget();
+}
+
+void Stop::forget() {
   places_.open(settings_);
   track_ = Track();
   last_motion_ = Motion{};
   first_ns_ = last_ns_ = clear_since_ns_ = 0;
-  freshness_ = Freshness{};
   frames_ = 0;
   now_ms_ = kMomentFirst_ms;
   is_stopped_ = true;
   is_clear_ = false;
+  went_back_ = false;
+  back_ns_ = 0;
   last_ = begun(0);
   last_.reasons = POSE_WALL_PLANAR_STOP_R_STALE;
+}
+
+// What is known has ages by this clock. Where it goes back they are lost, and with them all that is known. While it
+// stands still, nothing tells how old a frame is, and the heart does not beat.
+std::uint32_t Stop::heed_clock(std::int64_t now_ns) {
+  const bool is_first = !has_now_, is_set_back = !is_first && age_s_of(now_ns, now_ns_) > kFuture_s;
+  if (is_first || is_set_back || now_ns > now_ns_) {
+    has_now_ = true;
+    now_ns_ = now_ns;
+    standing_calls_ = 0;
+    ++heartbeat_;
+  } else if (standing_calls_ < kStandsMost) {
+    ++standing_calls_;
+  }
+  if (is_set_back) {
+    forget();
+    return POSE_WALL_PLANAR_STOP_R_INVALID;
+  }
+  return standing_calls_ < kStandsMost ? 0 : POSE_WALL_PLANAR_STOP_R_STALE;
+}
+
+// One stamp that goes back is a frame that was overtaken. The second in a row is a clock that was set back: it is taken
+// for the first frame.
+void Stop::heed_stamp(std::int64_t stamp_ns) {
+  const bool goes_back = frames_ > 0 && stamp_ns < last_ns_;
+  const bool is_second = goes_back && went_back_ && stamp_ns > back_ns_;
+  if (is_second) forget();
+  went_back_ = goes_back && !is_second;
+  back_ns_ = stamp_ns;
 }
 
 void Stop::confirm() {
@@ -277,7 +316,9 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
                    pose_wall_planar_stop_result* result) {
   const Rays rays(cloud, mount_);
   const Motion motion = motion_of(given);
-  const std::uint32_t refused = frame_reasons(cloud, now_ns);
+  const std::uint32_t of_clock = heed_clock(now_ns);
+  heed_stamp(cloud.stamp_ns);
+  const std::uint32_t refused = of_clock | frame_reasons(cloud, now_ns);
   pose_wall_planar_stop_result r = begun(now_ns);
   r.reasons = refused;
   r.points_in = static_cast<std::uint32_t>(rays.points());
@@ -305,23 +346,28 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
     judge(sweep_motion, &r);
   }
   decide(r.reasons & kFatal, now_ns, &r);
-  r.heartbeat = ++heartbeat_;
+  r.heartbeat = heartbeat_;
   last_ = r;
   *result = r;
 }
 
 void Stop::tick(std::int64_t now_ns, pose_wall_planar_stop_result* result) {
+  std::uint32_t reasons = heed_clock(now_ns);
   last_.now_ns = now_ns;
   const double age_s = age_s_of(last_ns_, now_ns);
-  if (frames_ == 0 || !(age_s <= settings_.stale_s) || !(age_s >= -kFuture_s)) {
-    last_.reasons |=
-        frames_ != 0 && !(age_s >= -kFuture_s) ? POSE_WALL_PLANAR_STOP_R_INVALID : POSE_WALL_PLANAR_STOP_R_STALE;
+  if (frames_ == 0 || !(age_s <= settings_.stale_s)) {
+    reasons |= POSE_WALL_PLANAR_STOP_R_STALE;
+  } else if (!(age_s >= -kFuture_s)) {
+    reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
+  }
+  if (reasons != 0) {
+    last_.reasons |= reasons;
     is_stopped_ = true;
     is_clear_ = false;
     last_.state = POSE_WALL_PLANAR_STOP_STOP;
     last_.allowed_speed_m_s = last_.allowed_turn_rad_s = last_.stop_speed_m_s = 0.0;
   }
-  last_.heartbeat = ++heartbeat_;
+  last_.heartbeat = heartbeat_;
   *result = last_;
 }
 

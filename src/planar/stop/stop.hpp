@@ -37,6 +37,9 @@ class Stop {
   double rim_of(double speed_m_s, double turn_rad_s) const;
   SweepMotion sweep_of(const Motion& motion, double* rim_m_s) const;
   void move_on(const Motion& motion, double seconds);
+  void forget();
+  std::uint32_t heed_clock(std::int64_t now_ns);
+  void heed_stamp(std::int64_t stamp_ns);
   std::uint32_t frame_reasons(const pose_wall_cloud& cloud, std::int64_t now_ns);
   void see(const Rays& rays, pose_wall_planar_stop_result* result);
   void judge(const SweepMotion& sweep_motion, pose_wall_planar_stop_result* result);
@@ -60,6 +63,9 @@ class Stop {
   std::uint64_t frames_;
   std::uint32_t now_ms_, heartbeat_;
   bool is_stopped_, is_clear_;
+  std::int64_t now_ns_, back_ns_;  // the latest time of a call; the frame before, where its stamp went back
+  std::uint32_t standing_calls_;   // in a row that did not bring a later time
+  bool has_now_, went_back_;
   pose_wall_planar_stop_result last_;
 };
 

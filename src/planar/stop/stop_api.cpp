@@ -18,9 +18,9 @@ using Mine = pose_wall::planar::Held<Stop, 0x706F74735F6E6C70ULL>;
 
 constexpr const char* kStates[] = {"stop", "slow", "go"};
 constexpr const char* kReasons[POSE_WALL_PLANAR_STOP_REASON_COUNT][2] = {
-    {"stale", "The last frame is too old, or there was none."},
+    {"stale", "The last frame is too old, there was none, or the clock stands still."},
     {"blind", "A place in the way was not seen free."},
-    {"invalid", "The stamp went back or lies in the future, or the frame has hardly a return."},
+    {"invalid", "The clock or the stamp went back, the stamp lies in the future, or the frame has hardly a return."},
     {"frozen", "The frame is the same as the one before it."},
     {"missing", "The machine's motion was not given, so every motion is assumed."},
     {"thing", "A thing is in the way."},
@@ -36,7 +36,7 @@ Mine* mine(pose_wall_planar_stop* stop) {
 }
 
 std::int32_t check_motion(const pose_wall_planar_stop_motion& motion) {
-  if (motion.struct_size != sizeof(motion)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(motion); size != POSE_WALL_OK) return size;
   // The bits of this header:
   constexpr std::uint32_t kKnown = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
   return (motion.given & ~kKnown) == 0 ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_INPUT};
@@ -61,7 +61,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_init(pose_wall_planar_st
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_settings* settings, double x_min_m,
                                                          double x_max_m, double y_min_m, double y_max_m) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
   pose_wall::planar::set_rectangle(settings, x_min_m, x_max_m, y_min_m, y_max_m);
   return POSE_WALL_OK;
 }
@@ -82,8 +82,10 @@ POSE_WALL_EXPORT const char* pose_wall_planar_stop_reason_text(uint32_t bit_inde
   return bit_index < POSE_WALL_PLANAR_STOP_REASON_COUNT ? kReasons[bit_index][1] : "unknown reason";
 }
 
-POSE_WALL_EXPORT uint64_t pose_wall_planar_stop_memory_needed(void) {
-  return Mine::bytes();
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_memory_needed(uint64_t* bytes) {
+  if (bytes == nullptr) return POSE_WALL_E_NULL;
+  *bytes = Mine::bytes();
+  return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_open(const pose_wall_config* config,

@@ -105,7 +105,7 @@ void load_trail(Bytes* saved, bool mended) {
     put_u32(sum_of(saved->data(), at), saved->data() + at);
   }
   const std::int32_t status = pose_wall_planar_slam_load(slam, saved->data(), saved->count(), nullptr);
-  require(status == POSE_WALL_OK || status == POSE_WALL_E_MAP_FILE || status == POSE_WALL_E_BLOCK_SMALL,
+  require(status == POSE_WALL_OK || status == POSE_WALL_PLANAR_E_MAP_FILE || status == POSE_WALL_E_BLOCK_SMALL,
           "a refusal that the header knows");
   const std::uint64_t has = save(slam, after);
   require_whole_or_not_at_all(*saved, status, {before, had}, {after, has});
@@ -150,7 +150,7 @@ void load_map(Bytes* saved, bool mended) {
     put_u32(sum_of(saved->data(), at), saved->data() + at);
   }
   const std::int32_t status = pose_wall_planar_map_load_all(map, saved->data(), saved->count());
-  require(status == POSE_WALL_OK || status == POSE_WALL_E_MAP_FILE || status == POSE_WALL_E_BUFFER_SMALL,
+  require(status == POSE_WALL_OK || status == POSE_WALL_PLANAR_E_MAP_FILE || status == POSE_WALL_E_BUFFER_SMALL,
           "a refusal that the header knows");
   const std::uint64_t has = save(map, after);
   require_whole_or_not_at_all(*saved, status, {before, had}, {after, has});
@@ -177,7 +177,8 @@ void put_tile(const Bytes& saved, bool mended) {
   const std::uint64_t had = save(map, before);
   const std::int32_t status = pose_wall_planar_map_put_tile(map, &tile);
   if (status != POSE_WALL_OK) {
-    require(status == POSE_WALL_E_MAP_FILE || status == POSE_WALL_E_BUFFER_SMALL, "a refusal that the header knows");
+    require(status == POSE_WALL_PLANAR_E_MAP_FILE || status == POSE_WALL_E_BUFFER_SMALL,
+            "a refusal that the header knows");
     const std::uint64_t has = save(map, after);
     require(are_equal({after, has}, {before, had}), "a refusal changes nothing");
   }

@@ -129,7 +129,7 @@ void to_slam(Parts* parts, const pose_wall_planar_scan& scan, const pose_wall_pl
   require(pose_wall_planar_slam_process(parts->other, &scan, odometry, &other) == status, "the same status");
   require(std::memcmp(&one, &other, sizeof one) == 0, "the same bits");
   if (status == POSE_WALL_OK) return require_slam(one);
-  require(status == POSE_WALL_E_SCAN || status == POSE_WALL_E_POSE, "a refusal that the header knows");
+  require(status == POSE_WALL_PLANAR_E_SCAN || status == POSE_WALL_PLANAR_E_POSE, "a refusal that the header knows");
   require(std::memcmp(&one, &untouched, sizeof one) == 0, "a refusal changes nothing");
   require(!drive->seen.is_hall || odometry != nullptr, "a good scan is taken");
 }
@@ -138,13 +138,15 @@ void to_map(Parts* parts, const pose_wall_planar_scan& scan, const pose_wall_pla
   pose_wall_planar_map_report report{};
   report.struct_size = sizeof report;
   const std::int32_t status = pose_wall_planar_map_insert(parts->map, &scan, &base, &report);
-  require(status == POSE_WALL_OK || status == POSE_WALL_E_SCAN || status == POSE_WALL_E_POSE, "a known refusal");
+  require(status == POSE_WALL_OK || status == POSE_WALL_PLANAR_E_SCAN || status == POSE_WALL_PLANAR_E_POSE,
+          "a known refusal");
   require(report.tiles <= kTiles, "no more tiles than there are");
   pose_wall_planar_ray ray{};
   ray.struct_size = sizeof ray;
   const pose_wall_planar_pose inside{0.0, 0.0, base.yaw_rad};
   const std::int32_t asked = pose_wall_planar_map_ray(parts->map, &inside, 0.3, 20.0, 0, &ray);
-  require(asked == POSE_WALL_E_POSE || (ray.range_m >= 0.0 && ray.range_m <= 20.0 + 1e-9), "a range within the way");
+  require(asked == POSE_WALL_PLANAR_E_POSE || (ray.range_m >= 0.0 && ray.range_m <= 20.0 + 1e-9),
+          "a range within the way");
 }
 
 void to_localise(Parts* parts, const pose_wall_planar_scan& scan, const pose_wall_planar_pose* odometry) {
@@ -152,7 +154,8 @@ void to_localise(Parts* parts, const pose_wall_planar_scan& scan, const pose_wal
   pose_wall_planar_localise_result result{};
   result.struct_size = sizeof result;
   const std::int32_t status = pose_wall_planar_localise_process(parts->localise, &scan, odometry, &result);
-  require(status == POSE_WALL_OK || status == POSE_WALL_E_SCAN || status == POSE_WALL_E_POSE, "a known refusal");
+  require(status == POSE_WALL_OK || status == POSE_WALL_PLANAR_E_SCAN || status == POSE_WALL_PLANAR_E_POSE,
+          "a known refusal");
   if (status != POSE_WALL_OK) return;
   require_localise(result);
   require_candidates(parts->localise, result.candidates);
@@ -162,7 +165,8 @@ void to_localise(Parts* parts, const pose_wall_planar_scan& scan, const pose_wal
 void to_match(Input* input, Parts* parts, const pose_wall_planar_scan& scan, const pose_wall_planar_pose& base) {
   if (pose_wall_planar_match_begin(parts->matcher, base.x_m, base.y_m) != POSE_WALL_OK) return;
   const std::int32_t added = pose_wall_planar_match_add(parts->matcher, &scan, &base);
-  require(added == POSE_WALL_OK || added == POSE_WALL_E_SCAN || added == POSE_WALL_E_POSE, "a known refusal");
+  require(added == POSE_WALL_OK || added == POSE_WALL_PLANAR_E_SCAN || added == POSE_WALL_PLANAR_E_POSE,
+          "a known refusal");
   pose_wall_planar_match_input how;
   require_ok(pose_wall_planar_match_input_init(&how), "input");
   const std::uint8_t with = input->byte();
@@ -174,7 +178,8 @@ void to_match(Input* input, Parts* parts, const pose_wall_planar_scan& scan, con
   pose_wall_planar_match_result result{};
   result.struct_size = sizeof result;
   const std::int32_t status = pose_wall_planar_match_scan(parts->matcher, &scan, &how, &result);
-  require(status == POSE_WALL_OK || status == POSE_WALL_E_SCAN || status == POSE_WALL_E_POSE, "a known refusal");
+  require(status == POSE_WALL_OK || status == POSE_WALL_PLANAR_E_SCAN || status == POSE_WALL_PLANAR_E_POSE,
+          "a known refusal");
   if (status != POSE_WALL_OK) return;
   const bool found = result.state == POSE_WALL_PLANAR_MATCH_FOUND;
   require(found ? is_result(result.pose) : is_none(result.pose), "a pose iff it is found");
@@ -200,7 +205,8 @@ void place(Parts* parts) {
     points += keyframe.points;
   }
   const std::int32_t status = pose_wall_planar_localise_finish(parts->localise);
-  require(status == POSE_WALL_OK || (status == POSE_WALL_E_ORDER && points == 0), "a map that is not empty ends");
+  require(status == POSE_WALL_OK || (status == POSE_WALL_PLANAR_E_ORDER && points == 0),
+          "a map that is not empty ends");
   parts->is_placed = status == POSE_WALL_OK;
 }
 
@@ -247,7 +253,7 @@ void event(Input* input, Parts* parts, Drive* drive) {
       if (!parts->is_placed) return;
       const pose_wall_planar_pose base = any_pose(input);
       const std::int32_t status = pose_wall_planar_localise_place(parts->localise, &base, 0.1, 0.1);
-      return require(status == POSE_WALL_OK || status == POSE_WALL_E_POSE, "a known refusal");
+      return require(status == POSE_WALL_OK || status == POSE_WALL_PLANAR_E_POSE, "a known refusal");
     }
     default:
       return scan_event(input, parts, drive, false);

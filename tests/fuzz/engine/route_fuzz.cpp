@@ -114,7 +114,8 @@ std::uint32_t plan(Input* input, pose_wall_planar_path_pose* poses) {
   static KeptBlock block;
   static Grid drawn;
   const pose_wall_planar_plan_settings settings = plan_settings_by(input);
-  const std::uint64_t bytes = pose_wall_planar_plan_memory_needed(&settings);
+  std::uint64_t bytes = 0;
+  require_ok(pose_wall_planar_plan_memory_needed(&settings, &bytes), "memory_needed");
   pose_wall_planar_planner* planner = nullptr;
   require_ok(pose_wall_planar_plan_open(&settings, block.filled(bytes, 0xA5), bytes, &planner), "open");
   draw(input, settings.resolution_m, &drawn);
@@ -123,14 +124,14 @@ std::uint32_t plan(Input* input, pose_wall_planar_path_pose* poses) {
   result.struct_size = sizeof result;
   const std::int32_t status = pose_wall_planar_plan(planner, &drawn.grid, &start, &goal, poses, kPosesMax, &result);
   if (status != POSE_WALL_OK) {
-    require(status == POSE_WALL_E_POSE || status == POSE_WALL_E_GRID, "a refusal that the header knows");
+    require(status == POSE_WALL_PLANAR_E_POSE || status == POSE_WALL_PLANAR_E_GRID, "a refusal that the header knows");
     return 0;
   }
-  require(result.outcome <= POSE_WALL_PLAN_ROOM_SMALL, "a known outcome");
+  require(result.outcome <= POSE_WALL_PLANAR_PLAN_ROOM_SMALL, "a known outcome");
   require(std::isnan(result.length_m) ==
-              (result.outcome != POSE_WALL_PLAN_FOUND && result.outcome != POSE_WALL_PLAN_ROOM_SMALL),
+              (result.outcome != POSE_WALL_PLANAR_PLAN_FOUND && result.outcome != POSE_WALL_PLANAR_PLAN_ROOM_SMALL),
           "a length iff a route");
-  if (result.outcome != POSE_WALL_PLAN_FOUND) return 0;
+  if (result.outcome != POSE_WALL_PLANAR_PLAN_FOUND) return 0;
   require(result.poses >= 1 && result.poses <= kPosesMax, "as many poses as there is room");
   require(result.bound >= 1.0, "a bound of 1 or more");
   require(poses[0].pose.x_m == start.x_m && poses[0].pose.y_m == start.y_m, "it begins at the start");
@@ -159,12 +160,12 @@ std::uint32_t any_route(Input* input, pose_wall_planar_path_pose* poses) {
 }
 
 void require_command(const pose_wall_planar_track_command& c, const pose_wall_planar_track_settings& settings) {
-  require(c.state <= POSE_WALL_TRACK_NO_POSE && c.slowed_by <= POSE_WALL_SLOWED_BY_STOP, "a known state");
+  require(c.state <= POSE_WALL_PLANAR_TRACK_NO_POSE && c.slowed_by <= POSE_WALL_PLANAR_SLOWED_BY_STOP, "a known state");
   require(std::fabs(c.speed_m_s) <= settings.speed_max_m_s + 1e-9, "no faster than allowed");
   require(std::fabs(c.turn_rad_s) <= settings.turn_max_rad_s + 1e-9, "turns no faster than allowed");
   require(std::isfinite(c.left_m_s) && std::isfinite(c.right_m_s), "tracks have speeds");
-  const bool stands = c.state == POSE_WALL_TRACK_IDLE || c.state == POSE_WALL_TRACK_DONE ||
-                      c.state == POSE_WALL_TRACK_OFF_PATH || c.state == POSE_WALL_TRACK_NO_POSE;
+  const bool stands = c.state == POSE_WALL_PLANAR_TRACK_IDLE || c.state == POSE_WALL_PLANAR_TRACK_DONE ||
+                      c.state == POSE_WALL_PLANAR_TRACK_OFF_PATH || c.state == POSE_WALL_PLANAR_TRACK_NO_POSE;
   require(!stands || (c.speed_m_s == 0.0 && c.turn_rad_s == 0.0), "it stands");
 }
 
@@ -178,12 +179,14 @@ void track(Input* input, const pose_wall_planar_path_pose* poses, std::uint32_t 
   pose_wall_planar_track_settings settings;
   require_ok(pose_wall_planar_track_settings_init(&settings), "settings");
   settings.path_max = kPosesMax;
-  const std::uint64_t bytes = pose_wall_planar_track_memory_needed(&settings);
+  std::uint64_t bytes = 0;
+  require_ok(pose_wall_planar_track_memory_needed(&settings, &bytes), "memory_needed");
   pose_wall_planar_tracker* tracker = nullptr;
   require_ok(pose_wall_planar_track_open(&settings, block.filled(bytes, 0xA5), bytes, &tracker), "open");
   double clearance_m = input->byte() < 200 ? input->between(0.0, 3.0) : input->take<double>();
   const std::int32_t status = pose_wall_planar_track_route(tracker, poses, count, any_clearance, &clearance_m);
-  require(status == POSE_WALL_OK || status == POSE_WALL_E_POSE || status == POSE_WALL_E_VALUE_RANGE, "a known refusal");
+  require(status == POSE_WALL_OK || status == POSE_WALL_PLANAR_E_POSE || status == POSE_WALL_E_VALUE_RANGE,
+          "a known refusal");
   pose_wall_planar_track_input now{};
   now.struct_size = sizeof now;
   if (count > 0) now.pose = poses[0].pose;

@@ -141,14 +141,14 @@ void event(Input* input, pose_wall_runtime* runtime, World* world) {
       break;
     case 7:
       if ((what & 128U) != 0) world->now_ns -= input->byte() * 50 * kMs;
-      pose_wall_runtime_tick(runtime);
+      (void)pose_wall_runtime_tick(runtime);
       break;
     default:
       push(input, runtime, world->now_ns);
   }
   const std::int32_t started = pose_wall_runtime_start(runtime);
   require(started == POSE_WALL_OK || started == POSE_WALL_RUNTIME_E_STATE, "it starts, or runs");
-  if ((what & 64U) == 0) pose_wall_runtime_wait_idle(runtime);
+  if ((what & 64U) == 0) (void)pose_wall_runtime_wait_idle(runtime);
   const std::int32_t status = pose_wall_runtime_latest(runtime, &latest);
   for (const pose_wall_value& v : latest.result.quantity) {
     require(status == POSE_WALL_OK || v.state == POSE_WALL_INVALID, "what is refused is invalid");

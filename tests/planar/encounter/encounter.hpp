@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "planar/bytes_needed.hpp"
 #include "planar/encounter/machine.hpp"
 #include "planar/encounter/sensor.hpp"
 #include "planar/encounter/world.hpp"
@@ -54,7 +55,7 @@ struct Outcome {
 // An opened stop with room for it.
 class StopUnderTest {
  public:
-  StopUnderTest() : block_(pose_wall_planar_stop_memory_needed(), Dirt::kRandom) {}
+  StopUnderTest() : block_(stop_bytes_needed(), Dirt::kRandom) {}
 
   void open(const Sensor& sensor, const pose_wall_planar_stop_settings& settings) {
     pose_wall_config config;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../../support/aligned_block.hpp"
+#include "../bytes_needed.hpp"
 #include "../drawn_roads.hpp"
 #include "planar/route/planner.hpp"
 #include "pose_wall_planar_plan.h"
@@ -24,7 +25,7 @@ struct TrialPlanner {
   std::vector<pose_wall_planar_path_pose> poses;
 
   explicit TrialPlanner(const pose_wall_planar_plan_settings& settings)
-      : block(pose_wall_planar_plan_memory_needed(&settings), Dirt::kRandom), poses(20000) {
+      : block(bytes_needed(settings), Dirt::kRandom), poses(20000) {
     if (pose_wall_planar_plan_open(&settings, block.data(), block.size(), &planner) != POSE_WALL_OK) {
       throw std::runtime_error("the planner does not open");
     }

@@ -52,7 +52,7 @@ StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell)
     : settings_(stop_settings_of(loaded.planar)),
       takes_motion_(loaded.planar.motion == "measured"),
       tell_(std::move(tell)),
-      block_(pose_wall_planar_stop_memory_needed()) {
+      block_(POSE_WALL_PLANAR_STOP_BLOCK_MOST) {
   if (takes_motion_) {
     settings_.speed_error_m_s = kSpeedError_m_s;
     settings_.turn_error_rad_s = kTurnError_rad_s;
