@@ -16,6 +16,7 @@
  *     result.struct_size = sizeof result;
  *     for every frame:    pose_wall_planar_stop_process(stop, &cloud, &motion, now_ns, &result);
  *     at least each 20 ms: pose_wall_planar_stop_tick(stop, now_ns, &result);
+ *     for a controller:    pose_wall_planar_stop_image_fill(&result, &image);
  *
  * RULE      a status other than POSE_WALL_OK means: stop. So does silence of the caller: no result is no permission.
  * FREE      a place is free only where that was seen. A ray must have passed over it low enough to hit the smallest
@@ -166,7 +167,7 @@ typedef struct pose_wall_planar_stop_result {
   uint32_t struct_size; /* set by the caller to sizeof(pose_wall_planar_stop_result) before the call */
   uint32_t state;       /* pose_wall_planar_stop_state */
   uint32_t reasons;     /* pose_wall_planar_stop_reason bits */
-  uint32_t heartbeat;   /* changes with every call whose now_ns is later than those before: see CLOCK */
+  uint32_t heartbeat;   /* one more with every call of a later now_ns (see CLOCK); after 4294967295 comes 0 */
   int64_t stamp_ns;     /* of the last frame */
   int64_t now_ns;       /* of this call */
   uint64_t frames;      /* since it was opened or reset */
@@ -191,6 +192,9 @@ typedef struct pose_wall_planar_stop_result {
   uint32_t doubtful_cells;
   double floor_height_m; /* of the floor under base, in base */
   double floor_slope[2]; /* along x and y of base */
+
+  uint32_t settings_crc32; /* pose_wall_planar_stop_settings_crc() of the config and settings that decided */
+  uint32_t mark; /* set by the library: shows pose_wall_planar_stop_image_fill that a stop wrote this result */
 } pose_wall_planar_stop_result;
 
 typedef struct pose_wall_planar_stop pose_wall_planar_stop;
@@ -225,6 +229,63 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_process(pose_wall_planar_stop* s
  * goes back or stands: then stop. Fails iff: NULL, struct_size, not open, busy. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_tick(pose_wall_planar_stop* stop, int64_t now_ns,
                                                      pose_wall_planar_stop_result* result);
+
+/* ---------------------------------------------------------------------------------------------- process image */
+
+/* One answer for a controller, in 13 words, 26 Modbus registers. The rules of the process images of pose_wall.h hold
+ * (NUMBERS, BYTES, CRC, VERSION there), with the CRC-32C of image 2. Its version continues theirs, so words 0 and 1
+ * identify every image. FB_PoseWallStop reads it.
+ *
+ * HEARTBEAT  is the result's. A controller permits driving only while it goes on by small steps. It never counts one
+ *            that lies behind another that was seen, since old images would look the same. So a program that is started
+ *            again sets result.heartbeat to a count that went on meanwhile: 100 times the seconds of a clock that
+ *            nobody sets back, and from there one more with every answer. Else a person must confirm the restart at
+ *            the controller.
+ * CLOCK      now_ns of the calls. A controller compares its own clock with answered_ms, and so finds images that waited
+ *            on their way. A clock that is set back costs a new start of the block.
+ * OLD        results stay old: filled again, they have the same heartbeat.
+ * WORSE      you may make a result worse before you fill the image: state, allowed_speed_m_s, reasons, heartbeat. */
+#define POSE_WALL_PLANAR_STOP_IMAGE_VERSION 4
+
+/* From here on written by tools/plc/generate.py from tools/plc/image.def. */
+
+#define POSE_WALL_PLANAR_STOP_IMAGE_BYTES 52
+
+/* One answer of the obstacle stop for a controller. 52 bytes. */
+typedef struct pose_wall_planar_stop_image {
+  uint32_t struct_size;       /* bytes: POSE_WALL_PLANAR_STOP_IMAGE_BYTES */
+  uint32_t version;           /* POSE_WALL_PLANAR_STOP_IMAGE_VERSION */
+  uint32_t crc32c;            /* CRC-32C of every byte but its own four */
+  uint32_t heartbeat;         /* one more with every answer, of a frame or of silence; after 4294967295 comes 0 */
+  uint32_t settings_crc32;    /* pose_wall_planar_stop_settings_crc() of config and settings */
+  uint32_t library_version;   /* major * 65536 + minor * 256 + patch */
+  uint32_t stamp_low;         /* the last frame's stamp_ns, bits 0 to 31 */
+  uint32_t stamp_high;        /* and bits 32 to 63 */
+  uint32_t state;             /* pose_wall_planar_stop_state: 0 stop, 1 slow, 2 go */
+  int32_t allowed_speed_mm_s; /* mm/s: of the machine's fastest point, rounded down; 0 exactly if it must stop */
+  uint32_t reasons;           /* pose_wall_planar_stop_reason */
+  uint32_t age_ms;            /* ms: of the last frame at this answer, rounded up; 4294967295: not known, or none yet */
+  uint32_t answered_ms;       /* ms: when this answer was given, by the clock of now_ns; after 4294967295 comes 0 */
+} pose_wall_planar_stop_image;
+
+/* Up to here. */
+
+/* The number by which a controller knows the settings: over the config and the used members of settings, which may be
+ * NULL: defaults. Fails iff: config or crc NULL, config or settings not initialised. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_crc(const pose_wall_config* config,
+                                                             const pose_wall_planar_stop_settings* settings,
+                                                             uint32_t* crc);
+
+/* Writes the image of a result, of any stop. Set image->struct_size = sizeof *image first. A state that is none, and a
+ * speed that is no number or below 1 mm/s, become a stop. Fails iff: NULL, a struct_size, a result that no stop made
+ * (POSE_WALL_E_RESULT). The image is then unchanged: show the controller nothing new. From any thread. Cost: some
+ * hundred simple operations. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_image_fill(const pose_wall_planar_stop_result* result,
+                                                           pose_wall_planar_stop_image* image);
+
+/* POSE_WALL_OK for an image as pose_wall_planar_stop_image_fill left it. Fails iff: NULL, POSE_WALL_E_IMAGE_VERSION,
+ * POSE_WALL_E_IMAGE_CRC. */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_image_check(const pose_wall_planar_stop_image* image);
 
 #ifdef __cplusplus
 }

@@ -11,6 +11,7 @@
 
 #include "pose_wall.h"
 #include "pose_wall_motion.h"
+#include "pose_wall_planar_stop.h"
 
 namespace {
 
@@ -130,6 +131,7 @@ TEST(AbiNumbers, Constants) {
   EXPECT_EQ(POSE_WALL_IMAGE_BYTES, 240);
   EXPECT_EQ(POSE_WALL_IMAGE2_VERSION, 2);
   EXPECT_EQ(POSE_WALL_MOTION_IMAGE_VERSION, 3) << "one number each: a controller tells them by it";
+  EXPECT_EQ(POSE_WALL_PLANAR_STOP_IMAGE_VERSION, 4);
   EXPECT_EQ(POSE_WALL_IMAGE_NO_VALUE, -2147483647 - 1);
   EXPECT_EQ(POSE_WALL_IMAGE_NO_BOUND, 2147483647);
 }

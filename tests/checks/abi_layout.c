@@ -10,6 +10,7 @@
 #include "pose_wall.h"
 #include "pose_wall_box.h"
 #include "pose_wall_motion.h"
+#include "pose_wall_planar_stop.h"
 #include "pose_wall_runtime.h"
 
 int planar_layout(void); /* abi_layout_planar.c */

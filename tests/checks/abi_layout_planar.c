@@ -443,6 +443,8 @@ static int planar_stop_layout(void) {
   MEMBER(pose_wall_planar_stop_result, doubtful_cells);
   MEMBER(pose_wall_planar_stop_result, floor_height_m);
   MEMBER(pose_wall_planar_stop_result, floor_slope);
+  MEMBER(pose_wall_planar_stop_result, settings_crc32);
+  MEMBER(pose_wall_planar_stop_result, mark);
   padded += struct_end("pose_wall_planar_stop_result", sizeof(pose_wall_planar_stop_result));
   return padded;
 }

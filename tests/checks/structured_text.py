@@ -2,7 +2,7 @@
 # Copyright (c) 2026 the pose_wall authors
 """Reads the part of IEC 61131-3 structured text that tools/plc uses: tokens, declarations, and statements turned into
 Python and into C. A name that is not declared, a type that is not known, a block that is not closed and kinds that are
-mixed (BOOL, DINT, UDINT, DWORD, TIME: nothing is converted unasked) are errors. A controller's scan is a call."""
+mixed (BOOL, DINT, UDINT, WORD, DWORD, TIME: nothing is converted unasked) are errors. A controller's scan is a call."""
 
 import collections
 import re
@@ -12,7 +12,7 @@ TOKEN = re.compile(r"""\(\*.*?\*\)|(?P<time>T\#\d+m?s)|(?P<number>(?:DINT\#)?-?1
 KEYWORDS = set("""TYPE END_TYPE STRUCT END_STRUCT ARRAY OF CONSTANT END_VAR FUNCTION END_FUNCTION VAR_INPUT
     VAR_OUTPUT VAR_IN_OUT VAR FUNCTION_BLOCK END_FUNCTION_BLOCK IF THEN ELSIF ELSE END_IF FOR TO DO END_FOR CASE
     END_CASE AND OR XOR NOT MOD TRUE FALSE""".split())
-ELEMENTARY = {"BOOL": False, "DINT": 0, "UDINT": 0, "DWORD": 0, "TIME": 0}
+ELEMENTARY = {"BOOL": False, "DINT": 0, "UDINT": 0, "WORD": 0, "DWORD": 0, "TIME": 0}
 PRECEDENCE = [{"OR"}, {"XOR"}, {"AND"}, {"=", "<>"}, {"<", ">", "<=", ">="}, {"+", "-"}, {"*", "/", "MOD"}]
 PYTHON = {"AND": "&", "OR": "|", "XOR": "^", "=": "==", "<>": "!="}
 C = {"AND": "&", "OR": "|", "XOR": "^", "=": "==", "<>": "!=", "MOD": "%"}
@@ -24,7 +24,8 @@ COMPARES = ("=", "<>", "<", ">", "<=", ">=")
 # Name: kinds of the operands, of the result, and C
 STANDARD = {"SHR": (("DWORD", "DINT"), "DWORD", "({} >> {})"), "SHL": (("DWORD", "DINT"), "DWORD", "({} << {})"),
             "DWORD_TO_DINT": (("DWORD",), "DINT", "(int32_t)({})"), "DWORD_TO_UDINT": (("DWORD",), "UDINT", "({})"),
-            "UDINT_TO_DINT": (("UDINT",), "DINT", "(int32_t)({})")}
+            "UDINT_TO_DINT": (("UDINT",), "DINT", "(int32_t)({})"), "UDINT_TO_DWORD": (("UDINT",), "DWORD", "({})"),
+            "WORD_TO_DWORD": (("WORD",), "DWORD", "(uint32_t)({})")}
 
 # Of a body: its kind, and what it is in either language. A decimal number is of kind INT until it meets others.
 Text = collections.namedtuple("Text", "kind python c")

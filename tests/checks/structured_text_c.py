@@ -14,7 +14,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 import structured_text  # noqa: E402  pylint: disable=wrong-import-position
 
-KINDS = {"BOOL": "uint8_t", "DINT": "int32_t", "UDINT": "uint32_t", "DWORD": "uint32_t", "TIME": "int32_t"}
+KINDS = {"BOOL": "uint8_t", "DINT": "int32_t", "UDINT": "uint32_t", "WORD": "uint16_t", "DWORD": "uint32_t",
+         "TIME": "int32_t"}
 HEAD = """#include <stdint.h>
 #include <string.h>
 

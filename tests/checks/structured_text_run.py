@@ -8,7 +8,8 @@ import copy
 import structured_text
 
 WORD = 0xFFFFFFFF
-LIMITS = {"DINT": (-2**31, 2**31 - 1), "UDINT": (0, WORD), "DWORD": (0, WORD), "TIME": (-2**31, 2**31 - 1)}
+LIMITS = {"DINT": (-2**31, 2**31 - 1), "UDINT": (0, WORD), "WORD": (0, 0xFFFF), "DWORD": (0, WORD),
+          "TIME": (-2**31, 2**31 - 1)}
 
 
 class Controller:
@@ -112,4 +113,12 @@ class Controller:
 
     @staticmethod
     def UDINT_TO_DINT(value):
+        return value
+
+    @staticmethod
+    def UDINT_TO_DWORD(value):
+        return value
+
+    @staticmethod
+    def WORD_TO_DWORD(value):
         return value

@@ -25,6 +25,7 @@
 #include "live/edges.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/loopback.hpp"
+#include "planar/part_block.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -185,40 +186,53 @@ TEST_F(ModbusServerTest, WithoutMotionItsRegistersAreNotThere) {
   EXPECT_EQ(alone(read_request(3, 1000, 124), answer_bytes(124)).size(), answer_bytes(124));
 }
 
-TEST_F(ModbusServerTest, TheStopIsOneRegisterWithItsHeartbeat) {
+// The answer of a stop that was opened, made to say something else.
+StopNews opened_news() {
+  pose_wall_config config;
+  EXPECT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
+  const PartBlock block(pose_wall_planar_stop_memory_needed());
+  pose_wall_planar_stop* stop = nullptr;
+  EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.bytes(), &stop), POSE_WALL_OK);
   StopNews news;
+  news.result.struct_size = sizeof news.result;
+  EXPECT_EQ(pose_wall_planar_stop_tick(stop, 1'234'999'999, &news.result), POSE_WALL_OK);
+  return news;
+}
+
+TEST_F(ModbusServerTest, TheStopIsAnImageOfItsNewestAnswer) {
+  StopNews news = opened_news();
   news.result.state = POSE_WALL_PLANAR_STOP_SLOW;
   news.result.allowed_speed_m_s = 0.4567;
-  news.result.reasons = POSE_WALL_PLANAR_STOP_R_THING | POSE_WALL_PLANAR_STOP_R_RESTART;
-  news.result.frames = 1;
-  news.result.stamp_ns = 1'000'000'000, news.result.now_ns = 1'234'999'999;
-  news.rounds = 0x1A5;  // its low byte is the heartbeat
+  news.result.heartbeat = 0x12345678;
   stop_.say(news);
-  EXPECT_EQ(alone(read_request(1, 3000, 1), answer_bytes(1)), adu(1, Text("\x04\x02\xA5\x01")));
-  EXPECT_EQ(alone(read_request(2, 3000, 4), answer_bytes(4)),
-            adu(2, Text("\x04\x08") + word(0xA501) + word(456) + word(0x820) + word(234)));
-  news.result.state = POSE_WALL_PLANAR_STOP_GO;
-  news.rounds = 256;
+  pose_wall_planar_stop_image image{};
+  image.struct_size = sizeof image;
+  ASSERT_EQ(pose_wall_planar_stop_image_fill(&news.result, &image), POSE_WALL_OK);
+  Text registers(sizeof image, '\0');
+  std::memcpy(registers.data(), &image, sizeof image);
+  for (std::size_t i = 0; i + 1 < registers.size(); i += 2) std::swap(registers[i], registers[i + 1]);
+  const Text whole = Text("\x04") + static_cast<char>(sizeof image) + registers;
+  EXPECT_EQ(alone(read_request(1, 3000, 26), answer_bytes(26)), adu(1, whole));
+  EXPECT_EQ(alone(read_request(2, 3006, 2), answer_bytes(2)), adu(2, Text("\x04\x04") + word(0x5678) + word(0x1234)));
+  // For a controller that was built for the one register of before: state stop, in a word that it refuses.
+  EXPECT_EQ(image.struct_size & 3U, 0U);
+  EXPECT_NE(image.struct_size & 0xFCU, 0U);
+  news.result.state = POSE_WALL_PLANAR_STOP_STOP;
   stop_.say(news);
-  EXPECT_EQ(alone(read_request(3, 3000, 1), answer_bytes(1)), adu(3, Text("\x04\x02") + word(2)));
-  // A state that nobody knows, times and speeds beyond their register.
-  news.result.state = 3;
-  news.result.now_ns = news.result.stamp_ns + 70'000'000'000;
-  stop_.say(news);
-  EXPECT_EQ(alone(read_request(4, 3000, 4), answer_bytes(4)),
-            adu(4, Text("\x04\x08") + word(0) + word(0) + word(0x820) + word(65535)));
+  EXPECT_EQ(alone(read_request(3, 3016, 4), answer_bytes(4)), adu(3, Text("\x04\x08") + Text(8, '\0')));
   constexpr char kAddress = 2;
-  for (const auto& [first, count] : {std::pair(3000U, 5U), {3003U, 2U}, {3004U, 1U}, {2999U, 2U}}) {
+  for (const auto& [first, count] : {std::pair(3000U, 27U), {3025U, 2U}, {3026U, 1U}, {2999U, 2U}}) {
     EXPECT_EQ(alone(read_request(5, first, count), kExceptionBytes), exception(5, 4, kAddress)) << first;
   }
 }
 
-TEST_F(ModbusServerTest, WithoutAStopItsRegistersSayStopAndTheHeartbeatStands) {
+TEST_F(ModbusServerTest, WithoutAnAnswerOrAStopAllRegistersAreZero) {
+  EXPECT_EQ(alone(read_request(1, 3000, 26), answer_bytes(26)), adu(1, Text("\x04\x34") + Text(52, '\0')));
   const std::uint16_t port = pose_wall::test::free_tcp_port();
   const auto server = make_modbus_sink(load_config("", {"modbus=127.0.0.1:" + std::to_string(port)}), images_, nullptr);
   server->start();
   for (int k = 0; k < 3; ++k) {
-    EXPECT_EQ(Client(port).ask(read_request(1, 3000, 4), answer_bytes(4)), adu(1, Text("\x04\x08") + Text(8, '\0')));
+    EXPECT_EQ(Client(port).ask(read_request(1, 3000, 26), answer_bytes(26)), adu(1, Text("\x04\x34") + Text(52, '\0')));
   }
   server->stop();
 }

@@ -168,8 +168,8 @@ TEST_F(StopGuardTest, AnEndInOrderSaysStopAsItsLastWord) {
   EXPECT_NE(told().back()->result.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
 }
 
-// FB_PoseWallStop (tools/plc) takes 200 ms of the same heartbeat for silence, and 85 beats more between two reads for a
-// fall. Its longest time between reads is 0.8 s.
+// FB_PoseWallStop (tools/plc) takes 200 ms of the same heartbeat for silence, and 33 beats more between two reads for a
+// gap.
 TEST_F(StopGuardTest, TheHeartbeatGoesOnWithinAControllersWatchdogAndDoesNotSeemToFall) {
   ASSERT_TRUE(is_brought_to_drive());
   // Waits for 50 beats, a second's on a machine that is idle, with so many frames between them. How many there may be
@@ -191,8 +191,37 @@ TEST_F(StopGuardTest, TheHeartbeatGoesOnWithinAControllersWatchdogAndDoesNotSeem
   beats_with(0);  // the frames have stopped, and the heartbeat tells that the guard has not
   EXPECT_FALSE(drives()) << "it is the state that stops the machine then";
   // Up to one frame in half a tick: then there are only frames, and below that at most as many ticks as frames.
-  constexpr std::int64_t kSeldom_ns = 800'000'000;  // between two reads
-  EXPECT_LT(2 * kSeldom_ns / StopGuard::kTick_ns, 256 / 3);
+  constexpr std::int64_t kSeldom_ns = 200'000'000;  // between two reads
+  EXPECT_LT(2 * kSeldom_ns / StopGuard::kTick_ns, 32);
+}
+
+pose_wall_planar_stop_image controller_image(const StopNews& news) {
+  pose_wall_planar_stop_image image{};
+  image.struct_size = sizeof image;
+  EXPECT_EQ(pose_wall_planar_stop_image_fill(&news.result, &image), POSE_WALL_OK);
+  return image;
+}
+
+TEST_F(StopGuardTest, EachAnswerIsAnImageOneBeatAheadOfTheOneBefore) {
+  const pose_wall_planar_stop_image before = controller_image(guard_->stop_now());
+  EXPECT_EQ(before.state, kStop) << "before the thread has begun";
+  guard_->start();
+  ASSERT_TRUE(becomes_true([&] { return guard_->stop_now().rounds >= 5; }));
+  const StopNews news = guard_->stop_now();
+  const pose_wall_planar_stop_image image = controller_image(news);
+  EXPECT_EQ(image.heartbeat - before.heartbeat, news.rounds);
+  EXPECT_EQ(image.settings_crc32, before.settings_crc32);
+  EXPECT_NE(image.settings_crc32, 0U);
+  guard_->stop();
+  const pose_wall_planar_stop_image last = controller_image(guard_->stop_now());
+  EXPECT_EQ(last.state, kStop);
+  // A daemon that is started again is ahead: 100 beats for each second, of which it gave fewer.
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const StopGuard again(loaded_, nullptr);
+  const std::uint32_t ahead = controller_image(again.stop_now()).heartbeat - last.heartbeat;
+  EXPECT_GT(ahead, 0U);
+  EXPECT_LT(ahead, 0x80000000U);
+  EXPECT_EQ(controller_image(again.stop_now()).settings_crc32, last.settings_crc32);
 }
 
 TEST_F(StopGuardTest, FramesThatComeSlowerThanThePeriodStopAndTheHealthNamesTheKey) {

@@ -112,6 +112,11 @@ void Daemon::log_start() const {
            moves ? "on: held values move with the machine, and its way along the road is told (key motion)"
                  : "off (key motion)");
   log_line(Grade::kGood, "config", config_crc_text(*loaded_.config.get()) + " (dwConfigCrc of FB_PoseWall)");
+  if (guard_) {
+    log_line(Grade::kGood, "planar stop",
+             fmt::format("settings' CRC: 16#{:08X} (dwSettingsCrc of FB_PoseWallStop)",
+                         guard_->stop_now().result.settings_crc32));
+  }
   log_line(Grade::kGood, "config", "all other keys have their defaults; `pose_wall check-config` lists them");
 }
 

@@ -8,9 +8,10 @@ import re
 NOTE = "Written by tools/plc/generate.py from tools/plc/image.def, blocks.def and include/pose_wall.h: do not edit."
 HEAD = f"(* SPDX-License-Identifier: BSD-3-Clause *)\n(* Copyright (c) 2026 the pose_wall authors *)\n(* {NOTE} *)\n"
 WORD = re.compile(r"\(\*.*?\*\)|(?:T|DINT|16)#[\w-]+|[A-Za-z_]\w*|:=|\S|\s+", re.S)
-SCL_TYPE = {"BOOL": "Bool", "DINT": "DInt", "UDINT": "UDInt", "DWORD": "DWord", "TIME": "Time", "TON": "TON_TIME"}
+SCL_TYPE = {"BOOL": "Bool", "DINT": "DInt", "UDINT": "UDInt", "WORD": "Word", "DWORD": "DWord", "TIME": "Time",
+            "TON": "TON_TIME"}
 SCL_WORDS = set("""IF THEN ELSIF ELSE END_IF FOR TO DO END_FOR CASE OF END_CASE AND OR XOR NOT MOD TRUE FALSE
-    DWORD_TO_DINT DWORD_TO_UDINT UDINT_TO_DINT""".split())
+    DWORD_TO_DINT DWORD_TO_UDINT UDINT_TO_DINT UDINT_TO_DWORD WORD_TO_DWORD""".split())
 
 
 def rows(variables, kind_of, indent="  "):

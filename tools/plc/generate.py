@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Writes what follows from image.def and blocks.def: the images' structs in include/pose_wall.h and
-include/pose_wall_motion.h, the members that tests/checks/abi_layout.c looks at,
-the tables of registers in tools/live/modbus/README.md, what goes over CAN (can/can.def), and FB_PoseWall as plain
-text, PLCopen XML and SCL. States and numbers are those of pose_wall.h.
+"""Writes what follows from image.def and blocks.def: the images' structs in the public headers, the members that
+tests/checks/abi_layout.c looks at, the tables of registers in tools/live/modbus/README.md, those of the stop's image in
+tools/plc/README.md, what goes over CAN (can/can.def), and FB_PoseWall as plain text, PLCopen XML and SCL. States and
+numbers are those of the headers.
 
 usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if a file would change, or if
                                        tests/checks/abi_layout.txt pins other offsets than image.def gives"""
@@ -22,6 +22,7 @@ import dialects  # noqa: E402  pylint: disable=wrong-import-position
 import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
 import plcopen  # noqa: E402  pylint: disable=wrong-import-position
 import register_table  # noqa: E402  pylint: disable=wrong-import-position
+import stop_tables  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text_words as words  # noqa: E402  pylint: disable=wrong-import-position
 
 BEGIN = "/* From here on written by tools/plc/generate.py from tools/plc/image.def. */\n"
@@ -45,11 +46,13 @@ def c_struct(structs, struct):
                       f"}} {struct.name};"])
 
 
-HEADERS = ("include/pose_wall.h", "include/pose_wall_motion.h")
+# Header: how the names of its structs begin; all others are the first one's.
+HEADERS = {"include/pose_wall.h": "", "include/pose_wall_motion.h": "pose_wall_motion_",
+           "include/pose_wall_planar_stop.h": "pose_wall_planar_stop_"}
 
 
 def header_of(name):
-    return HEADERS[1 if name.startswith("pose_wall_motion_") else 0]
+    return max(HEADERS, key=lambda path: len(HEADERS[path]) if name.startswith(HEADERS[path]) else -1)
 
 
 def header(structs, path, text):
@@ -86,7 +89,7 @@ def outputs(root):
     plc, modbus = root / "tools/plc", root / "tools/live/modbus"
     registers_hpp = (modbus / "modbus_registers.hpp").read_text(encoding="utf-8")
     page = (modbus / "README.md").read_text(encoding="utf-8")
-    stop_header_text = (root / "include/pose_wall_planar_stop.h").read_text(encoding="utf-8")
+    plc_page = (plc / "README.md").read_text(encoding="utf-8")
     read = blocks_reader.Reader(words.description_text(header_text, (plc / "blocks.def").read_text(encoding="utf-8")))
     return {
         **{root / path: header(structs, path, text) for path, text in header_texts.items()},
@@ -95,7 +98,8 @@ def outputs(root):
         plc / "FB_PoseWall.xml": plcopen.xml(read, dialects.NOTE),
         **can_description.outputs(root, structs, header_text),
         root / "tests/checks/image_members.def": layout_members(structs),
-        modbus / "README.md": register_table.with_tables(structs, header_text, stop_header_text, registers_hpp, page),
+        modbus / "README.md": register_table.with_tables(structs, header_text, registers_hpp, page),
+        plc / "README.md": stop_tables.with_tables(structs, header_text, root, plc_page),
     }
 
 

@@ -14,20 +14,17 @@ TYPES = {"uint32": ("uint32_t", "UDINT", "I"), "int32": ("int32_t", "DINT", "i")
          "float": ("float", "REAL", "f")}
 
 # Of the reflected CRCs, by version of the image
-POLYNOMIAL = {1: 0xEDB88320, 2: 0x82F63B78, 3: 0x82F63B78}
+POLYNOMIAL = {1: 0xEDB88320, 2: 0x82F63B78, 3: 0x82F63B78, 4: 0x82F63B78}
 
 Member = collections.namedtuple("Member", "name type unit comment")
 Struct = collections.namedtuple("Struct", "name st_name comment members")
-# Registers of 16 bits that are no image
-Registers = collections.namedtuple("Registers", "name comment members")
-REGISTER_TYPES = {"word16": "WORD", "uint16": "UINT"}
 # One 4-byte word of the image: "roll.value_mdeg", "int32"
 Word = collections.namedtuple("Word", "path type")
 
 
-def read_definition(path):
-    """Structs and registers: ({C name: Struct}, {name: Registers}) in the order of the file."""
-    structs, registers = {}, {}
+def read_structs(path=DEFINITION):
+    """{C name: Struct} in the order of the file."""
+    structs = {}
     for line in path.read_text(encoding="utf-8").splitlines():
         line = line.split("//")[0].strip()
         if not line:
@@ -36,28 +33,13 @@ def read_definition(path):
         words = head.split()
         if words[0] == "STRUCT":
             current = structs[words[1]] = Struct(words[1], words[2], rest[0], [])
-            known = [*TYPES, *structs]
-            continue
-        if words[0] == "REGISTERS":
-            current = registers[words[1]] = Registers(words[1], rest[0], [])
-            known = list(REGISTER_TYPES)
             continue
         name, kind = words
-        if kind not in known:
+        if kind not in TYPES and kind not in structs:
             raise ValueError(f"{path}: {name} is of unknown type {kind}")
         unit, comment = (rest + ["", ""])[:2]
         current.members.append(Member(name, kind, "" if unit == "-" else unit, comment))
-    return structs, registers
-
-
-def read_structs(path=DEFINITION):
-    """{C name: Struct} in the order of the file."""
-    return read_definition(path)[0]
-
-
-def read_registers(path=DEFINITION):
-    """{name: Registers}"""
-    return read_definition(path)[1]
+    return structs
 
 
 def words_of(structs, name, prefix=""):

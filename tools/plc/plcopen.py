@@ -8,7 +8,7 @@ NAMESPACE = "http://www.plcopen.org/xml/tc6_0201"
 XHTML = "http://www.w3.org/1999/xhtml"
 # Any other would change the file whenever it is written.
 WRITTEN = "2026-01-01T00:00:00"
-ELEMENTARY = ("BOOL", "DINT", "UDINT", "DWORD", "TIME")
+ELEMENTARY = ("BOOL", "DINT", "UDINT", "WORD", "DWORD", "TIME")
 SECTION = {"VAR_INPUT": "inputVars", "VAR_OUTPUT": "outputVars", "VAR_IN_OUT": "inOutVars", "VAR": "localVars"}
 POU = {"FUNCTION": "function", "FUNCTION_BLOCK": "functionBlock"}
 

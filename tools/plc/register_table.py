@@ -11,7 +11,7 @@ END = "<!-- Up to here. -->\n"
 REGISTERS_PER_WORD = 2
 FIRST_INPUT_REGISTER = 30001  # what controllers call the register of address 0: the 3 is for input registers
 # The constants of modbus_registers.hpp, by version of the image
-FIRST_NAME = {1: "kImageRegister", 2: "kImage2Register", 3: "kMotionImageRegister"}
+FIRST_NAME = {1: "kImageRegister", 2: "kImage2Register", 3: "kMotionImageRegister", 4: "kStopImageRegister"}
 
 
 def first_register(registers_hpp, version):
@@ -40,29 +40,18 @@ def image_table(structs, registers_hpp, version, name):
     return "\n".join(lines)
 
 
-def stop_table(registers_hpp):
-    stop = description.read_registers()["stop"]
-    first = int(re.search(r"\bkStopRegister = (\d+)", registers_hpp).group(1))
-    lines = [f"### Obstacle stop: registers {first} to {first + len(stop.members) - 1}", "",
-             "| register | PLC's number | name | type | unit | holds |", "| ---: | ---: | --- | --- | --- | --- |"]
-    lines += [f"| {at} | {FIRST_INPUT_REGISTER + at} | `{row.name}` | {description.REGISTER_TYPES[row.type]} "
-              f"| {row.unit} | {row.comment} |" for at, row in enumerate(stop.members, first)]
-    return "\n".join(lines)
-
-
 def reason_table(header_text, prefix, title):
     bits = re.findall(rf"\b{prefix}_R_(\w+) =\s*1 << (\d+)", header_text)
     return "\n".join([f"### {title}", "", "| bit | reason |", "| ---: | --- |"] +
                      [f"| {bit} | `{name.lower()}` |" for name, bit in bits])
 
 
-def with_tables(structs, header_text, stop_header_text, registers_hpp, text):
+def with_tables(structs, header_text, registers_hpp, text):
     """The page with its tables written anew; image 2 first, for new controllers take it."""
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
     tables = [image_table(structs, registers_hpp, version, name)
               for version, name in sorted(description.images(structs).items(), reverse=True)]
     tables.append(reason_table(header_text, "POSE_WALL", "Bits of `reasons` and `frame_reasons`"))
-    tables.append(stop_table(registers_hpp))
-    tables.append(reason_table(stop_header_text, "POSE_WALL_PLANAR_STOP", "Bits of the stop's `reasons`"))
+    tables.append(reason_table(header_text, "POSE_WALL_PLANAR_STOP", "Bits of the stop's `reasons`"))
     return before + BEGIN + "\n" + "\n\n".join(tables) + "\n\n" + END + after

@@ -83,11 +83,13 @@ def decode_function(structs):
             "F_PoseWallDecode := TRUE;\nEND_FUNCTION\n\n")
 
 
-def decode_motion_function(structs):
-    rows = "\n".join(row.strip() for row in decode_rows(structs, 3, 3))
-    return ("(* The members of a motion image from its words. *)\nFUNCTION F_PoseWallDecodeMotion : BOOL\nVAR_IN_OUT\n"
-            "  adwImage : T_PoseWallWords;\n  stImage : ST_PoseWallMotionImage;\nEND_VAR\n"
-            f"{rows}\nF_PoseWallDecodeMotion := TRUE;\nEND_FUNCTION\n\n")
+def decode_one(structs, version, function, what):
+    """Of an image that has one version only."""
+    rows = "\n".join(row.strip() for row in decode_rows(structs, version, version))
+    st_name = structs[description.images(structs)[version]].st_name
+    return (f"(* The members of {what} from its words. *)\nFUNCTION {function} : BOOL\nVAR_IN_OUT\n"
+            f"  adwImage : T_PoseWallWords;\n  stImage : {st_name};\nEND_VAR\n"
+            f"{rows}\n{function} := TRUE;\nEND_FUNCTION\n\n")
 
 
 def description_text(header_text, blocks_text):
@@ -96,7 +98,10 @@ def description_text(header_text, blocks_text):
     last = len(description.image_words(2, structs)) - 1
     types = [struct_type(structs, item) for item in structs.values() if item.st_name != "-"]
     words = ("(* An image as it arrives. *)\nTYPE T_PoseWallWords :\n"
-             f"  ARRAY [0..{last}] OF DWORD;\nEND_TYPE\n\n")
+             f"  ARRAY [0..{last}] OF DWORD;\nEND_TYPE\n\n"
+             "(* The same as Modbus delivers it. *)\nTYPE T_PoseWallRegisters :\n"
+             f"  ARRAY [0..{2 * last + 1}] OF WORD;\nEND_TYPE\n\n")
     return "".join([constants(header_text, structs), *types, words, decode_function(structs),
-                    decode_motion_function(structs),
+                    decode_one(structs, 3, "F_PoseWallDecodeMotion", "a motion image"),
+                    decode_one(structs, 4, "F_PoseWallDecodeStop", "a stop image"),
                     blocks_text.replace("@CHANNELS@\n", channels())])

@@ -9,6 +9,7 @@
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
 #include "planar/pose2.hpp"
+#include "planar/stop/stop_image.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -50,12 +51,13 @@ void Stop::lay_out(Arena& arena) {
   print_ = arena.take_one<CloudPrint>();
 }
 
-void Stop::open(const StopSettings& settings, const Mount& mount) {
+void Stop::open(const StopSettings& settings, const Mount& mount, std::uint32_t settings_crc32) {
   settings_ = settings;
   mount_ = mount;
   sight_.open(settings, mount);
   sweep_.open(settings);
   heartbeat_ = 0;
+  settings_crc32_ = settings_crc32;
   reset();
 }
 
@@ -126,6 +128,8 @@ pose_wall_planar_stop_result Stop::begun(std::int64_t now_ns) const {
   r.nearest_size_m = r.nearest_age_s = not_a_number();
   r.floor_height_m = r.floor_slope[0] = r.floor_slope[1] = not_a_number();
   r.time_to_contact_s = std::numeric_limits<double>::infinity();
+  r.settings_crc32 = settings_crc32_;
+  r.mark = kStopMark;
   return r;
 }
 

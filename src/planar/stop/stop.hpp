@@ -19,7 +19,8 @@ namespace pose_wall::planar {
 class Stop {
  public:
   void lay_out(Arena& arena);
-  void open(const StopSettings& settings, const Mount& mount);
+  // settings_crc32: of settings and config, for the results.
+  void open(const StopSettings& settings, const Mount& mount, std::uint32_t settings_crc32);
   void reset();
   void confirm();
   void process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_motion& motion, std::int64_t now_ns,
@@ -61,7 +62,7 @@ class Stop {
   std::int64_t first_ns_, last_ns_, clear_since_ns_;
   Freshness freshness_;
   std::uint64_t frames_;
-  std::uint32_t now_ms_, heartbeat_;
+  std::uint32_t now_ms_, heartbeat_, settings_crc32_;
   bool is_stopped_, is_clear_;
   std::int64_t now_ns_, back_ns_;  // the latest time of a call; the frame before, where its stamp went back
   std::uint32_t standing_calls_;   // in a row that did not bring a later time

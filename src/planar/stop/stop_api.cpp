@@ -7,6 +7,7 @@
 #include "export.hpp"
 #include "planar/held.hpp"
 #include "planar/stop/stop.hpp"
+#include "planar/stop/stop_image.hpp"
 #include "pose_wall_planar_stop.h"
 #include "struct_sizes.hpp"
 #include "struct_versions.hpp"
@@ -98,8 +99,9 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_open(const pose_wall_config* conf
   Mine* opened = nullptr;
   status = Mine::place(block, block_bytes, &opened);
   if (status != POSE_WALL_OK) return status;
-  opened->body().open(settings != nullptr ? *settings : pose_wall::planar::default_stop_settings(),
-                      pose_wall::planar::mount_of(*config));
+  const pose_wall_planar_stop_settings given =
+      settings != nullptr ? *settings : pose_wall::planar::default_stop_settings();
+  opened->body().open(given, pose_wall::planar::mount_of(*config), pose_wall::planar::settings_crc(*config, given));
   *stop = reinterpret_cast<pose_wall_planar_stop*>(opened);
   return POSE_WALL_OK;
 }
@@ -142,6 +144,33 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_tick(pose_wall_planar_stop* stop,
   if (status == POSE_WALL_OK) status = check_size(result->struct_size);
   if (status == POSE_WALL_OK) inside.body().tick(now_ns, result);
   return status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_crc(const pose_wall_config* config,
+                                                            const pose_wall_planar_stop_settings* settings,
+                                                            uint32_t* crc) {
+  if (config == nullptr || crc == nullptr) return POSE_WALL_E_NULL;
+  if (settings != nullptr && settings->struct_size != sizeof(*settings)) return POSE_WALL_E_STRUCT_SIZE;
+  std::uint32_t config_crc = 0;
+  const std::int32_t status = pose_wall_config_crc(config, &config_crc);
+  if (status != POSE_WALL_OK) return status;
+  *crc = pose_wall::planar::settings_crc(*config,
+                                         settings != nullptr ? *settings : pose_wall::planar::default_stop_settings());
+  return POSE_WALL_OK;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_image_fill(const pose_wall_planar_stop_result* result,
+                                                          pose_wall_planar_stop_image* image) {
+  if (result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
+  std::int32_t status = check_size(result->struct_size);
+  if (status == POSE_WALL_OK && image->struct_size != sizeof(*image)) status = POSE_WALL_E_STRUCT_SIZE;
+  if (status == POSE_WALL_OK && result->mark != pose_wall::planar::kStopMark) status = POSE_WALL_E_RESULT;
+  if (status == POSE_WALL_OK) pose_wall::planar::fill_image(*result, image);
+  return status;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_image_check(const pose_wall_planar_stop_image* image) {
+  return image != nullptr ? pose_wall::planar::check_image(*image) : std::int32_t{POSE_WALL_E_NULL};
 }
 
 }  // extern "C"

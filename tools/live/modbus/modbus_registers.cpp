@@ -3,7 +3,6 @@
 
 #include "live/modbus/modbus_registers.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 
@@ -43,19 +42,13 @@ int request_bytes(const std::uint8_t* bytes, std::size_t count) {
   return count >= whole ? static_cast<int>(whole) : 0;
 }
 
-std::array<std::uint16_t, kStopRegisters> stop_registers(const StopBoard* stop) {
-  if (stop == nullptr) return {};
+pose_wall_planar_stop_image stop_image(const StopBoard* stop) {
+  pose_wall_planar_stop_image image{};
+  if (stop == nullptr) return image;
   const StopNews news = stop->stop_now();
-  const pose_wall_planar_stop_result& result = news.result;
-  const auto limited = [](std::int64_t value) {
-    return static_cast<std::uint16_t>(std::clamp<std::int64_t>(value, 0, UINT16_MAX));
-  };
-  // What is no state that is known is a stop.
-  const std::uint32_t state = result.state <= POSE_WALL_PLANAR_STOP_GO ? result.state : 0;
-  const auto word = static_cast<std::uint16_t>(state | (news.rounds & 0xFFU) << 8U);
-  const std::int64_t age_ms = result.frames == 0 ? UINT16_MAX : (result.now_ns - result.stamp_ns) / 1'000'000;
-  return {word, limited(state == 0 ? 0 : news.allowed_mm_s()), static_cast<std::uint16_t>(result.reasons & 0xFFFFU),
-          limited(age_ms)};
+  image.struct_size = sizeof image;
+  const bool is_filled = pose_wall_planar_stop_image_fill(&news.result, &image) == POSE_WALL_OK;
+  return is_filled ? image : pose_wall_planar_stop_image{};
 }
 
 ModbusRegisters::ModbusRegisters(const Images& images, const StopBoard* stop)
@@ -65,8 +58,8 @@ ModbusRegisters::ModbusRegisters(const Images& images, const StopBoard* stop)
       image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kImageRegister, kImageRegisters)),
       image2_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kImage2Register, kImage2Registers)),
       motion_image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kMotionImageRegister, kMotionImageRegisters)),
-      stop_words_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kStopRegister, kStopRegisters)) {
-  if (!context_ || !image_ || !image2_ || !motion_image_ || !stop_words_) throw std::runtime_error("Modbus: no memory");
+      stop_image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kStopImageRegister, kStopImageRegisters)) {
+  if (!context_ || !image_ || !image2_ || !motion_image_ || !stop_image_) throw std::runtime_error("Modbus: no memory");
 }
 
 bool ModbusRegisters::answer(int socket, const std::uint8_t* request, int bytes, bool* was_refused) {
@@ -89,10 +82,9 @@ bool ModbusRegisters::answer(int socket, const std::uint8_t* request, int bytes,
 // The image in whose range the address lies, or the one before it: then the range's end is what is refused.
 int ModbusRegisters::answer_read(const std::uint8_t* request, int bytes) {
   const unsigned address = big_endian_at(request, kAddressAt);
-  if (address >= kStopRegister) {
-    const std::array<std::uint16_t, kStopRegisters> words = stop_registers(stop_);
-    std::copy(words.begin(), words.end(), stop_words_->tab_input_registers);
-    return modbus_reply(context_.get(), request, bytes, stop_words_.get());
+  if (address >= kStopImageRegister) {
+    copy_words(stop_image(stop_), stop_image_.get());
+    return modbus_reply(context_.get(), request, bytes, stop_image_.get());
   }
   if (address >= kMotionImageRegister) {
     const std::optional<pose_wall_motion_image> image = images_.motion_image();

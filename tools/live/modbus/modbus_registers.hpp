@@ -8,7 +8,6 @@
 
 #include <modbus/modbus.h>
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -20,13 +19,13 @@ namespace pose_wall::tools::live {
 
 // Where each image begins. A register is a word of two bytes of the image as it lies in memory (little-endian), so of a
 // number of four bytes the low word comes first.
-constexpr int kImageRegister = 0, kImage2Register = 1000, kMotionImageRegister = 2000, kStopRegister = 3000;
+constexpr int kImageRegister = 0, kImage2Register = 1000, kMotionImageRegister = 2000, kStopImageRegister = 3000;
 constexpr int kImageRegisters = POSE_WALL_IMAGE_BYTES / 2, kImage2Registers = POSE_WALL_IMAGE2_BYTES / 2,
-              kMotionImageRegisters = POSE_WALL_MOTION_IMAGE_BYTES / 2, kStopRegisters = 4;
+              kMotionImageRegisters = POSE_WALL_MOTION_IMAGE_BYTES / 2,
+              kStopImageRegisters = POSE_WALL_PLANAR_STOP_IMAGE_BYTES / 2;
 
-// The stop for a controller, as tools/plc/image.def describes it: word, allowed speed, reasons, age. Without a stop all
-// are 0: the state is stop, and the heartbeat stands.
-std::array<std::uint16_t, kStopRegisters> stop_registers(const StopBoard* stop);
+// The stop's newest answer. Without a stop, or an answer, all bytes are 0: that is no image, and permits nothing.
+pose_wall_planar_stop_image stop_image(const StopBoard* stop);
 
 // Bytes of a whole request that begins the buffer, by its MBAP header (Modbus Messaging on TCP/IP V1.0b, 3.1.3); 0
 // where more bytes must come to tell, -1 where these are no Modbus.
@@ -52,7 +51,7 @@ class ModbusRegisters {
   int answer_read(const std::uint8_t* request, int bytes);
 
   Context context_;
-  Mapping image_, image2_, motion_image_, stop_words_;
+  Mapping image_, image2_, motion_image_, stop_image_;
 };
 
 }  // namespace pose_wall::tools::live

@@ -59,7 +59,17 @@ StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell)
   }
   open(*loaded.config.get());
   if (stop_ == nullptr) throw std::runtime_error(refusal_of(settings_));
+  begin_answers();
+}
+
+// A controller counts no heartbeat that lies behind one that it saw. So that of a daemon that was started again begins
+// ahead: by a clock, and faster than answers come, of which there are 100 a second at most.
+void StopGuard::begin_answers() {
+  constexpr std::int64_t kBeat_ns = kTick_ns / 2;
+  first_beat_ = static_cast<std::uint32_t>(static_cast<std::uint64_t>(wall_ns()) / kBeat_ns);
   newest_.result.struct_size = sizeof newest_.result;
+  static_cast<void>(pose_wall_planar_stop_tick(stop_, monotonic_ns(), &newest_.result));
+  newest_.result.heartbeat = first_beat_;
   refuse(&newest_, POSE_WALL_PLANAR_STOP_R_STALE);
 }
 
@@ -187,8 +197,7 @@ void StopGuard::answer_silence(StopNews* news) {
 }
 
 void StopGuard::run() {
-  StopNews news;
-  news.result.struct_size = sizeof news.result;
+  StopNews news = newest();
   while (true) {
     std::optional<Job> job;
     bool is_confirmed = false;
@@ -206,6 +215,7 @@ void StopGuard::run() {
       answer_silence(&news);
     }
     ++news.rounds;
+    news.result.heartbeat = first_beat_ + static_cast<std::uint32_t>(news.rounds);
     news.answered_ns = monotonic_ns();
     news.header_stamp_ns = header_stamp_ns_;
     put(news, job ? &*job : nullptr);
@@ -244,12 +254,13 @@ void StopGuard::put(const StopNews& news, const Job* job) {
   if (tell_) tell_(std::make_shared<const StopNews>(news));
 }
 
+StopNews StopGuard::newest() const {
+  const std::lock_guard<std::mutex> locked(lock_);
+  return newest_;
+}
+
 StopNews StopGuard::stop_now() const {
-  StopNews news;
-  {
-    const std::lock_guard<std::mutex> locked(lock_);
-    news = newest_;
-  }
+  StopNews news = newest();
   if (monotonic_ns() - news.answered_ns > kHangs_ns) refuse(&news, POSE_WALL_PLANAR_STOP_R_STALE);
   return news;
 }
@@ -270,6 +281,7 @@ PartHealth StopGuard::health() const {
   health.add("reasons", stop_reasons_text(news.result.reasons));
   health.add("allowed mm/s", fmt::format("{}", news.allowed_mm_s()));
   health.add("heartbeat", news.rounds);
+  health.add("settings' CRC", fmt::format("16#{:08X}", news.result.settings_crc32));
   const std::lock_guard<std::mutex> locked(lock_);
   const bool comes = static_cast<double>(monotonic_ns() - received_ns_) <= settings_.stale_s * kNsPerS;
   health.summary = !is_stop             ? "permits driving"

@@ -69,6 +69,7 @@ class StopGuard final : public StopBoard {
   };
 
   void open(const pose_wall_config& config);
+  void begin_answers();
   void run();
   void answer_frame(const Job& job, StopNews* news);
   void answer_silence(StopNews* news);
@@ -76,6 +77,7 @@ class StopGuard final : public StopBoard {
   bool comes_too_slowly(std::int64_t stamp_ns);
   void refuse(StopNews* news, std::uint32_t reason) const;
   void put(const StopNews& news, const Job* job);
+  StopNews newest() const;
   pose_wall_planar_stop_motion motion_now() const;
 
   pose_wall_planar_stop_settings settings_;
@@ -87,9 +89,10 @@ class StopGuard final : public StopBoard {
   pose_wall_planar_stop* stop_ = nullptr;
   StampClock stamps_;
   std::int64_t told_ns_ = 0, header_stamp_ns_ = 0;
-  std::int64_t stamp_ns_ = 0;   // of the newest frame, by its sensor
-  int slow_frames_ = 0;         // so many in turn came too long after the one before
-  bool frame_refused_ = false;  // the newest one
+  std::uint32_t first_beat_ = 0;  // the heartbeat of a controller is so far ahead of the rounds
+  std::int64_t stamp_ns_ = 0;     // of the newest frame, by its sensor
+  int slow_frames_ = 0;           // so many in turn came too long after the one before
+  bool frame_refused_ = false;    // the newest one
 
   mutable std::mutex lock_;
   std::condition_variable changed_;
