@@ -138,8 +138,7 @@ enum pose_wall_planar_stop_reason {
   POSE_WALL_PLANAR_STOP_R_STALE = 1 << 0,     /* no frame, one older than stale_s, or a clock that stands */
   POSE_WALL_PLANAR_STOP_R_BLIND = 1 << 1,     /* a place in the way was not seen free */
   POSE_WALL_PLANAR_STOP_R_INVALID = 1 << 2,   /* a clock or stamp went back, a stamp of the future, few returns */
-  POSE_WALL_PLANAR_STOP_R_FROZEN = 1 << 3,    /* the cloud came before, or 10 degrees of it and more: sensor or driver
-                                                 hang, or packets were lost and the driver left the old points */
+  POSE_WALL_PLANAR_STOP_R_FROZEN = 1 << 3,    /* the cloud, or 10 degrees of it and more, came before */
   POSE_WALL_PLANAR_STOP_R_MISSING = 1 << 4,   /* no motion was given, or it is not finite: every motion is assumed */
   POSE_WALL_PLANAR_STOP_R_THING = 1 << 5,     /* a thing is in the way */
   POSE_WALL_PLANAR_STOP_R_LOW = 1 << 6,       /* it is a low one */
