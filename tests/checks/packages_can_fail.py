@@ -19,11 +19,11 @@ class Image(BrokenProject):
     def setUp(self):
         super().setUp()
         source = CHECKS.parent.parent
-        shutil.copytree(source / "tools/plc", self.root / "tools/plc")
+        for folder in ("tools/plc", "tools/language/zh"):
+            shutil.copytree(source / folder, self.root / folder)
         for path in ("include/pose_wall.h", "include/pose_wall_motion.h", "include/pose_wall_planar_stop.h",
-                     "tests/checks/image_members.def",
-                     "tests/checks/abi_layout.txt", "tools/live/modbus/README.md",
-                     "tools/live/modbus/modbus_registers.hpp"):
+                     "tests/checks/image_members.def", "tests/checks/abi_layout.txt", "tools/live/modbus/README.md",
+                     "tools/live/modbus/modbus_registers.hpp", "tools/planar/stop_reasons.cpp"):
             (self.root / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source / path, self.root / path)
 
@@ -46,6 +46,17 @@ class Image(BrokenProject):
         for before, after in (("| 1062, 1063 |", "| 1064, 1065 |"), ("| 3 | `stamp_back` |", "| 4 | `stamp_back` |")):
             self.change("tools/live/modbus/README.md", before, after)
             self.fails("tools/live/modbus/README.md is not what", *self.check())
+
+    def test_tables_of_the_stop_edited_by_hand(self):
+        for before, after in (("| 8 | 32 | `state` |", "| 9 | 36 | `state` |"), ("16#00000800", "16#00000400"),
+                              ("畅通时间尚短", "")):
+            self.change("tools/plc/README.md", before, after)
+            self.fails("tools/plc/README.md is not what", *self.check())
+
+    def test_bit_of_the_stop_renumbered(self):
+        self.change("include/pose_wall_planar_stop.h", "R_SPEED = 1 << 8,", "R_SPEED = 1 << 9,")
+        self.fails("tools/plc/README.md is not what", *self.check())
+        self.fails("tools/live/modbus/README.md is not what", *self.check())
 
     def test_image_moved_to_another_register(self):
         self.change("tools/live/modbus/modbus_registers.hpp", "kImage2Register = 1000", "kImage2Register = 2000")
@@ -88,6 +99,11 @@ class Image(BrokenProject):
         self.change("tools/plc/image.def", "told_by         uint32", "spare uint32 | - | spare\ntold_by         uint32")
         self.passes("python3", self.root / "tools/plc/generate.py", self.root)
         self.passes("python3", CHECKS / "plc_test.py", self.root)
+
+    def test_other_description_of_the_stop(self):
+        self.change("tools/plc/image.def", "settings_crc32  bits", "spare uint32 | - | spare\nsettings_crc32  bits")
+        self.passes("python3", self.root / "tools/plc/generate.py", self.root)
+        self.passes("python3", CHECKS / "plc_stop_test.py", self.root, "Text", "Functions", "Permission")
 
     def test_description_differs_from_the_pinned_layout(self):
         self.change("tools/plc/image.def", "value_mm        int32", "value_mm        float")
