@@ -87,6 +87,12 @@ def c_prototype(image):
             f"{indent}pose_wall_can_frame frames[{c_count(image)}])")
 
 
+def headers_of(images):
+    """Of the public headers those that declare an image's struct: the one whose name its own begins with."""
+    names = sorted(path.stem for path in (DEFINITION.parents[3] / "include").glob("pose_wall*.h"))
+    return [max((name for name in names if image.struct.startswith(name)), key=len) + ".h" for image in images]
+
+
 def c_header(images):
     parts = [LICENCE + """.
  *
@@ -96,9 +102,7 @@ def c_header(images):
 #define POSE_WALL_CAN_IMAGES_H
 
 #include "can_frames.h"
-#include "pose_wall.h"
-#include "pose_wall_motion.h"
-
+""" + "".join(f'#include "{name}"\n' for name in headers_of(images)) + """
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -147,7 +151,7 @@ def numbers_of(signal, headers):
     if signal.path == "told_by":
         names = dict(TOLD_BY)
     elif enum and signal.member.type != "bits" and f"enum {enum.group(0)} {{" in headers:
-        names = {number: re.sub("^pose_wall_(part_|sense_|along_)?", "", key.lower())
+        names = {number: re.sub("^pose_wall_(part_|sense_|along_|planar_stop_)?", "", key.lower())
                  for key, number in description.read_enum(headers, enum.group(0)).items()}
         names.update({number: "no_level" for number, name in names.items() if name == "parts"})
     if signal.how == "signed":
