@@ -12,9 +12,10 @@
 namespace pose_wall::motion {
 namespace {
 
-constexpr float kCap = 16.0F;         // squared deviations: more is of another surface
-constexpr int kSweeps = 3;            // of the curve against the rows' levels; judgement
-constexpr double kNobodyKnows = 1e3;  // cost of a shift at which the map knows no row
+constexpr std::uint32_t kRowsLeast = 100;  // of kRowsMost, for a curve; judgement
+constexpr float kCap = 16.0F;              // squared deviations: more is of another surface
+constexpr int kSweeps = 3;                 // of the curve against the rows' levels; judgement
+constexpr double kNobodyKnows = 1e3;       // cost of a shift at which the map knows no row
 // Standard deviations by which the patches must prefer the best shift for another one to be excluded.
 constexpr double kExcluded = 3.0;
 // And by which they must prefer it over all others. On smooth roads of four sensors the best of 17 places reached 4.2
@@ -25,7 +26,6 @@ constexpr double kPatchesLeast = 5.0;
 constexpr float kRangeBias_m = 0.03F;
 // A third of the 10 cm in which rock of half a metre's roughness length bends the curve.
 constexpr double kFineReach_m = 0.036;
-constexpr std::uint32_t kFineShifts = 7;  // a parabola has three numbers
 
 float unknown() {
   return static_cast<float>(not_a_number());
@@ -88,15 +88,15 @@ class CurveBuilder {
   double step_m() const { return step_m_; }
   std::uint32_t rows() const { return rows_; }
 
-  // Misfits at every shift, and how each goes with the rest.
-  void measure() {
+  // Misfits at every shift, and how each goes with the rest, of at most so many observations.
+  void measure(std::uint32_t rows_most) {
     rows_ = 0;
     const std::uint32_t count = scan_.observation.size();
-    const std::uint32_t stride = count / kRowsMost + 1;
+    const std::uint32_t stride = count / rows_most + 1;
     const Eigen::Vector3f axis[3] = {alignment_.axes.along.cast<float>(), alignment_.axes.left.cast<float>(),
                                      alignment_.axes.up.cast<float>()};
     const LocalPose local(alignment_.pose, scan_.map->corner());
-    for (std::uint32_t i = 0; i < count && rows_ < kRowsMost; i += stride) {
+    for (std::uint32_t i = 0; i < count && rows_ < rows_most; i += stride) {
       if (measure_row(scan_.observation[i], local, axis)) ++rows_;
     }
     fill_up();
@@ -364,11 +364,11 @@ void find_rivals(CurveBuilder* builder, std::uint32_t best, std::uint32_t shifts
 }  // namespace
 
 Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, std::uint32_t shifts,
-                  CurveScratch* scratch) {
+                  CurveScratch* scratch, std::uint32_t rows_most) {
   Curve out;
   CurveBuilder builder(scan, alignment, reach_m, shifts, scratch);
-  builder.measure();
-  if (builder.rows() < 100) return out;
+  builder.measure(rows_most);
+  if (builder.rows() * kRowsMost < kRowsLeast * rows_most) return out;
   builder.fit_the_rest();
   builder.square();
   double f[kShiftsMost];
@@ -388,7 +388,7 @@ Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, 
 FinePlace refine_along(const Scan& scan, const Alignment& alignment, CurveScratch* scratch) {
   FinePlace out;
   CurveBuilder builder(scan, alignment, kFineReach_m, kFineShifts, scratch);
-  builder.measure();
+  builder.measure(kRowsMost);
   builder.fit_the_rest();
   builder.square();
   const CurveBuilder::Parabolas p = builder.parabolas();

@@ -12,6 +12,7 @@
 namespace pose_wall::motion {
 
 constexpr std::uint32_t kShiftsMost = 33;  // 0.4 m to each side in steps of 25 mm
+constexpr std::uint32_t kFineShifts = 7;   // of the last centimetres: a parabola has three numbers
 constexpr std::uint32_t kRowsMost = 2048;  // observations of the curve
 constexpr int kRest = 6;  // turns about along, across and up, moves across and up, and the common range error
 
@@ -47,8 +48,8 @@ struct FinePlace {
 };
 FinePlace refine_along(const Scan& scan, const Alignment& alignment, CurveScratch* scratch);
 
-// Shifts from -reach_m to reach_m in equal steps about the alignment.
+// Shifts from -reach_m to reach_m in equal steps about the alignment, by at most so many observations.
 Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, std::uint32_t shifts,
-                  CurveScratch* scratch);
+                  CurveScratch* scratch, std::uint32_t rows_most = kRowsMost);
 
 }  // namespace pose_wall::motion

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "base/math/finite.hpp"
+#include "motion/far_match.hpp"
+#include "motion/frame_steps.hpp"
 #include "motion/motion_report.hpp"
 #include "motion/wide_start.hpp"
 
@@ -28,12 +30,9 @@ constexpr std::uint32_t kEquationsMost = 2048;  // of the fine steps; all of a s
 constexpr int kPassesMost = 4;                  // of coarse steps; judgement
 constexpr double kCurveStep_m = 0.025;
 constexpr double kReachMargin = 1.5;  // of the range of top speed and turn: a place there is not the edge of the search
-constexpr double kReachLeast_m = 0.2, kReachMost_m = 0.4;
-constexpr int kWindowsMost = 4;                       // to each side
-constexpr double kWindowStep_m = 1.5 * kReachMost_m;  // each overlaps the next by a quarter
-constexpr double kRivalCost = 1.5;                    // of the best place's misfit: a place that fits worse is none
-constexpr double kSlipMost_m = 0.8;                   // more, and the map's rock is somewhere else
-constexpr double kBentShare = 0.1;  // of a step, while scans are bent: the difference of near and far rock
+constexpr double kReachLeast_m = 0.2;
+constexpr double kSlipMost_m = 0.8;  // more, and the map's rock is somewhere else
+constexpr double kBentShare = 0.1;   // of a step, while scans are bent: the difference of near and far rock
 constexpr double kBent_m = 0.02, kBentAt_m = 5.0;  // a scan that its motion bends by less, so far off, is straight
 // Slopes of a steady bend that spread by s over 20 m of map turn by 0.17 s a metre.
 constexpr double kBendOfSpread = 0.17;
@@ -54,8 +53,12 @@ void Odometry::lay_out(Arena& arena) {
   segment_.lay_out(arena);
   choice_.lay_out(arena);
   observation_ = arena.take<Observation>(kObservationsMost);
+  const std::uint64_t place = arena.place();
   steps_.lay_out(arena);
   curve_.lay_out(arena);
+  arena.go_back(place);
+  starts_.lay_out(arena);
+  arena.go_behind_all();
   map_.lay_out(arena);
   print_ = arena.take_one<CloudPrint>();
 }
@@ -139,7 +142,8 @@ void Odometry::take_in_scan() {
     if (range > kRockRange_m && !(-walk.normal().dot(image_.point(i) - sensor) > kFarIncidence * range)) continue;
     map_.add(local(image_.point(i)), walk.facing());
   }
-  map_.end_keyframe();
+  work_.add(image_.count, steps::kPointTakenIn);
+  work_.add(map_.end_keyframe(), steps::kTileSettled);
 }
 
 // The expected place, or after a gap the one that a wide search finds. False: the scan fits nowhere.
@@ -154,7 +158,8 @@ bool Odometry::place_scan(Frame* frame) {
   at.R = orthonormal(upright(frame->observations, at.R, reading_.lidar_base_m) * at.R);
   face(at.R, frame->observations);
   const double dt = frame->dt_s < 5.0 ? frame->dt_s : 5.0;
-  return search_wide(map_, frame->observations, {settings_.turn_max_rad_s * dt, settings_.speed_max_m_s * dt}, &at);
+  const WideReach reach = {settings_.turn_max_rad_s * dt, settings_.speed_max_m_s * dt};
+  return search_wide(map_, frame->observations, reach, &starts_, &work_, &at);
 }
 
 Scan Odometry::scan_of(const Frame& frame) const {
@@ -170,8 +175,11 @@ void Odometry::align(Frame* frame) {
   find_axes(scan, forward, &a);
   StepOptions coarse;
   coarse.with_along = a.axes.hold > kHoldOfHall;
-  coarse.every = frame->wide ? 1 : 4;
-  for (int pass = 0; pass < kPassesMost && take_steps(scan, coarse, &steps_, &a); ++pass) {
+  coarse.every = frame->wide ? 2 : 4;
+  bool moves = true;
+  for (int pass = 0; pass < kPassesMost && moves; ++pass) {
+    work_.add(frame->observations.size() / coarse.every, steps::kEquation);
+    moves = take_steps(scan, coarse, &steps_, &a);
   }
   find_axes(scan, forward, &a);
   match_way(frame);
@@ -179,6 +187,7 @@ void Odometry::align(Frame* frame) {
   fine.use_relief = true;
   fine.every = (frame->observations.size() + kEquationsMost - 1) / kEquationsMost;
   fine.rounds = 3;
+  work_.add(frame->observations.size() / fine.every, steps::kEquation);
   take_steps(scan, fine, &steps_, &a);
   if (!frame->is(POSE_WALL_ALONG_UNOBSERVABLE)) refine(scan, frame);
   frame->reasons |= bit(!a.ground_alone, POSE_WALL_MOTION_R_NO_GROUND);
@@ -190,6 +199,7 @@ void Odometry::align(Frame* frame) {
 // The last centimetres along the road, and their sigma.
 void Odometry::refine(const Scan& scan, Frame* frame) {
   Alignment& a = frame->alignment;
+  work_.add(steps::of_curve(frame->observations.size(), kRowsMost, kFineShifts));
   const FinePlace place = refine_along(scan, a, &curve_);
   if (!(place.told && place.halves_m < kHalvesMost_m)) {
     frame->reasons |= POSE_WALL_MOTION_R_HALVES_DIFFER;
@@ -212,43 +222,12 @@ void Odometry::refine(const Scan& scan, Frame* frame) {
 }
 
 // The curve about the expected place.
-Curve Odometry::match_near(const Frame& frame) {
-  double reach = slipped_m_ + (since_start_ == 0 ? kReachMargin * settings_.speed_max_m_s * frame.dt_s : 0.0);
+Curve Odometry::match_near(Frame* frame) {
+  double reach = slipped_m_ + (since_start_ == 0 ? kReachMargin * settings_.speed_max_m_s * frame->dt_s : 0.0);
   reach = reach < kReachLeast_m ? kReachLeast_m : reach > kReachMost_m ? kReachMost_m : reach;
   const std::uint32_t shifts = 2 * static_cast<std::uint32_t>(reach / kCurveStep_m + 0.5) + 1;
-  return match_along(scan_of(frame), frame.alignment, reach, shifts, &curve_);
-}
-
-// After a gap: searches curves side by side, as far as the machine can have gone. Moves the alignment to the middle of
-// the best one. If another that is not its neighbour fits nearly as well, that is a second place, even if it is no
-// evidence by itself.
-Curve Odometry::match_far(Frame* frame) {
-  const Alignment middle = frame->alignment;
-  const double far_m = settings_.speed_max_m_s * frame->dt_s;
-  int windows = static_cast<int>(far_m / (2.0 * kReachMost_m)) + 1;
-  if (windows > kWindowsMost) windows = kWindowsMost;
-  const Scan scan = scan_of(*frame);
-  Curve found[2 * kWindowsMost + 1];
-  int best = 0;
-  for (int k = -windows; k <= windows; ++k) {
-    Alignment there = middle;
-    there.pose.t += kWindowStep_m * k * there.axes.along;
-    Curve& curve = found[k + windows];
-    curve = match_along(scan, there, kReachMost_m, kShiftsMost, &curve_);
-    const Curve& so_far = found[best];
-    const bool better = is_evidence(curve) == is_evidence(so_far)
-                            ? curve.told && (!so_far.told || curve.bottom < so_far.bottom)
-                            : is_evidence(curve);
-    if (better) best = k + windows;
-  }
-  for (int k = 0; k <= 2 * windows; ++k) {
-    const double away_m = kWindowStep_m * std::fabs(static_cast<double>(k - best));
-    const bool rivals = found[k].told && found[k].bottom < kRivalCost * found[best].bottom;
-    if (rivals && away_m > 2.0 * kReachMost_m) found[best].apart_m = away_m + kReachMost_m;
-  }
-  const double best_at_m = kWindowStep_m * (best - windows);
-  frame->alignment.pose.t += best_at_m * frame->alignment.axes.along;
-  return found[best];
+  work_.add(steps::of_curve(frame->observations.size(), kRowsMost, shifts));
+  return match_along(scan_of(*frame), frame->alignment, reach, shifts, &curve_);
 }
 
 // The place along the road and its uncertainty.
@@ -256,7 +235,8 @@ void Odometry::match_way(Frame* frame) {
   Alignment& a = frame->alignment;
   // Where planes face along, the wide start has placed the scan; along a road nothing has yet.
   const bool far = frame->dt_s > kGap_s && a.axes.hold < kHoldOfRoad;
-  const Curve curve = far ? match_far(frame) : match_near(*frame);
+  const double far_m = settings_.speed_max_m_s * frame->dt_s;
+  const Curve curve = far ? match_far(scan_of(*frame), far_m, frame->wide, &curve_, &work_, &a) : match_near(frame);
   frame->curve = curve;
   if (!is_evidence(curve)) {
     const bool smooth = !(curve.contrast > kContrastLeast);
@@ -442,8 +422,10 @@ bool Odometry::begins_unbent(const Frame& frame) const {
 // stands, two scans that were bent alike have shown that.
 void Odometry::begin_unbent(const Frame& frame) {
   const std::uint32_t count = image_.count;
+  work_.add(std::uint64_t{frame.cloud.width} * frame.cloud.height, steps::kPointProjected);
   project_again(frame.cloud, reading_, twist_, &image_);
   if (image_.count != count) {
+    work_.add(image_.count, steps::kPointLookedAt);
     image_.flags.fill(0);
     segment(pose_.R, reading_, &segment_, &image_);
     mark_features(&image_);
@@ -472,6 +454,8 @@ void Odometry::look(Frame* frame) {
   frame->segments = segment(frame->expected.R, reading_, &segment_, &image_);
   frame->features = mark_features(&image_);
   const std::uint32_t count = choose_observations(image_, frame->expected, &choice_, observation_);
+  work_.add(std::uint64_t{frame->cloud.width} * frame->cloud.height, steps::kPointProjected);
+  work_.add(image_.count, steps::kPointLookedAt);
   frame->observations = observation_.first(count);
 }
 
@@ -539,6 +523,7 @@ bool Odometry::is_repeat(const pose_wall_cloud& cloud) {
 
 void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* result) {
   Frame frame(cloud);
+  work_ = Work{};
   frame.first = !has_map_;
   frame.dt_s = frames_ == 0 ? 0.0 : (static_cast<double>(cloud.stamp_ns) - static_cast<double>(stamp_ns_)) * 1e-9;
   const bool goes_on = frames_ == 0 || frame.dt_s > kSameStamp_s;

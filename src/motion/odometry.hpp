@@ -11,6 +11,7 @@
 #include "motion/range_image.hpp"
 #include "motion/relief_map.hpp"
 #include "motion/scan_motion.hpp"
+#include "motion/start_counts.hpp"
 
 namespace pose_wall::motion {
 
@@ -29,6 +30,7 @@ class Odometry {
   // The last frame's pose as the engine takes it; without a pose, that nothing is known. False before the first frame.
   bool tell(pose_wall_odometry* out) const;
   std::uint64_t run() const { return run_; }
+  std::uint64_t steps() const { return work_.done(); }  // of the last frame (frame_steps.hpp)
   std::uint32_t map_points(std::uint32_t first, std::uint32_t capacity, float* xyz_start_m) const;
 
  private:
@@ -43,8 +45,7 @@ class Odometry {
   void align(Frame* frame);
   void check_reach(Frame* frame) const;
   void match_way(Frame* frame);
-  Curve match_near(const Frame& frame);
-  Curve match_far(Frame* frame);
+  Curve match_near(Frame* frame);
   void refine(const Scan& scan, Frame* frame);
   void use_prior(Frame* frame) const;
   double slip_of(const Frame& frame, double along_m) const;
@@ -70,8 +71,10 @@ class Odometry {
   SegmentScratch segment_;
   ObservationScratch choice_;
   Span<Observation> observation_;
+  Work work_;  // of this frame so far
   StepScratch steps_;
   CurveScratch curve_;
+  StartScratch starts_;  // in the place of the two before it, which are used later
   CloudPrint* print_ = nullptr;
   // memory
   Freshness freshness_;

@@ -287,8 +287,9 @@ void ReliefMap::settle(Tile* tile) {
   tile->fresh = 0;
 }
 
-void ReliefMap::end_keyframe() {
-  for (std::uint32_t f = 0; f < fresh_count_; ++f) settle(&tile_[static_cast<std::uint32_t>(fresh_[f])]);
+std::uint32_t ReliefMap::end_keyframe() {
+  const std::uint32_t began = fresh_count_;
+  for (std::uint32_t f = 0; f < began; ++f) settle(&tile_[static_cast<std::uint32_t>(fresh_[f])]);
   fresh_count_ = 0;
   for (std::uint32_t t = 0; t < used_; ++t) {
     Tile& tile = tile_[t];
@@ -298,6 +299,7 @@ void ReliefMap::end_keyframe() {
     const float share = 1.0F / static_cast<float>(tile.keyframes);
     for (int k = 0; k < 3; ++k) tile.seen_from[k] += share * (sensor_[k] - tile.seen_from[k]);
   }
+  return began;
 }
 
 bool ReliefMap::has_ground(std::int32_t x, std::int32_t y, float below_m) const {

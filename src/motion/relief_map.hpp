@@ -112,14 +112,14 @@ class ReliefMap {
     return Eigen::Vector3f(tile.seen_from[0], tile.seen_from[1], tile.seen_from[2]) - corner().cast<float>();
   }
 
-  // A scan goes in between begin and end.
+  // A scan goes in between begin and end, which gives how many tiles began.
   void begin_keyframe(const Eigen::Vector3d& sensor_map) {
     ++keyframe_;
     last_ = nullptr;
     sensor_ = sensor_map.cast<float>();
   }
   void add(const Eigen::Vector3f& p, std::uint8_t facing);
-  void end_keyframe();
+  std::uint32_t end_keyframe();
   // Forgets the rock about the planes; the planes stay.
   void forget_relief();
   // Root mean square of the tiles' slopes along u, about their mean, of walls or of ground and roof: how bent they are.
@@ -128,6 +128,7 @@ class ReliefMap {
   std::uint32_t tiles() const { return used_; }
   std::uint32_t keyframes() const { return keyframe_; }
   bool gave_way() const { return gave_way_; }
+  const Tile& tile(std::uint32_t index) const { return tile_[index]; }
   std::uint32_t index_of(const Tile* tile) const { return static_cast<std::uint32_t>(tile - tile_.data()); }
 
   // Points of the map's cells in the map's own frame, for pictures; writes those from the first-th on, gives their

@@ -5,22 +5,12 @@
 
 #include <cmath>
 
+#include "motion/frame_steps.hpp"
+
 namespace pose_wall::motion {
 namespace {
 
-constexpr std::uint32_t kAsked = 250;  // observations that answer
 constexpr double kShareLeast = 0.25;
-constexpr int kStepsMost = 24;  // to each side
-
-// One pass of the search: how far to each side, and in which steps.
-struct Pass {
-  double yaw_rad, yaw_step_rad, place_m, place_step_m;
-};
-
-int steps_of(double reach, double step) {
-  const int steps = static_cast<int>(reach / step + 0.5);
-  return steps < kStepsMost ? steps : kStepsMost;
-}
 
 Eigen::Vector3d normal_of(const Observation& o) {
   return {static_cast<double>(o.normal[0]), static_cast<double>(o.normal[1]), static_cast<double>(o.normal[2])};
@@ -80,39 +70,117 @@ double share_on_map(const ReliefMap& map, Span<const Observation> observations, 
 
 namespace {
 
-// The best of a grid about the pose; of places that fit alike the nearest.
-double search(const ReliefMap& map, Span<Observation> observations, const Pass& pass, Pose* pose) {
-  const std::uint32_t stride = observations.size() / kAsked + 1;
-  const int yaws = steps_of(pass.yaw_rad, pass.yaw_step_rad), places = steps_of(pass.place_m, pass.place_step_m);
-  const Pose start = *pose;
-  double best = 0.0;
-  for (int yaw = -yaws; yaw <= yaws; ++yaw) {
-    Pose turned = start;
-    turned.R = turn_by(Eigen::Vector3d(0.0, 0.0, pass.yaw_step_rad * yaw)) * start.R;
-    face(turned.R, observations);
-    for (int i = -places; i <= places; ++i) {
-      for (int j = -places; j <= places; ++j) {
-        Pose at = turned;
-        at.t += Eigen::Vector3d(pass.place_step_m * i, pass.place_step_m * j, 0.0);
-        const double far = 5e-4 * (i * i + j * j) + 1e-4 * yaw * yaw;
-        const double share = share_on_map(map, observations, at, stride) - far;
-        if (!(share > best)) continue;
-        best = share;
-        *pose = at;
+// The observations that answer: evenly chosen. Ground is met wherever the machine turns and goes.
+std::uint32_t choose_asked(Span<const Observation> observations, Span<Observation> asked) {
+  const std::uint32_t stride = observations.size() / kAskedMost + 1;
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < observations.size(); i += stride) {
+    if (observations[i].ground == 0) asked[count++] = observations[i];
+  }
+  return count;
+}
+
+// Looks exactly: the best start so far of a grid about a pose.
+class Looks {
+ public:
+  Looks(const ReliefMap& map, Span<const Observation> asked, const Pose& middle, double place_step_m, Work* work)
+      : map_(map), asked_(asked), middle_(middle), pose_(middle), place_step_m_(place_step_m), work_(work) {}
+
+  double best() const { return best_; }
+  const Pose& pose() const { return pose_; }
+
+  // turn: of the start's yaw; facing: of the observations there.
+  void look_at(const Start& start, const Eigen::Matrix3d& turn, Span<const std::uint8_t> facing) {
+    const Pose at = {turn * middle_.R, middle_.t + place_step_m_ * Eigen::Vector3d(start.x, start.y, 0.0)};
+    const double cost = start.cost(), share = share_above(at, facing, best_ + cost);
+    if (!(share - cost > best_)) return;
+    best_ = share - cost;
+    pose_ = at;
+  }
+
+ private:
+  // Which share of the observations lies on the map's surfaces, weighed by how near. Ends where it cannot become more
+  // than `least`.
+  double share_above(const Pose& pose, Span<const std::uint8_t> facing, double least) {
+    const LocalPose local(pose, map_.corner());
+    const double all = asked_.size();
+    double on = 0.0;
+    for (std::uint32_t i = 0; i < asked_.size(); ++i) {
+      work_->add(steps::kStartLookedAt);
+      const Observation& o = asked_[i];
+      Surface at;
+      if (map_.find(local(Eigen::Vector3f(o.x, o.y, o.z)), facing[i], &at)) {
+        on += 1.0 - static_cast<double>(std::fabs(at.above_m) / kLayer_m);
       }
+      if (!(on + (all - i - 1.0) > least * all)) return 0.0;
+    }
+    return on / all;
+  }
+
+  const ReliefMap& map_;
+  Span<const Observation> asked_;
+  Pose middle_, pose_;
+  double place_step_m_, best_ = 0.0;
+  Work* work_;
+};
+
+// One pass of the search: how far to each side, and in which steps.
+struct Pass {
+  double yaw_rad, yaw_step_rad, place_m, place_step_m;
+
+  StartGrid grid() const { return {steps_of(yaw_rad, yaw_step_rad), steps_of(place_m, place_step_m), yaw_step_rad}; }
+
+ private:
+  static int steps_of(double reach, double step) {
+    const int steps = static_cast<int>(reach / step + 0.5);
+    return steps < kStartsMost ? steps : kStartsMost;
+  }
+};
+
+// All of a small grid.
+double search_all(const ReliefMap& map, Span<const Observation> asked, const Pass& pass, StartScratch* scratch,
+                  Work* work, Pose* pose) {
+  const StartGrid grid = pass.grid();
+  const Span<std::uint8_t> facing = scratch->facing.first(asked.size());
+  Looks looks(map, asked, *pose, pass.place_step_m, work);
+  for (int yaw = -grid.yaws; yaw <= grid.yaws; ++yaw) {
+    const Eigen::Matrix3d turn = grid.turn(yaw);
+    find_facings(turn * pose->R, asked, facing);
+    for (int x = -grid.places; x <= grid.places; ++x) {
+      for (int y = -grid.places; y <= grid.places; ++y) looks.look_at({yaw, x, y}, turn, facing);
     }
   }
-  face(pose->R, observations);
-  return best;
+  *pose = looks.pose();
+  return looks.best();
+}
+
+// Of a large one those whose bound is better than the best, the best bound first.
+void search_bounded(const ReliefMap& map, Span<const Observation> asked, const Pass& pass, StartScratch* scratch,
+                    Work* work, Pose* pose) {
+  const StartGrid grid = pass.grid();
+  const std::uint32_t count = count_starts(map, asked, *pose, grid, scratch, work);
+  Looks looks(map, asked, *pose, pass.place_step_m, work);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint32_t index = scratch->best[k];
+    if (scratch->bound[index] * kBoundUnit <= looks.best()) break;  // so are all that follow
+    const Start start = grid.at(index);
+    looks.look_at(start, grid.turn(start.yaw), grid.of_yaw(scratch->facing, asked.size(), start.yaw));
+  }
+  *pose = looks.pose();
 }
 
 }  // namespace
 
-bool search_wide(const ReliefMap& map, Span<Observation> observations, const WideReach& reach, Pose* pose) {
+bool search_wide(const ReliefMap& map, Span<Observation> observations, const WideReach& reach, StartScratch* scratch,
+                 Work* work, Pose* pose) {
+  face(pose->R, observations);
+  const Span<const Observation> asked = scratch->asked.first(choose_asked(observations, scratch->asked));
   // A layer of 0.35 m spans 2 degrees at 10 m; the second pass is for things further away.
-  search(map, observations, {reach.yaw_rad, 0.035, reach.place_m, 0.3}, pose);
-  search(map, observations, {0.03, 0.01, 0.2, 0.1}, pose);
-  return search(map, observations, {0.008, 0.004, 0.05, 0.05}, pose) > kShareLeast;
+  search_bounded(map, asked, {reach.yaw_rad, 0.035, reach.place_m, kPlaceStep_m}, scratch, work, pose);
+  search_all(map, asked, {0.03, 0.01, 0.2, 0.1}, scratch, work, pose);
+  const double best = search_all(map, asked, {0.008, 0.004, 0.05, 0.05}, scratch, work, pose);
+  face(pose->R, observations);
+  return best > kShareLeast;
 }
 
 }  // namespace pose_wall::motion

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "motion/registration.hpp"
+#include "motion/start_counts.hpp"
 
 namespace pose_wall::motion {
 
@@ -21,7 +22,8 @@ struct WideReach {
 };
 // The place that most observations agree with, within reach of the alignment's pose; false where few do. Faces the
 // observations anew.
-bool search_wide(const ReliefMap& map, Span<Observation> observations, const WideReach& reach, Pose* pose);
+bool search_wide(const ReliefMap& map, Span<Observation> observations, const WideReach& reach, StartScratch* scratch,
+                 Work* work, Pose* pose);
 
 // Which share of the observations lies on the map's surfaces, weighed by how near.
 double share_on_map(const ReliefMap& map, Span<const Observation> observations, const Pose& pose, std::uint32_t stride);

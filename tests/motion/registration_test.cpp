@@ -32,6 +32,11 @@ class Steps : public ::testing::Test {
       pipeline_.take_in(at);
     }
   }
+  bool search(double yaw_rad, double place_m, Pose* found) {
+    Laid<StartScratch> scratch;
+    Work work;
+    return search_wide(*pipeline_.map, pipeline_.observations, {yaw_rad, place_m}, scratch.get(), &work, found);
+  }
   void expect_found(const Pose& truth, const Pose& from, double within_m, double within_rad) {
     pipeline_.see(scan_of(room_, truth), from);
     const Alignment a = pipeline_.align(from, true, 12);
@@ -157,7 +162,7 @@ TEST_F(Steps, AWideSearchFindsAScanThatStandsTurnedAndOff) {
       const Pose truth = pose_of(off_m, 0.4 * off_m, 0.0, 0.0, 0.0, yaw_deg * kDegree_rad);
       pipeline_.see(scan_of(room_, truth), Pose{});
       Pose found;
-      ASSERT_TRUE(search_wide(*pipeline_.map, pipeline_.observations, {60.0 * kDegree_rad, 1.5}, &found));
+      ASSERT_TRUE(search(60.0 * kDegree_rad, 1.5, &found));
       EXPECT_LT((found.t - truth.t).norm(), 0.45) << "within a step of the search";
       EXPECT_LT(turn_between_rad(found, truth), 5.0 * kDegree_rad);
       const Alignment a = pipeline_.align(found, true);
@@ -172,7 +177,7 @@ TEST_F(Steps, AWideSearchFindsNothingInAnotherPlace) {
   BoxRoom other = {1.2, 1.0, 3.0, 4.0, {}};
   pipeline_.see(scan_of(other, Pose{}), Pose{});
   Pose found;
-  EXPECT_FALSE(search_wide(*pipeline_.map, pipeline_.observations, {0.1, 0.3}, &found));
+  EXPECT_FALSE(search(0.1, 0.3, &found));
   EXPECT_LT(share_on_map(*pipeline_.map, pipeline_.observations, Pose{}, 1), 0.25);
 }
 

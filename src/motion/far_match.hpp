@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// The way along the road after a gap: curves side by side, as far as the machine can have gone.
+
+#pragma once
+
+#include "base/containers/work.hpp"
+#include "motion/along_match.hpp"
+
+namespace pose_wall::motion {
+
+constexpr double kReachMost_m = 0.4;  // of one curve, to each side
+
+// Moves the alignment to the middle of the best curve, and gives that. If another one that is not its neighbour fits
+// nearly as well, that is a second place, even if it is no evidence by itself. placed: a wide start has found the scan,
+// at a cost that leaves less for the curves.
+Curve match_far(const Scan& scan, double far_m, bool placed, CurveScratch* scratch, Work* work, Alignment* alignment);
+
+}  // namespace pose_wall::motion
