@@ -190,7 +190,9 @@ TEST_F(ModbusServerTest, WithoutMotionItsRegistersAreNotThere) {
 StopNews opened_news() {
   pose_wall_config config;
   EXPECT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
-  const PartBlock block(pose_wall_planar_stop_memory_needed());
+  std::uint64_t bytes = 0;
+  EXPECT_EQ(pose_wall_planar_stop_memory_needed(&bytes), POSE_WALL_OK);
+  const PartBlock block(bytes);
   pose_wall_planar_stop* stop = nullptr;
   EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.bytes(), &stop), POSE_WALL_OK);
   StopNews news;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "pose_wall_planar_stop.h"
+#include "planar/bytes_needed.hpp"
 #include "support/aligned_block.hpp"
 
 namespace pose_wall::test {
@@ -44,7 +45,7 @@ std::uint32_t crc_of(const pose_wall_config& config, const pose_wall_planar_stop
 // A stop that has seen nothing yet.
 class OpenedStop {
  public:
-  OpenedStop() : block_(pose_wall_planar_stop_memory_needed(), Dirt::kRandom) {
+  OpenedStop() : block_(pose_wall::test::stop_bytes_needed(), Dirt::kRandom) {
     const pose_wall_config config = default_config();
     EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block_.data(), block_.size(), &stop_), POSE_WALL_OK);
   }
