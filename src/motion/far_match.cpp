@@ -14,13 +14,11 @@ namespace {
 constexpr int kWindowsMost = 4;                       // to each side
 constexpr double kWindowStep_m = 1.5 * kReachMost_m;  // each overlaps the next by a quarter
 constexpr double kRivalCost = 1.5;                    // of the best place's misfit: a place that fits worse is none
-// More curves than these, and all but the best are drawn coarsely. Two frames a second at the usual top speed need no
-// more.
-constexpr int kCurvesInFull = 5;
+constexpr int kCurvesInFull = 3;                      // more, and all but the best are drawn coarsely
 
 // How a curve is drawn: in steps of 25 mm by all that it takes; or in steps of 5 cm, a cell of the map, by fewer
 // observations. Of 80 gaps of 0.6 to 6 s on five roads, all curves in full measured the way after 63, coarse ones after
-// 62, and with half the observations after 57 (2026-11, simulated).
+// 62, and with half as many observations after 57 (2026-11, simulated). What a wide start has placed gets those.
 struct Drawn {
   std::uint32_t rows, shifts;
 };

@@ -175,7 +175,7 @@ void Odometry::align(Frame* frame) {
   find_axes(scan, forward, &a);
   StepOptions coarse;
   coarse.with_along = a.axes.hold > kHoldOfHall;
-  coarse.every = frame->wide ? 2 : 4;
+  coarse.every = 4;
   bool moves = true;
   for (int pass = 0; pass < kPassesMost && moves; ++pass) {
     work_.add(frame->observations.size() / coarse.every, steps::kEquation);

@@ -13,8 +13,8 @@
 #include <tuple>
 #include <utility>
 
-#include "pose_wall_planar_stop.h"
 #include "planar/bytes_needed.hpp"
+#include "pose_wall_planar_stop.h"
 #include "support/aligned_block.hpp"
 
 namespace pose_wall::test {
