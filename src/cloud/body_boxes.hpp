@@ -15,8 +15,8 @@ namespace pose_wall {
 
 class BodyBoxes {
  public:
-  static constexpr std::uint32_t kOfConfig = 4;  // body_box_1 to body_box_4
-  static constexpr std::uint32_t kMost = kOfConfig + POSE_WALL_INPUT_BOXES;
+  static constexpr std::uint32_t kOfConfig = 4;                              // body_box_1 to body_box_4
+  static constexpr std::uint32_t kMost = kOfConfig + POSE_WALL_INPUT_BOXES;  // and those of the frame
 
   BodyBoxes(const Box (&of_config)[kOfConfig], const pose_wall_cloud& cloud) {
     for (const Box& box : of_config) add(box);

@@ -41,8 +41,8 @@ void print_cloud(const pose_wall_cloud& cloud, CloudPrint* print);
 
 // Four points at once: the vector part of the print, for those who have the points at hand.
 inline FourInts sectors_of(const FourPlaces& p) {
-  constexpr float kFar_m = 1e9F;  // no range
-  constexpr float kOfSide = CloudPrint::kSectors / 4.0F;
+  constexpr float kFar_m = 1e9F;                          // no range of any sensor
+  constexpr float kOfSide = CloudPrint::kSectors / 4.0F;  // sectors of a quarter turn
   const FourFloats zero = all_four(0.0F), sum = magnitude_of(p.x) + magnitude_of(p.y);
   const FourTruths has = (sum > zero) & (sum < all_four(kFar_m)) & (magnitude_of(p.z) < all_four(kFar_m));
   const FourFloats along = has ? p.y : zero, whole = has ? sum : all_four(1.0F);

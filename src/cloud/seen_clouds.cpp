@@ -25,7 +25,7 @@ Repeat SeenClouds::keep(std::uint64_t print, std::int64_t stamp_ns) {
 }
 
 Repeat SeenSectors::keep(const CloudPrint& now, std::int64_t at_ns) {
-  constexpr std::uint32_t kFours = kCount / kFour;
+  constexpr std::uint32_t kFours = kCount / kFour;  // registers that hold the prints of one sector
   // A run may go on across the first sector.
   constexpr std::uint32_t kAround = CloudPrint::kSectors + CloudPrint::kSectors / 4;
   FourInts run[kFours] = {}, longest[kFours] = {};

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
 #include <string>
 
 #include "support/contract.hpp"
@@ -25,20 +26,19 @@ constexpr int kBackWithin = 4;
 // The room of room.hpp: the machine stands straight and level in its middle.
 constexpr double kRoomTruth[POSE_WALL_QUANTITIES] = {0.0, 0.0, 0.0, 2.5, 2.5, 2.5, 2.5};
 
-// One more than the engine knows again.
-constexpr std::uint32_t kRoomFrames = 5;
-
 inline const Points& room_frame(std::uint32_t seed) {
-  static const Points frames[kRoomFrames] = {room_points(1), room_points(2), room_points(3), room_points(4),
-                                             room_points(5)};
-  return frames[seed % kRoomFrames];
+  static std::map<std::uint32_t, Points> frames;
+  Points& points = frames[seed];
+  if (points.empty()) points = room_points(seed + 1);
+  return points;
 }
 
 // The same with steel sets along both walls.
 inline const Points& ribbed_room_frame(std::uint32_t seed) {
-  static const Points frames[kRoomFrames] = {ribbed_room_points(1), ribbed_room_points(2), ribbed_room_points(3),
-                                             ribbed_room_points(4), ribbed_room_points(5)};
-  return frames[seed % kRoomFrames];
+  static std::map<std::uint32_t, Points> frames;
+  Points& points = frames[seed];
+  if (points.empty()) points = ribbed_room_points(seed + 1);
+  return points;
 }
 
 using FramesOf = const Points& (*)(std::uint32_t seed);

@@ -48,7 +48,7 @@ Object.assign(WORDS.zh, {
   summaries: {
     measures: '正在测量', 'frames come, nothing is measured': '有帧到达，但均未测得', 'no frame yet': '尚无帧', 'no frame comes': '没有新的帧',
     'the worker hangs: results are old, and all values invalid': '计算线程停滞：结果陈旧，全部值无效', 'nothing is measured': '均未测得',
-    serves: '正在服务', connected: '已连接', 'seeks the broker': '正在寻找代理服务器', 'tries again': '正在重试', through: '已播放完毕', plays: '正在播放',
+    serves: '正在服务', sends: '正在发送', connected: '已连接', 'seeks the broker': '正在寻找代理服务器', 'tries again': '正在重试', through: '已播放完毕', plays: '正在播放',
     receives: '正在接收', 'waits for clouds': '等待点云', 'no cloud comes any more': '不再有点云到达', publishes: '正在发布', records: '正在记录',
     'permits driving': '允许行驶', 'stops the machine': '使机器停车', 'stops the machine: no frame comes': '使机器停车：没有新的帧', 'stops the machine: frames come late, by their stamps': '使机器停车：按时间戳，帧到达过晚',
     'stops the machine: frames come slower than planar_period': '使机器停车：帧间隔长于 planar_period', maps: '正在建图',
@@ -67,7 +67,7 @@ Object.assign(WORDS.zh, {
     'transform messages': '坐标变换消息', 'results published': '已发布结果', subscribers: '订阅者', 'results recorded': '已记录结果',
     'results not recorded': '未记录结果', files: '文件', 'results taken': '已取结果', 'results lost to slowness': '因过慢丢失的结果', clients: '客户端', requests: '请求',
     state: '状态', reasons: '原因', 'allowed mm/s': '允许速度 mm/s', heartbeat: '心跳', 'frames answered': '已判断帧', 'frames lost to slowness': '因过慢丢失的帧',
-    'frames refused': '拒绝的帧', 'speed errs by m/s': '速度误差 m/s', 'looks heeded': '采纳的人工查看', "settings' CRC": '设置的 CRC', stops: '停车次数', scans: '扫描', 'scans with a place': '有位置的扫描', 'scan worst ms': '扫描最长 ms', 'floor z m': '底板 z m', keyframes: '关键帧',
+    'frames refused': '拒绝的帧', 'speed errs by m/s': '速度误差 m/s', 'looks heeded': '采纳的人工查看', lost: '丢失', waits: '等待', "settings' CRC": '设置的 CRC', stops: '停车次数', scans: '扫描', 'scans with a place': '有位置的扫描', 'scan worst ms': '扫描最长 ms', 'floor z m': '底板 z m', keyframes: '关键帧',
     closures: '闭环', 'trail is full': '轨迹已满', 'maps built anew': '地图重建次数', 'beams without room in the map': '地图容不下的光束', map: '地图', searches: '搜索次数', progress: '进度',
     candidates: '候选', 'place lost': '位置丢失次数', 'planar news lost to slowness': '因过慢丢失的平面消息',
     refused: '拒绝', 'connections of no Modbus': '非 Modbus 连接', connections: '连接次数', 'messages acknowledged': '已确认消息', 'messages not sent': '未发送消息',
