@@ -44,6 +44,7 @@ ENGINE_HEADERS = {
 PUBLIC_HEADERS = {"pose_wall.h", "pose_wall.hpp", "pose_wall_trace.h"}
 MOTION_PUBLIC = {"pose_wall.h", "pose_wall_motion.h"}
 # The trace reads the table of the gates, which judge and then note.
+GATE_TABLE = "gates/gates.def"
 # What motion and planar share of a room: how a cloud is read, what of it is the machine, and whether it came before.
 OF_CLOUDS = {"cloud/cloud_reader.hpp", "cloud/body_boxes.hpp", "cloud/cloud_print.hpp", "cloud/seen_clouds.hpp"}
 # The threads around the engine: no part of it, no Eigen.
