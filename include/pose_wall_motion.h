@@ -28,6 +28,9 @@
  * UNITS     metres, radians, seconds, nanoseconds (stamps). NaN where there is no number.
  * MEMORY    only the caller's block, and less than 32 kB of stack. No call allocates, blocks, prints, reads a clock or
  *           throws.
+ * FLIPPED   the block has no sum, unlike the engine's: a bit that flips in it may give a wrong pose or end the
+ *           process. What the engine takes from motion it judges by its own floor and walls. Run motion in a process of
+ *           its own where that is not enough.
  * THREADS   one motion belongs to one thread at a time; different ones are independent.
  * STRUCTS   begin with struct_size and grow at their end only, as in pose_wall.h.
  * FLOATS    IEEE 754 without fast-math; the same version and input give the same bits on x86-64 and AArch64.

@@ -27,6 +27,7 @@
  * KIDNAPPED three scans in a row that contradict the map at the tracked place, or 8 m of doubt, and it is lost: the
  *           search begins anew. A move along walls that look the same to a scanner is not seen.
  * COST      a call does at most `work` steps of search, some 60 ns each, besides a match.
+ * FLIPPED   the block has no sum, unlike the engine's: a bit that flips in it may move the place or end the process.
  * SOURCES   surfaces: Biber and Strasser, IROS 2003. Search: Olson, ICRA 2009.
  *
  * The other rules are those of pose_wall_planar.h.

@@ -39,6 +39,8 @@
  *           pose_wall_planar_stop_confirm tells that someone has looked.
  * FRAMES    base as in pose_wall.h. Footprint, motion and results are in base; forward is forward_axis of the config.
  * UNITS     metres, radians, seconds, nanoseconds (stamps). NaN where there is no number.
+ * FLIPPED   the block has no sum, unlike the engine's: a bit that flips in it may hide a place. Use memory that mends
+ *           errors, and let a controller watch the heartbeat.
  * THREADS   an opened stop belongs to one thread at a time.
  *
  * NOT COVERED   planar_stop.md of the package states what is guaranteed, for which things, and under which assumptions.

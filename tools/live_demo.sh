@@ -32,7 +32,7 @@ export ROS_MASTER_URI=http://127.0.0.1:11311 ROS_IP=127.0.0.1
 if ! rostopic list > /dev/null 2>&1; then
   rosmaster --core -p 11311 > "$folder/rosmaster.log" 2>&1 &
 fi
-build/release/pose_wall_sensor --sensor os1-64 --frames 60 --to 127.0.0.1:7502 --http 127.0.0.1:7580 \
+build/release/pose_wall_sensor --sensor os1-64 --frames 70 --to 127.0.0.1:7502 --http 127.0.0.1:7580 \
   --config-to "$folder/pose_wall.yaml" &
 while [ ! -s "$folder/pose_wall.yaml" ]; do sleep 0.1; done
 build/release/pose_walld --config "$folder/pose_wall.yaml" --set udp_port=7502 \

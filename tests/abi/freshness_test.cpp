@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -121,6 +122,22 @@ TEST(FreshnessOfMotion, APartThatStaysOldIsNeverMeasured) {
     EXPECT_NE(result.reasons & POSE_WALL_MOTION_R_REPEATED, 0U) << k;
     EXPECT_EQ(result.along_state, static_cast<std::uint32_t>(POSE_WALL_ALONG_LOST));
   }
+}
+
+// The boom is no rock.
+TEST(FreshnessOfMotion, WhatAFrameTellsOfTheMachineIsNotUsed) {
+  MotionUnderTest whole(small_config()), without(small_config());
+  const Points points = ribbed_room_points(1);
+  pose_wall_inputs inputs{};
+  inputs.struct_size = sizeof inputs;
+  const double box_m[6] = {1.0, 6.0, -3.0, 3.0, -2.0, 2.0};
+  std::copy_n(box_m, 6, inputs.body_box[0]);
+  pose_wall_cloud cloud = cloud_of(points, kFrame_ns);
+  const pose_wall_motion_result all = whole.process(cloud);
+  cloud.inputs = &inputs;
+  const pose_wall_motion_result fewer = without.process(cloud);
+  EXPECT_LT(fewer.points_used, 0.8 * all.points_used);
+  EXPECT_GT(fewer.points_used, 0.2 * all.points_used);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class Folder(unittest.TestCase):
 
 class Sensor(Folder):
     def sensor(self, port, *more):
-        return self.start(SENSOR, "--sensor", "vlp16", "--frames", "6", "--to", f"127.0.0.1:{port}", "--config-to",
+        return self.start(SENSOR, "--sensor", "vlp16", "--frames", "70", "--to", f"127.0.0.1:{port}", "--config-to",
                           self.folder / "sensor.yaml", *more)
 
     def test_starts_before_the_sensor_and_survives_restarts_of_either_side(self):
@@ -72,7 +72,7 @@ class Sensor(Folder):
             self.skipTest("no network of its own can be had here (unshare --net, ip)")
         words = [POSE_WALLD, "--config", ROOT / "config/vlp16.yaml", "--set", "udp_address=192.0.2.1", "--set",
                  "udp_port=2368"]
-        sensor = [SENSOR, "--sensor", "vlp16", "--frames", "6", "--to", "192.0.2.1:2368", "--config-to",
+        sensor = [SENSOR, "--sensor", "vlp16", "--frames", "70", "--to", "192.0.2.1:2368", "--config-to",
                   self.folder / "sensor.yaml"]
         script = (f"ip link set lo up; {shlex.join(map(str, words))} & daemon=$!; read go; "
                   f"ip address add 192.0.2.1/32 dev lo; {shlex.join(map(str, sensor))} & "

@@ -135,7 +135,7 @@ class Endurance(unittest.TestCase):
         settings.write_text(f"listener {ports['mqtt']} 127.0.0.1\nallow_anonymous true\n", encoding="utf-8")
         self.start(BROKER, "-c", settings)
         config = self.folder / "pose_wall.yaml"
-        self.sensor = self.start(SENSOR, "--sensor", "os0-128", "--frames", 40, "--rate", RATE_HZ, "--to",
+        self.sensor = self.start(SENSOR, "--sensor", "os0-128", "--frames", 70, "--rate", RATE_HZ, "--to",
                                  f"127.0.0.1:{udp}", "--http", f"127.0.0.1:{ports['metadata']}", "--present",
                                  PERIOD_S - ABSENT_S, "--absent", ABSENT_S, "--config-to", config)
         self.assertTrue(live_peer.becomes_true(lambda: config.exists() and config.stat().st_size > 0))

@@ -131,8 +131,8 @@ def lost_frames(of_program):
     return -1
 
 
-def simulated_road(pose_wall, frames=20, sensor="os1-64"):
-    """A folder with frames and the settings that fit them; made once a build."""
+def simulated_road(pose_wall, frames=70, sensor="os1-64"):
+    """A folder with frames and the settings that fit them; made once a build. They go round: 64 that do are frozen."""
     folder = pathlib.Path(pose_wall).parent / "live_roads" / f"{sensor}_{frames}"
     if not (folder / "pose_wall.yaml").exists():
         folder.parent.mkdir(exist_ok=True)

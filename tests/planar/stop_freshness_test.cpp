@@ -45,10 +45,12 @@ class FreshRoad {
     scan_.take(sensor, world, x_m, 0.0, 0.0, 0.0, 0.0, &draw_);
     return scan_.points();
   }
-  pose_wall_planar_stop_result give(const Cloud& points, double speed_m_s = 0.0) {
+  pose_wall_planar_stop_result give(const Cloud& points, double speed_m_s = 0.0,
+                                    const pose_wall_inputs* inputs = nullptr) {
     stamp_ns_ += kPeriod_ns;
     pose_wall_cloud cloud = scan_.cloud(stamp_ns_);
     cloud.data = points.data();
+    cloud.inputs = inputs;
     motion_.speed_m_s = speed_m_s;
     motion_.command_speed_m_s = std::max(speed_m_s, 0.05);
     EXPECT_EQ(pose_wall_planar_stop_process(stop_.get(), &cloud, &motion_, stamp_ns_ + 1000000, &stop_.result()),
@@ -139,6 +141,21 @@ TEST(StopFreshness, AMachineThatObeysTouchesNobody) {
       EXPECT_EQ(speed_m_s, 0.0);
     }
   }
+}
+
+// The boom swings into the way, and the frame tells where it is.
+TEST(StopFreshness, WhatAFrameTellsOfTheMachineIsNoThing) {
+  FreshRoad road;
+  for (int k = 0; k < 30; ++k) road.give(road.look());
+  road.world.things.push_back(round_thing(3.2, 0.0, 0.2, 0.0, 1.7));
+  pose_wall_inputs inputs{};
+  inputs.struct_size = sizeof inputs;
+  const double box_m[6] = {2.9, 3.5, -0.3, 0.3, -2.0, 2.0};
+  std::copy_n(box_m, 6, inputs.body_box[0]);
+  const auto of_machine = road.give(road.look(), 0.0, &inputs);
+  EXPECT_EQ(of_machine.reasons & POSE_WALL_PLANAR_STOP_R_THING, 0U);
+  const auto of_nobody = road.give(road.look());
+  EXPECT_NE(of_nobody.reasons & POSE_WALL_PLANAR_STOP_R_THING, 0U) << "or the test shows nothing";
 }
 
 }  // namespace

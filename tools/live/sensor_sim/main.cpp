@@ -38,7 +38,7 @@ std::atomic<bool> stop_asked{false};
 struct Words {
   DemoOptions scene;
   std::string to = "127.0.0.1:2368", http, config_to;
-  std::uint32_t frames = 40;
+  std::uint32_t frames = 70;  // they go round, and the guard of freshness knows rings of 64
   double rate_hz = 10.0, seconds = 0.0;
   double present_s = 0.0, absent_s = 2.0;
 };
@@ -155,7 +155,8 @@ int main_of(int argc, char** argv) {
   app.add_option("--scene", words.scene.scene, "As `pose_wall sim --list` shows them; default: a heading at work");
   app.add_option("--set", words.scene.simulation, "NAME=VALUE of the simulation")->allow_extra_args(false);
   app.add_option("--seed", words.scene.seed, "Of the road");
-  app.add_option("--frames", words.frames, "Turns of the road, rendered before the first is sent")
+  app.add_option("--frames", words.frames,
+                 "Turns of the road, rendered before the first is sent. They go round: up to 64 count as frozen")
       ->check(CLI::Range(1, 10000));
   app.add_option("--to", words.to, "ADDRESS:PORT that listens; default 127.0.0.1:2368");
   app.add_option("--http", words.http, "HOST:PORT at which an Ouster tells its metadata");
