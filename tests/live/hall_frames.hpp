@@ -59,7 +59,8 @@ inline std::shared_ptr<tools::live::LiveFrame> hall_frame(std::int64_t stamp_ns,
       const double elevation = (hall.lowest_deg + (15.0 - hall.lowest_deg) * ring / (rings - 1)) * M_PI / 180.0;
       const double flat = std::cos(elevation), z = std::sin(elevation);
       double range = std::min(level_m / flat, z < 0.0 ? kHeight_m / -z : kRoof_m / std::max(z, 1e-9));
-      range += 0.001 * (number % 7) / 7.0;
+      // Noise that never repeats: of what does, the guard of freshness says that it is old.
+      range += 0.001 * std::fmod(0.618034 * number + 0.754878 * column + 0.569840 * ring, 1.0);
       points.push_back({static_cast<float>(range * flat * std::cos(azimuth)),
                         static_cast<float>(range * flat * std::sin(azimuth)), static_cast<float>(range * z), 9});
     }

@@ -33,7 +33,9 @@ LiveFrame road_frame(std::int64_t stamp_ns, float aside_m = 0.0F) {
       const double z = std::sin(elevation);
       const double to_side =
           y > 0 ? (2.5 - static_cast<double>(aside_m)) / y : (2.5 + static_cast<double>(aside_m)) / -y;
-      const double range = std::min(to_side, z > 0 ? 2.0 / z : z < 0 ? 1.2 / -z : 1e9);
+      // Each place of the machine has a noise of its own.
+      const double noise = std::fmod(61.8034 * static_cast<double>(aside_m) + 0.754878 * column + 0.56984 * ring, 1.0);
+      const double range = std::min(to_side, z > 0 ? 2.0 / z : z < 0 ? 1.2 / -z : 1e9) + 0.001 * noise;
       if (range > 25.0) continue;
       points.push_back(
           {static_cast<float>(range * x), static_cast<float>(range * y), static_cast<float>(range * z), 9});
