@@ -51,7 +51,7 @@ StagePipeline::StagePipeline(std::uint32_t points)
 
 void StagePipeline::build_voxels() {
   voxels_ = pose_wall::build_voxels(cloud_, nullptr, settings_, extrinsic_, axes_, {}, &scratch_.grid,
-                                    &scratch_.returns_lidar, scratch_.print, &scratch_.cloud_base);
+                                    {&scratch_.returns_lidar, scratch_.print}, &scratch_.cloud_base);
 }
 
 std::uint32_t StagePipeline::remove_outliers() {

@@ -182,7 +182,7 @@ bool Engine::read_cloud(const pose_wall_cloud& cloud, FrameFindings* found) {
   const pose_wall_odometry left = odometry != nullptr ? without_motion(*odometry) : pose_wall_odometry{};
   found->voxels =
       build_voxels(cloud, taken_out || odometry == nullptr ? odometry : &left, settings_, extrinsic_, axes_,
-                   memory_.leaf, &scratch_.grid, &scratch_.returns_lidar, scratch_.print, &scratch_.cloud_base);
+                   memory_.leaf, &scratch_.grid, {&scratch_.returns_lidar, scratch_.print}, &scratch_.cloud_base);
   return taken_out && found->voxels.scan.whole_s > 0.0;
 }
 

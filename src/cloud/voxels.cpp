@@ -307,7 +307,8 @@ std::uint32_t returns_of(const IngestCounts& counts) {
 
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& settings,
                          const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid,
-                         ReturnsByDirection* returns_lidar, CloudPrint* print, PointSet* cloud_base) {
+                         const AllReturns& all_returns, PointSet* cloud_base) {
+  ReturnsByDirection* const returns_lidar = all_returns.by_direction_lidar;
   VoxelResult result;
   Work work;
   const Skew skew(cloud, odometry);
@@ -315,7 +316,7 @@ VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry*
   LeafSearch leaf(settings.voxel_leaf, settings.points_max, last);
   do {
     grid->begin(leaf.leaf_m(), reach_of(settings));
-    result.fits = pass.run(leaf.is_largest(), grid, returns_lidar, &result.counts, print);
+    result.fits = pass.run(leaf.is_largest(), grid, returns_lidar, &result.counts, all_returns.print);
     work.add(returns_of(result.counts), skew.is_there() ? steps::kPointUnskewed : steps::kPointRead);
     work.add(grid->slots() / kFour, steps::kFourSlots);
   } while (leaf.goes_on(result.fits, grid->count()));

@@ -15,13 +15,19 @@
 
 namespace pose_wall {
 
+// What is told of all returns, before the filters.
+struct AllReturns {
+  ReturnsByDirection* by_direction_lidar;
+  CloudPrint* print;
+};
+
 // Filters (finite, not zero, range_min..range_max from the sensor, outside the body boxes), moves points to base and
 // averages them by voxel. A frame with more voxels than there is room for starts again with a larger leaf. One with far
 // fewer tries a smaller leaf. There are three such restarts at most. The leaf depends on the set of points and on the
-// last cloud's memory, not on the points' order. returns_lidar and print are of all returns, before the filters. With
-// an odometry the points of a cloud with times lie where they were at the stamp (skew).
+// last cloud's memory, not on the points' order. With an odometry the points of a cloud with times lie where they were
+// at the stamp (skew).
 VoxelResult build_voxels(const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& settings,
                          const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid,
-                         ReturnsByDirection* returns_lidar, CloudPrint* print, PointSet* cloud_base);
+                         const AllReturns& all_returns, PointSet* cloud_base);
 
 }  // namespace pose_wall

@@ -91,8 +91,8 @@ struct AsMethod<R(const C*, A...)> {
 POSE_WALL_WRAP(VoxelResult, build_voxels,
                (const pose_wall_cloud& cloud, const pose_wall_odometry* odometry, const Settings& s,
                 const Extrinsic& extrinsic, const Axes& axes, const LeafMemory& last, VoxelGrid* grid,
-                ReturnsByDirection* returns, CloudPrint* print, PointSet* out)) {
-  VoxelResult r = build_voxels_for_real(cloud, odometry, s, extrinsic, axes, last, grid, returns, print, out);
+                const AllReturns& all_returns, PointSet* out)) {
+  VoxelResult r = build_voxels_for_real(cloud, odometry, s, extrinsic, axes, last, grid, all_returns, out);
   const bool overflow = fails(Fault::kVoxelsDoNotFit);
   if (overflow || fails(Fault::kVoxelsNone)) out->count = 0;
   if (overflow) r.fits = false;

@@ -51,7 +51,7 @@ Voxels voxels_of(const pose_wall_cloud& cloud, const Settings& settings, const E
   CloudPrint print;
   Voxels v;
   v.result =
-      build_voxels(cloud, nullptr, settings, extrinsic, axes, last, grid.get(), returns.get(), &print, out.get());
+      build_voxels(cloud, nullptr, settings, extrinsic, axes, last, grid.get(), {returns.get(), &print}, out.get());
   v.print = print.whole();
   v.filled = filled_cells(returns->all);
   for (std::uint32_t i = 0; i < out->count; ++i) v.points.push_back(out->at(i));
