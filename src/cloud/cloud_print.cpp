@@ -3,22 +3,9 @@
 
 #include "cloud/cloud_print.hpp"
 
-#include <cstring>
-
 #include "cloud/cloud_reader.hpp"
 
 namespace pose_wall {
-namespace {
-
-FourPlaces plain_four(const unsigned char* x, std::size_t step) {
-  FourFloats points[kFour], rows[kFour];
-  for (std::uint32_t i = 0; i < kFour; ++i) std::memcpy(&points[i], x + i * step, sizeof(*points));
-  transpose(points[0], points[1], points[2], points[3], rows);
-  return {rows[0], rows[1], rows[2]};
-}
-
-}  // namespace
-
 void CloudPrint::clear() {
   for (std::uint64_t& sum : sum_) sum = 0;
 }
@@ -53,9 +40,9 @@ void print_cloud(const pose_wall_cloud& cloud, CloudPrint* print) {
       FourPlaces p{};
       for (std::uint32_t lane = 0; lane < count; ++lane) {
         const unsigned char* const at = point + std::size_t{lane} * cloud.point_step;
-        p.x[lane] = static_cast<float>(read_field(at, cloud.x, swap));
-        p.y[lane] = static_cast<float>(read_field(at, cloud.y, swap));
-        p.z[lane] = static_cast<float>(read_field(at, cloud.z, swap));
+        p.x[lane] = to_float(read_field(at, cloud.x, swap));
+        p.y[lane] = to_float(read_field(at, cloud.y, swap));
+        p.z[lane] = to_float(read_field(at, cloud.z, swap));
       }
       print->add_some(p, count);
     }

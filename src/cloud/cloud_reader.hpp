@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/math/finite.hpp"
+#include "base/simd/four_floats.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall {
@@ -27,6 +29,22 @@ inline double read_number(const unsigned char* point, const pose_wall_field& fie
   std::uint32_t value;
   std::memcpy(&value, point + field.offset, sizeof(value));
   return static_cast<double>(value);
+}
+
+// Doubles may be larger than any float: they are too far in either case.
+inline float to_float(double value) {
+  constexpr double kMost = 1e38;  // a float ends at 3.4e38
+  if (value > kMost && is_finite(value)) return static_cast<float>(kMost);
+  if (value < -kMost && is_finite(value)) return static_cast<float>(-kMost);
+  return static_cast<float>(value);
+}
+
+// Four points whose x, y and z lie in a row (is_xyz32_in_a_row); x is that of the first one.
+inline FourPlaces plain_four(const unsigned char* x, std::size_t point_step) {
+  FourFloats points[kFour], rows[kFour];
+  for (std::uint32_t i = 0; i < kFour; ++i) std::memcpy(&points[i], x + i * point_step, sizeof(*points));
+  transpose(points[0], points[1], points[2], points[3], rows);
+  return {rows[0], rows[1], rows[2]};
 }
 
 // The unit of a cloud's times, from their spread, since a scan takes 0.01 to 1 s. 0 if no unit makes a scan of them.

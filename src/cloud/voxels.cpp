@@ -37,14 +37,6 @@ struct PointBlock {
   std::uint32_t weight[kSize];
 };
 
-// Doubles may be larger than any float: they are too far in either case.
-float to_float(double value) {
-  constexpr double kMost = 1e38;  // a float ends at 3.4e38
-  if (value > kMost && is_finite(value)) return static_cast<float>(kMost);
-  if (value < -kMost && is_finite(value)) return static_cast<float>(-kMost);
-  return static_cast<float>(value);
-}
-
 // Mean intensity of the readable points. Brighter points are brighter than this.
 double mean_intensity(const pose_wall_cloud& cloud, bool swap) {
   double sum = 0.0;
@@ -150,12 +142,10 @@ class Pass {
     std::size_t at = 0;
     std::uint32_t k = begin;
     for (; in_a_row_ && k + kFour <= end; k += kFour, at += kFour * step) {
-      FourFloats points[kFour], rows[kFour];
-      for (std::uint32_t i = 0; i < kFour; ++i) std::memcpy(&points[i], x + at + i * step, sizeof(*points));
-      transpose(points[0], points[1], points[2], points[3], rows);
-      store_four(rows[0], &block->x_lidar[k]);
-      store_four(rows[1], &block->y_lidar[k]);
-      store_four(rows[2], &block->z_lidar[k]);
+      const FourPlaces four = plain_four(x + at, step);
+      store_four(four.x, &block->x_lidar[k]);
+      store_four(four.y, &block->y_lidar[k]);
+      store_four(four.z, &block->z_lidar[k]);
     }
     for (; k < end; ++k, at += step) {
       std::memcpy(&block->x_lidar[k], x + at, sizeof(float));

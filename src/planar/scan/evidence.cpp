@@ -196,13 +196,10 @@ class Pass {
     const std::size_t step = cloud_.point_step;
     std::uint32_t k = begin;
     for (; in_a_row_ && k + kFour <= end; k += kFour, point += kFour * step) {
-      FourFloats points[kFour], rows[kFour];
-      for (std::uint32_t i = 0; i < kFour; ++i)
-        std::memcpy(&points[i], point + cloud_.x.offset + i * step, sizeof(*points));
-      transpose(points[0], points[1], points[2], points[3], rows);
-      store_four(rows[0], &b->x[k]);
-      store_four(rows[1], &b->y[k]);
-      store_four(rows[2], &b->z[k]);
+      const FourPlaces four = plain_four(point + cloud_.x.offset, step);
+      store_four(four.x, &b->x[k]);
+      store_four(four.y, &b->y[k]);
+      store_four(four.z, &b->z[k]);
     }
     for (; k < end; ++k, point += step) read_one(point, k, b);
   }

@@ -34,7 +34,7 @@ class Rays {
         const std::uint32_t left = cloud_.width - k;
         FourPlaces raw;
         if (row_is_plain && left >= kFour) {
-          raw = plain_four(point);
+          raw = plain_four(point + cloud_.x.offset, cloud_.point_step);
         } else {
           raw = four_of(point, left);
         }
@@ -53,16 +53,6 @@ class Rays {
   const unsigned char* point_at(std::uint64_t index) const {
     return row_of(cloud_, static_cast<std::uint32_t>(index / cloud_.width)) +
            (index % cloud_.width) * cloud_.point_step;
-  }
-
-  FourPlaces plain_four(const unsigned char* point) const {
-    FourFloats column[kFour];
-    FourFloats rows[kFour];
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      std::memcpy(&rows[lane], point + cloud_.x.offset + std::size_t{lane} * cloud_.point_step, sizeof(FourFloats));
-    }
-    transpose(rows[0], rows[1], rows[2], rows[3], column);
-    return {column[0], column[1], column[2]};
   }
 
   FourPlaces four_of(const unsigned char* point, std::uint32_t left) const;

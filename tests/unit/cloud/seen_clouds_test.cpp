@@ -206,6 +206,23 @@ TEST(CloudPrint, WhatIsNoReturnHasNoPart) {
   EXPECT_EQ(print.returns(), 0U);
 }
 
+// Doubles may be larger than any float.
+TEST(CloudPrint, ADoubleThatNoFloatHoldsIsNoReturn) {
+  const std::vector<std::array<double, 3>> points = {
+      {1e300, 1.0, 1.0}, {1.0, -1e300, 1.0}, {1.0, 1.0, 1e39}, {1.0, 1.0, 1.0}};
+  pose_wall_cloud cloud = test::cloud_of({}, 0);
+  cloud.data = points.data();
+  cloud.data_bytes = sizeof(points[0]) * points.size();
+  cloud.width = static_cast<std::uint32_t>(points.size());
+  cloud.point_step = sizeof(points[0]);
+  cloud.x = {0, POSE_WALL_FIELD_FLOAT64};
+  cloud.y = {8, POSE_WALL_FIELD_FLOAT64};
+  cloud.z = {16, POSE_WALL_FIELD_FLOAT64};
+  CloudPrint print;
+  print_cloud(cloud, &print);
+  EXPECT_EQ(print.returns(), 1U);
+}
+
 // Each direction belongs to a sector, and neighbours to neighbouring ones.
 TEST(CloudPrint, SectorsGoAround) {
   std::vector<std::uint32_t> of_sector(CloudPrint::kSectors);
