@@ -30,9 +30,9 @@ constexpr std::uint32_t kEquationsMost = 2048;  // of the fine steps; all of a s
 constexpr int kPassesMost = 4;                  // of coarse steps; judgement
 constexpr double kCurveStep_m = 0.025;
 constexpr double kReachMargin = 1.5;  // of the range of top speed and turn: a place there is not the edge of the search
-constexpr double kReachLeast_m = 0.2;
-constexpr double kSlipMost_m = 0.8;  // more, and the map's rock is somewhere else
-constexpr double kBentShare = 0.1;   // of a step, while scans are bent: the difference of near and far rock
+constexpr double kReachLeast_m = 0.2;  // of the curve, however little the machine can have slipped; judgement
+constexpr double kSlipMost_m = 0.8;    // more, and the map's rock is somewhere else
+constexpr double kBentShare = 0.1;     // of a step, while scans are bent: the difference of near and far rock
 constexpr double kBent_m = 0.02, kBentAt_m = 5.0;  // a scan that its motion bends by less, so far off, is straight
 // Slopes of a steady bend that spread by s over 20 m of map turn by 0.17 s a metre.
 constexpr double kBendOfSpread = 0.17;

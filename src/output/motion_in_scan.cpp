@@ -50,7 +50,7 @@ std::uint32_t other_end_of(std::uint32_t quantity) {
 // What is left of the motion in two scans shows in the change between their values, and no noise comes on top. Let R be
 // that part of the change which the motion that was taken out of the first scan does not explain. Let r and r' be what
 // is left in this scan and the last one, as changes of the value in the time P between them, and c the share of P for
-// which they act. The machine moved from stamp to stamp by the motion in the first scan, so
+// which they act. From stamp to stamp the machine moved by the motion in the first scan. So
 //   R = c r + (1 - c) r' + noise now - noise then,
 // and the error is c r + noise now.
 // - A steady motion has the error c R, (1 - c) of this noise and c of the last one.

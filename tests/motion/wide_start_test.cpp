@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: no start of the grid fits better than its bound says, whatever the map and the scan; the search finds the
-// start that all of them looked at one by one would give; and what it takes stays below
-// what the header promises.
+// Proves: no start of the grid fits better than its bound says, whatever the map and the scan. The search finds the
+// start that all of them, looked at one by one, would give. What it takes stays below what the header promises.
 
 #include "motion/wide_start.hpp"
 

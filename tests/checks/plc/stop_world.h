@@ -9,6 +9,7 @@
 
 #include <string.h>
 
+#include "order_of_words.h"
 #include "pose_wall_planar_stop.h"
 
 #define ANSWER_MS 20
@@ -138,12 +139,6 @@ static void answer(struct world* w) {
     ++w->heartbeat;
   }
   keep(w, state, speed);
-}
-
-static uint32_t swapped(uint32_t word, int order) {
-  if (order == 2 || order == 4) word = (word & 0x00FF00FFu) << 8 | (word >> 8 & 0x00FF00FFu);
-  if (order == 2 || order == 3) word = word << 16 | word >> 16;
-  return word;
 }
 
 static void damage(struct world* w, uint32_t* words) {

@@ -9,6 +9,7 @@
 
 #include <string.h>
 
+#include "order_of_words.h"
 #include "pose_wall.h"
 
 #define CYCLE_MS 10
@@ -209,12 +210,6 @@ static void publish(struct world* w) {
   next.good = config == CONFIG && !on(w, VERSION);
   memmove(&w->kept[1], &w->kept[0], sizeof w->kept[0] * (KEPT - 1));
   w->kept[0] = next;
-}
-
-static uint32_t swapped(uint32_t word, int order) {
-  if (order == 2 || order == 4) word = (word & 0x00FF00FFu) << 8 | (word >> 8 & 0x00FF00FFu);
-  if (order == 2 || order == 3) word = word << 16 | word >> 16;
-  return word;
 }
 
 static void damage(struct world* w, uint32_t* words) {
