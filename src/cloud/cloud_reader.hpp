@@ -39,12 +39,17 @@ inline float to_float(double value) {
   return static_cast<float>(value);
 }
 
-// Four points whose x, y and z lie in a row (is_xyz32_in_a_row); x is that of the first one.
-inline FourPlaces plain_four(const unsigned char* x, std::size_t point_step) {
+// Four points whose x, y and z lie in a row (is_xyz32_in_a_row) from so many bytes behind these places.
+inline FourPlaces plain_four(const unsigned char* const* at, std::size_t offset) {
   FourFloats points[kFour], rows[kFour];
-  for (std::uint32_t i = 0; i < kFour; ++i) std::memcpy(&points[i], x + i * point_step, sizeof(*points));
+  for (std::uint32_t i = 0; i < kFour; ++i) std::memcpy(&points[i], at[i] + offset, sizeof(*points));
   transpose(points[0], points[1], points[2], points[3], rows);
   return {rows[0], rows[1], rows[2]};
+}
+// Of four points side by side; x is that of the first one.
+inline FourPlaces plain_four(const unsigned char* x, std::size_t point_step) {
+  const unsigned char* const at[kFour] = {x, x + point_step, x + 2 * point_step, x + 3 * point_step};
+  return plain_four(at, 0);
 }
 
 // The unit of a cloud's times, from their spread, since a scan takes 0.01 to 1 s. 0 if no unit makes a scan of them.

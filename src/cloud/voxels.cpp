@@ -35,6 +35,7 @@ struct PointBlock {
   std::int32_t quadrant[kSize];
   std::int32_t fate[kSize];
   std::uint32_t weight[kSize];
+  std::uint32_t word[kSize];  // of the cloud's print
 };
 
 // Mean intensity of the readable points. Brighter points are brighter than this.
@@ -92,25 +93,14 @@ class Pass {
         column += count;
         point += static_cast<std::size_t>(count) * cloud_.point_step;
         if (block.count != PointBlock::kSize) continue;
-        print_block(block, print);
-        if (!take(&block, grid, returns_lidar, counts)) fits = false;
+        if (!take(&block, grid, returns_lidar, counts, print)) fits = false;
         if (!fits && !to_the_end) return false;
       }
     }
-    print_block(block, print);
-    return take(&block, grid, returns_lidar, counts) && fits;
+    return take(&block, grid, returns_lidar, counts, print) && fits;
   }
 
  private:
-  static void print_block(const PointBlock& block, CloudPrint* print) {
-    for (std::uint32_t k = 0; k < block.count; k += kFour) {
-      const FourPlaces four = {load_four(&block.x_lidar[k]), load_four(&block.y_lidar[k]),
-                               load_four(&block.z_lidar[k])};
-      const std::uint32_t left = block.count - k;
-      print->add_some(four, left < kFour ? left : kFour);
-    }
-  }
-
   // Points of one row, side by side.
   void read(const unsigned char* point, std::uint32_t count, PointBlock* block) const {
     const std::uint32_t begin = block->count, end = begin + count;
@@ -180,6 +170,7 @@ class Pass {
       const FourFloats range2 = x * x + y * y + z * z;
       const FourTruths there = (range2 <= most2) & (range2 > none);
       store_four(there ? (range2 < least2 ? near : kept) : beyond, &b->fate[k]);
+      store_four(words_of({x, y, z}), &b->word[k]);
       x = there ? x : none;
       y = there ? y : none;
       z = there ? z : none;
@@ -215,7 +206,8 @@ class Pass {
   }
 
   // False where the grid overflows. Leaves the block empty.
-  bool take(PointBlock* block, VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts) const {
+  bool take(PointBlock* block, VoxelGrid* grid, ReturnsByDirection* returns_lidar, IngestCounts* counts,
+            CloudPrint* print) const {
     const std::uint32_t count = block->count;
     block->count = 0;
     if (count == 0) return true;
@@ -231,15 +223,18 @@ class Pass {
     bool fits = true;
     VoxelGrid::Filling cells(grid);
     for (std::uint32_t k = 0; k < count; ++k) {
+      if (block->fate[k] == kBeyond) {
+        count_beyond(*block, k, returns_lidar, counts);
+        continue;
+      }
+      const auto direction = static_cast<std::uint32_t>(block->direction[k]);
+      returns_lidar->all_slices.add(direction, 1);
+      print->add(direction % Directions::kColumns, block->word[k]);
       if (block->fate[k] == kKept) {
-        returns_lidar->all_slices.add(static_cast<std::uint32_t>(block->direction[k]), 1);
         ++counts->kept_by_quadrant[block->quadrant[k]];
         if (skew_.is_there()) counts->kept_us += microseconds_of(block->time_s[k]);
         if (!cells.add(block->key[k], block->sums[k])) fits = false;
-      } else if (block->fate[k] == kBeyond) {
-        count_beyond(*block, k, returns_lidar, counts);
       } else {
-        returns_lidar->all_slices.add(static_cast<std::uint32_t>(block->direction[k]), 1);
         ++(block->fate[k] == kNear ? counts->near_by_quadrant[block->quadrant[k]] : counts->dropped_body);
       }
     }

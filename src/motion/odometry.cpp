@@ -449,12 +449,17 @@ void Odometry::expect(Frame* frame) const {
   frame->expected.R = orthonormal(pose_.R * turn_by(step_rad));
 }
 
+// True if its points, or a part of them, came before.
+bool Odometry::is_repeat(const pose_wall_cloud& cloud) {
+  project(cloud, reading_, twist_, &image_, print_);
+  work_.add(std::uint64_t{cloud.width} * cloud.height, steps::kPointProjected);
+  return freshness_.keep(*print_, cloud.stamp_ns).is_one;
+}
+
 void Odometry::look(Frame* frame) {
-  project(frame->cloud, reading_, twist_, &image_);
   frame->segments = segment(frame->expected.R, reading_, &segment_, &image_);
   frame->features = mark_features(&image_);
   const std::uint32_t count = choose_observations(image_, frame->expected, &choice_, observation_);
-  work_.add(std::uint64_t{frame->cloud.width} * frame->cloud.height, steps::kPointProjected);
   work_.add(image_.count, steps::kPointLookedAt);
   frame->observations = observation_.first(count);
 }
@@ -514,11 +519,6 @@ void Odometry::begin_anew(Frame* frame) {
   twist_ = Twist{};
   frame->expected = pose_;
   begin_map(frame);
-}
-
-bool Odometry::is_repeat(const pose_wall_cloud& cloud) {
-  print_cloud(cloud, print_);
-  return freshness_.keep(*print_, cloud.stamp_ns).is_one;
 }
 
 void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* result) {

@@ -32,12 +32,18 @@ FourFloats rough_arc_tangent2(FourFloats y, FourFloats x) {
 struct Raw {
   float x, y, z;
 };
+using Points = const unsigned char* const*;  // four of the cloud
 
 // Reads points of one cloud, the common layouts without a switch a field.
 class Reader {
  public:
   explicit Reader(const pose_wall_cloud& cloud)
-      : cloud_(cloud), swap_(needs_swap(cloud)), plain_(is_plain_xyz32(cloud)) {}
+      : cloud_(cloud),
+        swap_(needs_swap(cloud)),
+        plain_(is_plain_xyz32(cloud)),
+        in_a_row_(is_xyz32_in_a_row(cloud)),
+        plain_ring_(!swap_ && cloud.ring.type == POSE_WALL_FIELD_UINT16),
+        plain_time_(!swap_ && cloud.time.type == POSE_WALL_FIELD_UINT32) {}
 
   Raw xyz(const unsigned char* point) const {
     Raw p;
@@ -52,13 +58,43 @@ class Reader {
             static_cast<float>(read_field(point, cloud_.z, swap_))};
   }
 
-  float ring(const unsigned char* point) const {
-    if (!swap_ && cloud_.ring.type == POSE_WALL_FIELD_UINT16) {
-      std::uint16_t value;
-      std::memcpy(&value, point + cloud_.ring.offset, sizeof(value));
-      return static_cast<float>(value);
+  FourPlaces four(Points points) const {
+    if (in_a_row_) return plain_four(points, cloud_.x.offset);
+    FourPlaces four;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const Raw p = xyz(points[lane]);
+      four.x[lane] = p.x, four.y[lane] = p.y, four.z[lane] = p.z;
     }
-    return static_cast<float>(read_field(point, cloud_.ring, swap_));
+    return four;
+  }
+
+  FourFloats four_rings(Points points) const {
+    FourFloats rings;
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      if (plain_ring_) {
+        std::uint16_t value;
+        std::memcpy(&value, points[lane] + cloud_.ring.offset, sizeof(value));
+        rings[lane] = static_cast<float>(value);
+      } else {
+        rings[lane] = static_cast<float>(read_field(points[lane], cloud_.ring, swap_));
+      }
+    }
+    return rings;
+  }
+
+  FourFloats four_times_s(Points points, double zero, double unit_s) const {
+    using FourDoubles = double __attribute__((vector_size(32)));
+    FourDoubles numbers;
+    if (plain_time_) {
+      FourWords words;
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+        std::memcpy(&words[lane], points[lane] + cloud_.time.offset, sizeof(std::uint32_t));
+      }
+      numbers = __builtin_convertvector(words, FourDoubles);
+    } else {
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) numbers[lane] = number(points[lane], cloud_.time);
+    }
+    return __builtin_convertvector((numbers - zero) * unit_s, FourFloats);
   }
 
   double number(const unsigned char* point, const pose_wall_field& field) const {
@@ -67,7 +103,7 @@ class Reader {
 
  private:
   const pose_wall_cloud& cloud_;
-  bool swap_, plain_;
+  bool swap_, plain_, in_a_row_, plain_ring_, plain_time_;
 };
 
 // How this cloud's points go into rows, and its times into seconds.
@@ -148,16 +184,11 @@ void RangeImage::lay_out(Arena& arena) {
 
 namespace {
 
-// Four points on their way into the image.
-struct Four {
-  float x[kFour], y[kFour], z[kFour];  // as the cloud has them
-  float ring[kFour], time_s[kFour];
-};
-
 // Which cells points belong to, and where they lie in base.
 class Projector {
  public:
-  Projector(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image)
+  Projector(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image,
+            CloudPrint* print)
       : reader_(cloud),
         layout_(look_at(cloud, reader_)),
         cloud_(cloud),
@@ -167,7 +198,8 @@ class Projector {
         turn_(twist.turn_rad_s.cast<float>()),
         near2_(static_cast<float>(reading.range_min_m * reading.range_min_m)),
         far2_(static_cast<float>(reading.range_max_m * reading.range_max_m)),
-        image_(image) {
+        image_(image),
+        print_(print) {
     for (const Box& box : BodyBoxes(reading.body, cloud)) {
       const double edges[6] = {box.x_min, box.x_max, box.y_min, box.y_max, box.z_min, box.z_max};
       for (int k = 0; k < 6; ++k) body_[boxes_][k] = static_cast<float>(edges[k]);
@@ -177,42 +209,43 @@ class Projector {
 
   const Layout& layout() const { return layout_; }
 
-  void read(const unsigned char* point, std::uint32_t lane, Four* four) const {
-    const Raw raw = reader_.xyz(point);
-    four->x[lane] = raw.x, four->y[lane] = raw.y, four->z[lane] = raw.z;
-    if (layout_.has_ring) four->ring[lane] = reader_.ring(point);
-    if (layout_.has_time) {
-      four->time_s[lane] =
-          static_cast<float>((reader_.number(point, cloud_.time) - layout_.time_zero) * layout_.time_unit_s);
-    }
-  }
-
-  // The first point of a cell stays. No-returns, points out of range and the machine's own body are dropped.
-  void put(const Four& four, FourTruths those) const {
-    const FourPlaces raw = {load_four(four.x), load_four(four.y), load_four(four.z)};
+  // Those of four. The first point of a cell stays. No-returns, points out of range and the machine's own body are
+  // dropped.
+  void put(Points points, FourTruths those) const {
+    const FourPlaces raw = reader_.four(points);
     const FourFloats r2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
     const FourFloats range = root_of(r2);
     those &= (r2 >= near2_) & (r2 <= far2_);
+    const FourFloats turn = rough_arc_tangent2(raw.y, raw.x) * (1.0F / kTurn_rad) + 0.5F;
+    if (print_ != nullptr) print_->add_four(sectors_of(turn), words_of(raw), those);
     FourInts cells;
-    those &= cells_of(four, raw, range, &cells);
-    const FourPlaces p = base_of(four, raw);
+    those &= cells_of(points, raw, range, turn, &cells);
+    const FourPlaces p = base_of(points, raw);
     if (boxes_ > 0) those &= ~is_of_body(p);
+    const RangeImage to = *image_;  // a copy, so that no store can seem to change where its rows are
+    std::uint32_t k = to.count;
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
       const std::uint32_t place = static_cast<std::uint32_t>(cells[lane]);
-      if (those[lane] == 0 || image_->cell[place] != kNoPoint) continue;
-      const std::uint32_t k = image_->count++;
-      image_->cell[place] = static_cast<std::uint16_t>(k);
-      image_->x[k] = p.x[lane], image_->y[k] = p.y[lane], image_->z[k] = p.z[lane], image_->range[k] = range[lane];
-      image_->place[k] = static_cast<std::uint16_t>(place);
+      if (those[lane] == 0 || to.cell[place] != kNoPoint) continue;
+      to.cell[place] = static_cast<std::uint16_t>(k);
+      to.x[k] = p.x[lane], to.y[k] = p.y[lane], to.z[k] = p.z[lane], to.range[k] = range[lane];
+      to.place[k] = static_cast<std::uint16_t>(place);
+      ++k;
     }
+    image_->count = k;
   }
 
  private:
-  FourTruths cells_of(const Four& four, const FourPlaces& raw, FourFloats range, FourInts* cells) const {
+  // turn: of one turn.
+  static FourInts sectors_of(FourFloats turn) {
+    return cut_off(turn * CloudPrint::kSectors) & static_cast<std::int32_t>(CloudPrint::kSectors - 1);
+  }
+
+  FourTruths cells_of(Points points, const FourPlaces& raw, FourFloats range, FourFloats turn, FourInts* cells) const {
     FourTruths those = all_four_ints(-1);
     FourFloats row;
     if (layout_.has_ring) {
-      const FourFloats ring = load_four(four.ring);
+      const FourFloats ring = reader_.four_rings(points);
       those = (ring >= 0.0F) & (ring < static_cast<float>(layout_.rings));
       row = ring * static_cast<float>(static_cast<double>(layout_.rows) / layout_.rings);
     } else {
@@ -221,7 +254,7 @@ class Projector {
     const FourFloats zero = all_four(0.0F), top = all_four(static_cast<float>(layout_.rows) - 0.5F);
     row = row > zero ? smaller_of(row, top) : zero;
     const FourFloats columns = all_four(static_cast<float>(layout_.columns));
-    FourFloats column = (rough_arc_tangent2(raw.y, raw.x) * (1.0F / kTurn_rad) + 0.5F) * columns;
+    FourFloats column = turn * columns;
     column = column >= zero ? column : zero;
     column = column < columns ? column : zero;  // once round
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
@@ -242,12 +275,12 @@ class Projector {
   }
 
   // At the stamp, to second order of the turn.
-  FourPlaces base_of(const Four& four, const FourPlaces& raw) const {
+  FourPlaces base_of(Points points, const FourPlaces& raw) const {
     FourPlaces p = {R_(0, 0) * raw.x + R_(0, 1) * raw.y + R_(0, 2) * raw.z + origin_[0],
                     R_(1, 0) * raw.x + R_(1, 1) * raw.y + R_(1, 2) * raw.z + origin_[1],
                     R_(2, 0) * raw.x + R_(2, 1) * raw.y + R_(2, 2) * raw.z + origin_[2]};
     if (!layout_.has_time) return p;
-    const FourFloats time = load_four(four.time_s);
+    const FourFloats time = reader_.four_times_s(points, layout_.time_zero, layout_.time_unit_s);
     const FourTruths is_time = (time > -0.1F) & (time <= 1.0F);
     const FourFloats t = is_time ? time : all_four(0.0F), half = 0.5F * t * t;
     const FourPlaces around = turned(p), twice = turned(around);
@@ -269,17 +302,10 @@ class Projector {
   float body_[BodyBoxes::kMost][6];  // edges of the boxes that hold something
   std::uint32_t boxes_ = 0;
   RangeImage* image_;
+  CloudPrint* print_;  // or NULL
 };
 
-}  // namespace
-
-void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image) {
-  image->flags.fill(0);
-  project_again(cloud, reading, twist, image);
-}
-
-void project_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image) {
-  const Projector projector(cloud, reading, twist, image);
+void project_some(const pose_wall_cloud& cloud, const Projector& projector, RangeImage* image) {
   image->rows = projector.layout().rows;
   image->columns = projector.layout().columns;
   image->count = 0;
@@ -288,19 +314,34 @@ void project_again(const pose_wall_cloud& cloud, const Reading& reading, const T
   constexpr std::uint32_t kGolden = 0x9E3779B9U;
   const std::uint32_t rows_in = rows_of(cloud), share = projector.layout().share;
   std::uint32_t lot = 0, gathered = 0;
-  Four four = {};
+  const unsigned char* points[kFour];
   for (std::uint32_t row_in = 0; row_in < rows_in; ++row_in) {
     const unsigned char* point = row_of(cloud, row_in);
     for (std::uint32_t i = 0; i < cloud.width; ++i, point += cloud.point_step) {
       lot += kGolden;
       if (lot > share) continue;
-      projector.read(point, gathered, &four);
+      points[gathered] = point;
       if (++gathered < kFour) continue;
-      projector.put(four, first_of_four(kFour));
+      projector.put(points, first_of_four(kFour));
       gathered = 0;
     }
   }
-  if (gathered > 0) projector.put(four, first_of_four(gathered));
+  if (gathered == 0) return;
+  for (std::uint32_t lane = gathered; lane < kFour; ++lane) points[lane] = points[0];
+  projector.put(points, first_of_four(gathered));
+}
+
+}  // namespace
+
+void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image,
+             CloudPrint* print) {
+  print->clear();
+  image->flags.fill(0);
+  project_some(cloud, Projector(cloud, reading, twist, image, print), image);
+}
+
+void project_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image) {
+  project_some(cloud, Projector(cloud, reading, twist, image, nullptr), image);
 }
 
 }  // namespace pose_wall::motion

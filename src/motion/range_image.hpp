@@ -11,6 +11,7 @@
 
 #include "base/containers/arena.hpp"
 #include "base/containers/span.hpp"
+#include "cloud/cloud_print.hpp"
 #include "config.hpp"
 #include "motion/pose.hpp"
 #include "pose_wall.h"
@@ -63,8 +64,10 @@ struct RangeImage {
   Span<std::uint16_t> cell;
 };
 
-// De-skewed by the twist where the cloud has times: each point where it would have been seen from at the stamp.
-void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image);
+// De-skewed by the twist where the cloud has times: each point where it would have been seen from at the stamp. The
+// print is of all points in range that are looked at, those of the machine's body too.
+void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image,
+             CloudPrint* print);
 // The same cloud by another twist. Cells and the order of points do not depend on it, so flags stay. The exception is
 // another point inside the machine's own body, which shows in the count.
 void project_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image);

@@ -15,7 +15,8 @@ namespace {
 constexpr std::uint32_t kSide = 256, kBins = 16, kFacings = 3;  // 77 m by 77 m, and 6.4 m of height
 constexpr std::uint32_t kWord = 64, kWords = kSide / kWord;
 constexpr std::uint32_t kRowsAtOnce = 2;                // words of a register of NEON and of SSE
-constexpr std::uint32_t kColumn = kSide + kRowsAtOnce;  // words one above the other; the last ones are the first again
+// Words one above the other; the last ones are the first again, for all rows of a window.
+constexpr std::uint32_t kAgain = kStartsInRow + kRowsAtOnce - 1, kColumn = kSide + kAgain;
 constexpr std::uint32_t kLayerWords = kWords * kColumn;
 constexpr float kSize_m[3] = {static_cast<float>(kPlaceStep_m), static_cast<float>(kPlaceStep_m), 0.4F};
 constexpr float kMargin_m = 2e-3F;  // more than the rounding of a place 200 m from the corner
@@ -83,7 +84,7 @@ class Drawing {
       const std::uint32_t y = static_cast<std::uint32_t>(cell[1]) & (kSide - 1);
       std::uint64_t* const word = &bits_[layer_of(tile.facing, cell[2]) + x / kWord * kColumn + y];
       *word |= std::uint64_t{1} << (x % kWord);
-      if (y < kRowsAtOnce) word[kSide] = *word;
+      if (y < kAgain) word[kSide] = *word;
     }
     cells_ += static_cast<std::uint32_t>(count);
   }
@@ -144,9 +145,7 @@ inline Words words_at(const std::uint64_t* at) {
 }
 
 inline Words bits_at(const std::uint64_t* bits, const BitWindow& w, std::uint32_t row) {
-  const std::uint64_t* const column = bits + w.layer + ((w.y + row) & (kSide - 1));
-  const Words low = words_at(column + w.word * kColumn);
-  const Words high = words_at(column + ((w.word + 1) & (kWords - 1)) * kColumn);
+  const Words low = words_at(bits + row + w.low), high = words_at(bits + row + w.high);
   return low >> w.shift | high << 1 << (kWord - 1 - w.shift);
 }
 
@@ -172,7 +171,8 @@ void open_windows(const ReliefMap& map, Span<const Observation> asked, Span<cons
     const Eigen::Vector3f p = local(Eigen::Vector3f(o.x, o.y, o.z));
     const std::uint32_t x = static_cast<std::uint32_t>(cell_of(p.x(), 0) - places) & (kSide - 1);
     const std::uint32_t y = static_cast<std::uint32_t>(cell_of(p.y(), 1) - places) & (kSide - 1);
-    windows[i] = {layer_of(facing[i], cell_of(p.z(), 2)), y, x / kWord, x % kWord};
+    const std::uint32_t first = layer_of(facing[i], cell_of(p.z(), 2)) + y, word = x / kWord;
+    windows[i] = {first + word * kColumn, first + (word + 1) % kWords * kColumn, x % kWord};
   }
 }
 

@@ -38,9 +38,9 @@ struct StartGrid {
   Eigen::Matrix3d turn(int yaw) const { return turn_by(Eigen::Vector3d(0.0, 0.0, yaw_step_rad * yaw)); }
 };
 
-// A row of places as an observation sees it: which bits, in which layer of the grid.
+// The first row of places as an observation sees it: the words of the grid that hold its lower and its upper bits.
 struct BitWindow {
-  std::uint32_t layer, y, word, shift;
+  std::uint32_t low, high, shift;
 };
 
 struct StartScratch {

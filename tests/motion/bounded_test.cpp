@@ -118,8 +118,8 @@ class Bounded : public ::testing::Test {
       const double kept = chance.below(3) == 0 ? std::pow(10.0, chance.between(-2.0, 0.0)) : 1.0;
       const Pose pose = pose_of(0.0, 0.0, 0.0, tilt_rad, -tilt_rad, turn_rad);
       stamp_ns += static_cast<std::int64_t>(1e9 * std::pow(10.0, chance.between(-1.0, std::log10(600.0))));
-      const Points scan = changed(there.scans[chance.below(kDriven)], pose.R, kept, &chance);
       for (int again = 0; again < 2; ++again, stamp_ns += kPeriod_ns) {
+        const Points scan = changed(there.scans[chance.below(kDriven)], pose.R, kept, &chance);
         cost.dearest = std::max(cost.dearest, give(scan, stamp_ns, &cost));
       }
     }

@@ -20,7 +20,7 @@ class Pipeline {
 
   // What is seen, as of a scan from the expected pose.
   void see(const pose_wall::test::Points& points, const Pose& expected) {
-    project(pose_wall::test::cloud_of(points, 0), reading, Twist{}, image.get());
+    project(pose_wall::test::cloud_of(points, 0), reading, Twist{}, image.get(), &print);
     segments = segment(expected.R, reading, segment_.get(), image.get());
     features = mark_features(image.get());
     const Span<Observation> room(observation_.data(), kObservationsMost);
@@ -58,6 +58,7 @@ class Pipeline {
 
   Reading reading;
   Laid<RangeImage> image;
+  CloudPrint print;
   Laid<ReliefMap> map;
   Laid<StepScratch> steps;
   Laid<CurveScratch> curve;

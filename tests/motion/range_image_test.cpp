@@ -64,13 +64,14 @@ class Image : public ::testing::Test {
  protected:
   const RangeImage& of(const Recorded& recorded, const Twist& twist = {}) {
     EXPECT_EQ(pose_wall_cloud_check(&recorded.cloud), POSE_WALL_OK);
-    project(recorded.cloud, reading_, twist, image_.get());
+    project(recorded.cloud, reading_, twist, image_.get(), &print_);
     return *image_;
   }
   Eigen::Vector3d point(std::uint32_t i) { return image_->point(i).cast<double>(); }
 
   Reading reading_;
   Laid<RangeImage> image_;
+  CloudPrint print_;
 };
 
 // Of one point in each of eight rings, an eighth of a turn apart.

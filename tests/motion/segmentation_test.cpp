@@ -18,7 +18,7 @@ namespace {
 class Segmented : public ::testing::Test {
  protected:
   void take(const pose_wall::test::Points& points) {
-    project(pose_wall::test::cloud_of(points, 0), reading_, Twist{}, image_.get());
+    project(pose_wall::test::cloud_of(points, 0), reading_, Twist{}, image_.get(), &print_);
     found_ = segment(R_map_base_, reading_, scratch_.get(), image_.get());
   }
   // A patch of the image, by hand: rows x columns, all in one range.
@@ -49,6 +49,7 @@ class Segmented : public ::testing::Test {
   Reading reading_;
   Eigen::Matrix3d R_map_base_ = Eigen::Matrix3d::Identity();
   Laid<RangeImage> image_;
+  CloudPrint print_;
   Laid<SegmentScratch> scratch_;
   Segments found_;
 };

@@ -51,7 +51,8 @@ class SightUnderTest {
     auto looks = std::make_unique<FloorLooks>();
     ground_ = pose_wall::planar::find_ground(rays, mount_, settings_, looks.get());
     sight_->open(settings_, mount_);
-    used_ = sight_->look(rays, ground_);
+    pose_wall::CloudPrint print;
+    used_ = sight_->look(rays, ground_, &print);
     return *sight_;
   }
   bool returns_near(double x, double y, double within_m) const {

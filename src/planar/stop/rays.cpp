@@ -31,8 +31,9 @@ FourPlaces Rays::four_of(const unsigned char* point, std::uint32_t left) const {
 }
 
 bool Rays::one(std::uint64_t index, float* x, float* y, float* z) const {
-  FourTruths those = first_of_four(1);
-  const FourPlaces at = in_base(four_of(point_at(index), 1), &those);
+  const FourPlaces raw = four_of(point_at(index), 1);
+  FourTruths those = first_of_four(1) & are_in_range(raw);
+  const FourPlaces at = in_base(raw, &those);
   *x = at.x[0], *y = at.y[0], *z = at.z[0];
   return those[0] != 0;
 }

@@ -21,8 +21,8 @@ class Rays {
 
   std::uint64_t points() const { return points_; }
 
-  // visit(x and y from the sensor, how far they lie below a plane through the sensor with these slopes, which of them
-  // are returns in range and not of the machine).
+  // visit(the points as the cloud has them and which of them are returns in range, x and y from the sensor, how far
+  // they lie below a plane through the sensor with these slopes, which of the returns are not of the machine).
   template <typename Visit>
   void each_four(float slope_x, float slope_y, const Visit& visit) const {
     float fall[3];
@@ -38,9 +38,10 @@ class Rays {
         } else {
           raw = four_of(point, left);
         }
-        FourTruths those = first_of_four(left);
+        const FourTruths returns = first_of_four(left) & are_in_range(raw);
+        FourTruths those = returns;
         const FourPlaces at = in_base(raw, &those);
-        visit(at.x, at.y, fall[0] * raw.x + fall[1] * raw.y + fall[2] * raw.z, those);
+        visit(raw, returns, at.x, at.y, fall[0] * raw.x + fall[1] * raw.y + fall[2] * raw.z, those);
         point += std::size_t{kFour} * cloud_.point_step;
       }
     }
@@ -63,9 +64,12 @@ class Rays {
     return value;
   }
 
-  FourPlaces in_base(const FourPlaces& p, FourTruths* those) const {
+  FourTruths are_in_range(const FourPlaces& p) const {
     const FourFloats r2 = p.x * p.x + p.y * p.y + p.z * p.z;
-    *those &= (r2 >= near2_) & (r2 <= far2_);
+    return (r2 >= near2_) & (r2 <= far2_);
+  }
+
+  FourPlaces in_base(const FourPlaces& p, FourTruths* those) const {
     const FourPlaces at = {R_[0] * p.x + R_[1] * p.y + R_[2] * p.z, R_[3] * p.x + R_[4] * p.y + R_[5] * p.z,
                            R_[6] * p.x + R_[7] * p.y + R_[8] * p.z};
     for (std::uint32_t k = 0; k < boxes_; ++k) {

@@ -148,8 +148,7 @@ void Sight::put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m,
   }
 }
 
-void Sight::put(FourFloats x, FourFloats y, FourFloats fall_m, FourFloats range_m, FourTruths those) {
-  const FourInts azimuth = azimuths_of(x, y);
+void Sight::put(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those) {
   const FourFloats level_m = kLevel * range_m, rings = range_m * (1.0F / kRing_m);
   const FourTruths falls = fall_m > level_m;
   const FourFloats per_m = rings / larger_of(magnitude_of(fall_m), level_m);
@@ -171,8 +170,9 @@ void Sight::set_heights() {
   band_fall_m_ = H - band_m_, thing_fall_m_ = H - thing_m_, top_fall_m_ = H - top_m_;
 }
 
-std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
+std::uint32_t Sight::look(const Rays& rays, const Ground& ground, CloudPrint* print) {
   clear();
+  print->clear();
   const float a = static_cast<float>(ground.slope_x), b = static_cast<float>(ground.slope_y);
   const Eigen::Vector3d& s = mount_.sensor_base_m;
   sensor_height_m_ = static_cast<float>(s.z() - ground.height_m - ground.slope_x * s.x() - ground.slope_y * s.y());
@@ -185,13 +185,18 @@ std::uint32_t Sight::look(const Rays& rays, const Ground& ground) {
   seen_most_m_ = (reach_m_ < widest_m ? reach_m_ : widest_m) + kRing_m;
   FourInts used = all_four_ints(0);
   constexpr float kNearest_m = 0.05F;  // straight below the sensor there is no azimuth
-  rays.each_four(a, b, [&](FourFloats x, FourFloats y, FourFloats fall, FourTruths those) {
+  const auto look_at = [&](const FourPlaces& raw, FourTruths returns, FourFloats x, FourFloats y, FourFloats fall,
+                           FourTruths those) {
+    static_assert(kAzimuths == 4 * CloudPrint::kSectors, "a shift of the azimuth");
+    const FourInts azimuth = azimuths_of(x, y);
+    print->add_four(azimuth >> 2, words_of(raw), returns);
     const FourFloats range = root_of(x * x + y * y);
     used -= those;
     // Below the floor: a mirror image, of which the way is unknown. Upwards and out of the machine's height: no use.
     those &= (fall <= floor_m) & (range > kNearest_m) & (fall >= -room_m * range);
-    if (any_of(those)) put(x, y, fall, range, those);
-  });
+    if (any_of(those)) put(azimuth, fall, range, those);
+  };
+  rays.each_four(a, b, look_at);
   add_up();
   widen();
   bound();

@@ -12,6 +12,7 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
+#include "cloud/cloud_print.hpp"
 #include "planar/stop/ground.hpp"
 #include "planar/stop/rays.hpp"
 
@@ -27,8 +28,8 @@ class Sight {
  public:
   void lay_out(Arena& arena);
   void open(const StopSettings& settings, const Mount& mount);
-  // Reads a frame. Returns how many returns were used.
-  std::uint32_t look(const Rays& rays, const Ground& ground);
+  // Reads a frame. Returns how many returns were used. The print is of all in range, those of the machine too.
+  std::uint32_t look(const Rays& rays, const Ground& ground, CloudPrint* print);
 
   enum Seen : std::uint8_t { kLow = 1, kTall = 2, kTop = 4, kAll = 7 };
 
@@ -96,7 +97,7 @@ class Sight {
   static void put_kinds(const std::uint64_t* passes, std::uint8_t* kinds);
   void widen();
   void bound();
-  void put(FourFloats x, FourFloats y, FourFloats fall_m, FourFloats range_m, FourTruths those);
+  void put(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those);
   void put_falling(FourInts azimuth, FourFloats per_m, FourFloats end, FourTruths those);
   void put_level(FourInts azimuth, FourFloats per_m, FourFloats end, FourTruths those);
   void put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those);

@@ -230,15 +230,12 @@ std::uint32_t Stop::frame_reasons(const pose_wall_cloud& cloud, std::int64_t now
   if (!(age_s <= settings_.stale_s)) reasons |= POSE_WALL_PLANAR_STOP_R_STALE;
   if (!(age_s >= -kFuture_s)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
   if (frames_ > 0 && !(cloud.stamp_ns > last_ns_)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
-  print_cloud(cloud, print_);
   if (freshness_.keep(*print_, cloud.stamp_ns).is_one) reasons |= POSE_WALL_PLANAR_STOP_R_FROZEN;
   return reasons;
 }
 
-void Stop::see(const Rays& rays, pose_wall_planar_stop_result* result) {
-  const Ground ground = find_ground(rays, mount_, settings_, looks_);
+void Stop::see(const Ground& ground, pose_wall_planar_stop_result* result) {
   const Eigen::Vector2d sensor_m = mount_.sensor_base_m.head<2>();
-  result->points_used = sight_.look(rays, ground);
   places_.put_returns(sight_, track_, sensor_m, now_ms_);
   places_.put_seen(sight_, track_, sensor_m, sweep_, now_ms_);
   result->floor_height_m = ground.height_m;
@@ -319,6 +316,9 @@ void Stop::decide(std::uint32_t fatal, std::int64_t now_ns, pose_wall_planar_sto
 void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_motion& given, std::int64_t now_ns,
                    pose_wall_planar_stop_result* result) {
   const Rays rays(cloud, mount_);
+  // Each cloud is looked at, though nothing of one that is refused is kept but its print: it may come again.
+  const Ground ground = find_ground(rays, mount_, settings_, looks_);
+  const std::uint32_t points_used = sight_.look(rays, ground, print_);
   const Motion motion = motion_of(given);
   const std::uint32_t of_clock = heed_clock(now_ns);
   heed_stamp(cloud.stamp_ns);
@@ -345,7 +345,8 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
   r.stamp_ns = last_ns_;
   r.frames = frames_;
   if (goes_on && (refused & kFatal) == 0) {
-    see(rays, &r);
+    r.points_used = points_used;
+    see(ground, &r);
     if (r.points_used < kReturnsLeast) r.reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
     judge(sweep_motion, &r);
   }

@@ -42,7 +42,7 @@ class Stop {
   std::uint32_t heed_clock(std::int64_t now_ns);
   void heed_stamp(std::int64_t stamp_ns);
   std::uint32_t frame_reasons(const pose_wall_cloud& cloud, std::int64_t now_ns);
-  void see(const Rays& rays, pose_wall_planar_stop_result* result);
+  void see(const Ground& ground, pose_wall_planar_stop_result* result);
   void judge(const SweepMotion& sweep_motion, pose_wall_planar_stop_result* result);
   void tell_nearest(const Hazard& hazard, pose_wall_planar_stop_result* result) const;
   void decide(std::uint32_t fatal, std::int64_t now_ns, pose_wall_planar_stop_result* result);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/math/elementary.hpp"
+#include "cloud/direction_grid.hpp"
 #include "support/clouds.hpp"
 
 namespace pose_wall {
@@ -84,10 +85,19 @@ struct Standing {
   }
 };
 
-Repeat keep(Freshness* freshness, const test::Points& points, std::int64_t stamp_ns) {
+// As the engine has them: sectors are columns of directions.
+CloudPrint print_of(const test::Points& points) {
   CloudPrint print;
-  print_cloud(test::cloud_of(points, stamp_ns), &print);
-  return freshness->keep(print, stamp_ns);
+  for (const auto& p : points) {
+    const FourFloats x = all_four(p[0]), y = all_four(p[1]), z = all_four(p[2]), norm2 = x * x + y * y + z * z;
+    const auto cell = static_cast<std::uint32_t>(Directions::cells_of(x, y, z, norm2)[0]);
+    if (norm2[0] > 0.0F) print.add(cell % Directions::kColumns, words_of({x, y, z})[0]);
+  }
+  return print;
+}
+
+Repeat keep(Freshness* freshness, const test::Points& points, std::int64_t stamp_ns) {
+  return freshness->keep(print_of(points), stamp_ns);
 }
 
 Standing standing_vlp16() {
@@ -170,13 +180,11 @@ TEST(Freshness, WhatIsForgottenIsNew) {
 TEST(CloudPrint, AnyChangeOfAPointIsAnother) {
   Standing sensor = standing_vlp16();
   test::Points points = sensor.next();
-  CloudPrint first, again;
-  print_cloud(test::cloud_of(points, 0), &first);
+  const CloudPrint first = print_of(points);
   test::Points shuffled = points;
   test::shuffle(&shuffled, 3);
-  print_cloud(test::cloud_of(shuffled, 0), &again);
-  EXPECT_EQ(again.whole(), first.whole());
-  EXPECT_EQ(again.returns(), first.returns());
+  EXPECT_EQ(print_of(shuffled).whole(), first.whole());
+  EXPECT_EQ(print_of(shuffled).returns(), first.returns());
   std::mt19937 random(5);
   for (int trial = 0; trial < 500; ++trial) {
     test::Points other = points;
@@ -184,62 +192,41 @@ TEST(CloudPrint, AnyChangeOfAPointIsAnother) {
     if (point[0] == 0.0F && point[1] == 0.0F) continue;
     float& number = point[random() % 3];
     number = std::nextafter(number, trial % 2 == 0 ? 100.0F : -100.0F);
-    print_cloud(test::cloud_of(other, 0), &again);
-    EXPECT_NE(again.whole(), first.whole());
+    EXPECT_NE(print_of(other).whole(), first.whole());
   }
 }
 
-TEST(CloudPrint, WhatIsNoReturnHasNoPart) {
-  const float endless = INFINITY, none = NAN;
-  CloudPrint print;
-  print_cloud(test::cloud_of({{0, 0, 0},
-                              {0, 0, 2},
-                              {none, 1, 1},
-                              {1, none, 1},
-                              {1, 1, none},
-                              {endless, 0, 0},
-                              {0, -endless, 0},
-                              {1, 1, endless},
-                              {3e38F, 3e38F, 0}},
-                             0),
-              &print);
-  EXPECT_EQ(print.returns(), 0U);
+// Sums of changes in opposite ways, of which plain sums show nothing.
+TEST(CloudPrint, ChangesOfTwoPointsDoNotCancel) {
+  Standing sensor = standing_vlp16();
+  test::Points points = sensor.next();
+  const CloudPrint first = print_of(points);
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 1500; ++trial) {
+    test::Points other = points;
+    const std::size_t at = random() % (other.size() - 16), coordinate = static_cast<std::size_t>(trial) % 3;
+    float &one = other[at][coordinate], &next = other[at + 1][coordinate];
+    if (one == 0.0F || next == 0.0F) continue;
+    if (trial % 2 == 0) {
+      std::swap(one, next);
+      if (one == next) continue;
+    } else {
+      one = std::nextafter(one, 100.0F), next = std::nextafter(next, -100.0F);
+    }
+    EXPECT_NE(print_of(other).whole(), first.whole()) << "trial " << trial;
+  }
 }
 
-// Doubles may be larger than any float.
-TEST(CloudPrint, ADoubleThatNoFloatHoldsIsNoReturn) {
-  const std::vector<std::array<double, 3>> points = {
-      {1e300, 1.0, 1.0}, {1.0, -1e300, 1.0}, {1.0, 1.0, 1e39}, {1.0, 1.0, 1.0}};
-  pose_wall_cloud cloud = test::cloud_of({}, 0);
-  cloud.data = points.data();
-  cloud.data_bytes = sizeof(points[0]) * points.size();
-  cloud.width = static_cast<std::uint32_t>(points.size());
-  cloud.point_step = sizeof(points[0]);
-  cloud.x = {0, POSE_WALL_FIELD_FLOAT64};
-  cloud.y = {8, POSE_WALL_FIELD_FLOAT64};
-  cloud.z = {16, POSE_WALL_FIELD_FLOAT64};
-  CloudPrint print;
-  print_cloud(cloud, &print);
-  EXPECT_EQ(print.returns(), 1U);
-}
-
-// Each direction belongs to a sector, and neighbours to neighbouring ones.
-TEST(CloudPrint, SectorsGoAround) {
-  std::vector<std::uint32_t> of_sector(CloudPrint::kSectors);
-  constexpr int kSteps = 36000;
-  for (int k = 0; k < kSteps; ++k) {
-    const double azimuth = 2.0 * kPi * k / kSteps;
-    CloudPrint print;
-    print_cloud(
-        test::cloud_of({{static_cast<float>(std::cos(azimuth)), static_cast<float>(std::sin(azimuth)), 0.5F}}, 0),
-        &print);
-    ASSERT_EQ(print.returns(), 1U);
-    for (std::uint32_t s = 0; s < CloudPrint::kSectors; ++s) of_sector[s] += print.returns(s);
-  }
-  for (const std::uint32_t count : of_sector) {
-    EXPECT_GE(count, 100U) << "a degree";
-    EXPECT_LE(count, 260U);
-  }
+TEST(CloudPrint, WhatIsNotAddedHasNoPart) {
+  const FourPlaces four = {{1, 2, 3, 4}, {1, 2, 3, 4}, {1, 2, 3, 4}};
+  CloudPrint some, first_two;
+  some.add_four(FourInts{5, 5, 7, 9}, words_of(four), first_of_four(2));
+  first_two.add(5, words_of(four)[0]);
+  first_two.add(5, words_of(four)[1]);
+  EXPECT_EQ(some.whole(), first_two.whole());
+  EXPECT_EQ(some.returns(), 2U);
+  EXPECT_EQ(some.returns(5), 2U);
+  EXPECT_EQ(some.returns(7), 0U);
 }
 
 }  // namespace
