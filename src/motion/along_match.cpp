@@ -55,8 +55,7 @@ class CurveBuilder {
   };
   Parabolas parabolas() {
     Parabolas sum;
-    const std::uint32_t tiles = scan_.map->tiles();
-    s_->gain.first(tiles).fill(0.0F);
+    s_->gain.first(patches_).fill(0.0F);
     double x2 = 0.0, x4 = 0.0;
     for (std::uint32_t k = 0; k < shifts_; ++k) {
       const double x = shift_m(k);
@@ -77,10 +76,10 @@ class CurveBuilder {
       const int half = half_of(row);
       sum.slope[half] += own;
       sum.bend[half] += own_bend;
-      s_->gain[s_->tile[row]] += static_cast<float>(own);
+      s_->gain[s_->patch[row]] += static_cast<float>(own);
     }
-    for (std::uint32_t t = 0; t < tiles; ++t) {
-      const double g = static_cast<double>(s_->gain[t]);
+    for (std::uint32_t p = 0; p < patches_; ++p) {
+      const double g = static_cast<double>(s_->gain[p]);
       sum.slope_squares += g * g;
     }
     return sum;
@@ -100,6 +99,7 @@ class CurveBuilder {
       if (measure_row(scan_.observation[i], local, axis)) ++rows_;
     }
     fill_up();
+    number_patches();
   }
 
   // Subtracts the best fit of the rest at each shift from the misfits. The fit follows the shifts from the middle
@@ -156,19 +156,18 @@ class CurveBuilder {
   // normalised sums: de la Pena, Lai and Shao 2009).
   static constexpr std::uint32_t kElsewhere = 0xFFFF;
   double agreement(std::uint32_t best, std::uint32_t other) {
-    const std::uint32_t tiles = scan_.map->tiles();
-    s_->gain.first(tiles).fill(0.0F);
+    s_->gain.first(patches_).fill(0.0F);
     for (std::uint32_t row = 0; row < rows_; ++row) {
       const float here = s_->misfit[best * kRowsMost + row];
       if (!is_known(here)) continue;
       const float there = other == kElsewhere ? mean_away_from(best, row) : s_->misfit[other * kRowsMost + row];
-      if (is_known(there)) s_->gain[s_->tile[row]] += there - here;
+      if (is_known(there)) s_->gain[s_->patch[row]] += there - here;
     }
     double sum = 0.0, squares = 1e-9;
-    for (std::uint32_t t = 0; t < tiles; ++t) {
+    for (std::uint32_t p = 0; p < patches_; ++p) {
       // By its root, with its sign: one prop that stands out of the rock is one patch's word, too.
-      const double g = static_cast<double>(s_->gain[t]), size = std::fabs(g);
-      if (!(size > 0.0)) continue;  // most tiles are out of sight
+      const double g = static_cast<double>(s_->gain[p]), size = std::fabs(g);
+      if (!(size > 0.0)) continue;
       sum += g > 0.0 ? std::sqrt(size) : -std::sqrt(size);
       squares += size;
     }
@@ -237,6 +236,19 @@ class CurveBuilder {
     }
   }
 
+  // Rows lie on few of a map's tiles.
+  void number_patches() {
+    constexpr std::uint16_t kNone = 0xFFFF;
+    const Span<std::uint16_t> patch_of = s_->patch_of.first(scan_.map->tiles());
+    patch_of.fill(kNone);
+    for (std::uint32_t row = 0; row < rows_; ++row) patch_of[s_->tile[row]] = 0;
+    patches_ = 0;
+    for (std::uint16_t& patch : patch_of) {
+      if (patch != kNone) patch = static_cast<std::uint16_t>(patches_++);
+    }
+    for (std::uint32_t row = 0; row < rows_; ++row) s_->patch[row] = patch_of[s_->tile[row]];
+  }
+
   int half_of(std::uint32_t row) const { return static_cast<int>((s_->tile[row] * 0x9E3779B1U) >> 31U); }
 
   // Its mean over the shifts at which the map knows it, with the curve taken off.
@@ -286,7 +298,7 @@ class CurveBuilder {
   std::uint32_t shifts_;
   double step_m_;
   CurveScratch* s_;
-  std::uint32_t rows_ = 0;
+  std::uint32_t rows_ = 0, patches_ = 0;
 };
 
 std::uint32_t least_of(const double (&f)[kShiftsMost], std::uint32_t shifts) {
@@ -338,7 +350,9 @@ void CurveScratch::lay_out(Arena& arena) {
   misfit = arena.take<float>(kShiftsMost * kRowsMost);
   jacobian = arena.take<float>(kRest * kRowsMost);
   tile = arena.take<std::uint16_t>(kRowsMost);
-  gain = arena.take<float>(kTilesMost);
+  patch = arena.take<std::uint16_t>(kRowsMost);
+  patch_of = arena.take<std::uint16_t>(kTilesMost);
+  gain = arena.take<float>(kRowsMost);
 }
 
 namespace {

@@ -33,10 +33,12 @@ bool is_evidence(const Curve& curve);
 
 struct CurveScratch {
   void lay_out(Arena& arena);
-  Span<float> misfit;    // [shift][row], in deviations; NaN where the map knows nothing
-  Span<float> jacobian;  // [kRest][row]
-  Span<std::uint16_t> tile;
-  Span<float> gain;  // [tile]; 0 for one that no row lies on
+  Span<float> misfit;            // [shift][row], in deviations; NaN where the map knows nothing
+  Span<float> jacobian;          // [kRest][row]
+  Span<std::uint16_t> tile;      // [row]
+  Span<std::uint16_t> patch;     // [row]: of the tiles that rows lie on, in their order
+  Span<std::uint16_t> patch_of;  // [tile], where rows lie on it
+  Span<float> gain;              // [patch]
 };
 
 // The rows at a shift so small that the curve is a parabola: the place of its bottom, and its standard deviation by

@@ -14,7 +14,7 @@ namespace {
 // The grid wraps around: what is further apart than this meets in one cell, which only raises a bound.
 constexpr std::uint32_t kSide = 256, kBins = 16, kFacings = 3;  // 77 m by 77 m, and 6.4 m of height
 constexpr std::uint32_t kWord = 64, kWords = kSide / kWord;
-constexpr std::uint32_t kRowsAtOnce = 2;                // words of a register of NEON and of SSE
+constexpr std::uint32_t kRowsAtOnce = 2;  // words of a register of NEON and of SSE
 // Words one above the other; the last ones are the first again, for all rows of a window.
 constexpr std::uint32_t kAgain = kStartsInRow + kRowsAtOnce - 1, kColumn = kSide + kAgain;
 constexpr std::uint32_t kLayerWords = kWords * kColumn;
