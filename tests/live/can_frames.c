@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * Copyright (c) 2026 the pose_wall authors
  *
- * Process images in, frames of CAN out, for can_peer.py. Of each line "image2 HEX" or "motion_image HEX", the bytes of
- * an image, it prints one line: the frames of 11 bits, then those of J1939, each as "ID#DATA" in hex. An image that is
- * refused gives an empty line. */
+ * Process images in, frames of CAN out, for can_peer.py. Of each line "image2 HEX", "motion_image HEX" or
+ * "stop_image HEX", the bytes of an image, it prints one line: the frames of 11 bits, then those of J1939, each as
+ * "ID#DATA" in hex. An image that is refused gives an empty line. */
 
 #include <stdio.h>
 #include <string.h>
 
 #include "can_images.h"
 
-enum { kMost = POSE_WALL_CAN_IMAGE2_FRAMES + POSE_WALL_CAN_MOTION_IMAGE_FRAMES, kBytesMost = 1024 };
+enum { kMost = POSE_WALL_CAN_NUMBERS, kBytesMost = 1024 };
 
 static void print_frames(const pose_wall_can_frame* frames, uint32_t count) {
   uint32_t i;
@@ -28,13 +28,17 @@ static void print_image(const char* kind, const unsigned char* bytes) {
   pose_wall_can_frame frames[kMost];
   pose_wall_image2 image;
   pose_wall_motion_image motion;
+  pose_wall_planar_stop_image stop;
   int k;
   memcpy(&image, bytes, sizeof(image));
   memcpy(&motion, bytes, sizeof(motion));
+  memcpy(&stop, bytes, sizeof(stop));
   for (k = 0; k < 2; ++k) {
-    const int is_image2 = strcmp(kind, "image2") == 0;
-    print_frames(frames, is_image2 ? pose_wall_can_of_image2(&image, &buses[k], frames)
-                                   : pose_wall_can_of_motion_image(&motion, &buses[k], frames));
+    uint32_t count = 0;
+    if (strcmp(kind, "image2") == 0) count = pose_wall_can_of_image2(&image, &buses[k], frames);
+    if (strcmp(kind, "motion_image") == 0) count = pose_wall_can_of_motion_image(&motion, &buses[k], frames);
+    if (strcmp(kind, "stop_image") == 0) count = pose_wall_can_of_stop_image(&stop, &buses[k], frames);
+    print_frames(frames, count);
   }
   printf("\n");
 }

@@ -2,8 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves, by a pair of sockets in place of the bus: each publication sends all frames of both images, and those of one
-// image count alike. A bus that takes nothing delays no longer than the patience, and loses what is counted. A port
-// that fails is opened again. Settings that leave no room are refused. On vcan0 the same, where the kernel has it.
+// image count alike. The stop's frames go first, and with each answer; they say stop where nobody answers. A bus that
+// takes nothing delays no longer than the patience, and loses what is counted. A port that fails is opened again.
+// Settings that leave no room are refused. On vcan0 the same, where the kernel has it.
 //
 // Does not prove: what readers of DBC make of the frames, can_peer.py.
 
@@ -27,11 +28,14 @@
 #include "can_images.h"
 #include "live/can/can_sink.hpp"
 #include "live/frame_catcher.hpp"
+#include "live/said_stop.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
 
 using pose_wall::test::fact;
+using pose_wall::test::opened_news;
+using pose_wall::test::SaidStop;
 
 constexpr std::size_t kFramesOfBoth = POSE_WALL_CAN_IMAGE2_FRAMES + POSE_WALL_CAN_MOTION_IMAGE_FRAMES;
 
@@ -104,7 +108,7 @@ struct CanSinkTest : testing::Test {
   LiveSettings settings;
   SomeImages images;
   PairBus bus;
-  CanSink sink{"can7", can_bus_of(settings), images, [this](const std::string&) { return bus.open(); }};
+  CanSink sink{"can7", can_bus_of(settings), images, nullptr, [this](const std::string&) { return bus.open(); }};
 };
 
 TEST_F(CanSinkTest, EachPublicationSendsAllFramesOfBothImages) {
@@ -138,10 +142,57 @@ TEST_F(CanSinkTest, WithoutMotionTheOtherImageGoesAlone) {
   EXPECT_EQ(bus.read_all().size(), std::size_t{POSE_WALL_CAN_IMAGE2_FRAMES});
 }
 
+// The lowest identifiers, which win on the bus.
+TEST_F(CanSinkTest, TheStopGoesFirstAndWithEachAnswer) {
+  constexpr std::size_t kOfStop = POSE_WALL_CAN_STOP_IMAGE_FRAMES;
+  SaidStop stop;
+  StopNews news = opened_news();
+  news.result.state = POSE_WALL_PLANAR_STOP_SLOW;
+  news.result.allowed_speed_m_s = 0.4567;
+  news.result.heartbeat = 0x12345678;
+  stop.say(news);
+  CanSink with_stop("can7", can_bus_of(settings), images, &stop, [this](const std::string&) { return bus.open(); });
+  EXPECT_TRUE(with_stop.wants_planar());
+  EXPECT_FALSE(sink.wants_planar());
+  with_stop.start();
+  with_stop.take_stop(news);
+  std::vector<can_frame> frames = bus.read_all();
+  ASSERT_EQ(frames.size(), kOfStop);
+  for (std::size_t k = 0; k < kOfStop; ++k) {
+    EXPECT_EQ(frames[k].can_id, 0x680U + k);
+    EXPECT_EQ(frames[k].data[1], 0x78U);
+  }
+  // State in 2 bits, then 456 mm/s in 20.
+  EXPECT_EQ((frames[0].data[2] | frames[0].data[3] << 8 | frames[0].data[4] << 16) & 0x3FFFFF,
+            POSE_WALL_PLANAR_STOP_SLOW | 456 << 2);
+  // What is asked for later is newer than the news.
+  news.result.state = POSE_WALL_PLANAR_STOP_STOP;
+  news.result.allowed_speed_m_s = 0.0;
+  ++news.result.heartbeat;
+  stop.say(news);
+  with_stop.take({});
+  frames = bus.read_all();
+  ASSERT_EQ(frames.size(), kOfStop + kFramesOfBoth);
+  EXPECT_EQ(frames[0].can_id, 0x680U);
+  EXPECT_EQ(frames[0].data[1], 0x79U);
+  EXPECT_EQ((frames[0].data[2] | frames[0].data[3] << 8 | frames[0].data[4] << 16) & 0x3FFFFF, 0);
+  EXPECT_EQ(frames[kOfStop].can_id, 0x688U);
+}
+
+TEST_F(CanSinkTest, AStopThatNeverAnsweredHasNoFrames) {
+  const SaidStop silent;
+  CanSink with_stop("can7", can_bus_of(settings), images, &silent, [this](const std::string&) { return bus.open(); });
+  with_stop.start();
+  with_stop.take_stop({});
+  EXPECT_TRUE(bus.read_all().empty());
+  with_stop.take({});
+  EXPECT_EQ(bus.read_all().size(), kFramesOfBoth);
+}
+
 TEST_F(CanSinkTest, J1939HasPriorityGroupAndAddress) {
   settings.can_frames = "j1939";
   settings.can_address = 200;
-  CanSink wide("can7", can_bus_of(settings), images, [this](const std::string&) { return bus.open(); });
+  CanSink wide("can7", can_bus_of(settings), images, nullptr, [this](const std::string&) { return bus.open(); });
   wide.start();
   wide.take({});
   const std::vector<can_frame> frames = bus.read_all();
@@ -185,7 +236,7 @@ TEST_F(CanSinkTest, APortThatFailsIsOpenedAgain) {
 
 TEST_F(CanSinkTest, AnInterfaceThatIsNoneIsNamed) {
   try {
-    CanSink("nocan9", can_bus_of(settings), images).start();
+    CanSink("nocan9", can_bus_of(settings), images, nullptr).start();
     FAIL() << "it started";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("nocan9"), std::string::npos) << error.what();
@@ -231,7 +282,7 @@ TEST(CanOnVcan, SendsWhatAnotherSocketReads) {
   if (reader < 0 || address.can_ifindex == 0) GTEST_SKIP() << "no vcan0 here: the sink was tested by a pair of sockets";
   ASSERT_EQ(bind(reader, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   SomeImages images;
-  CanSink sink("vcan0", can_bus_of({}), images);
+  CanSink sink("vcan0", can_bus_of({}), images, nullptr);
   sink.start();
   sink.take({});
   std::size_t count = 0;

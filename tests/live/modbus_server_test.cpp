@@ -15,7 +15,6 @@
 #include <atomic>
 #include <cstring>
 #include <memory>
-#include <mutex>
 #include <random>
 #include <set>
 #include <string>
@@ -25,13 +24,15 @@
 #include "live/edges.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/loopback.hpp"
-#include "planar/part_block.hpp"
+#include "live/said_stop.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
 
 using pose_wall::test::fact;
 using pose_wall::test::kPatience;
+using pose_wall::test::opened_news;
+using pose_wall::test::SaidStop;
 using Text = std::string;
 
 // Images whose every byte tells which image it is of.
@@ -55,23 +56,6 @@ class CountingImages final : public Images {
     return image;
   }
   mutable std::atomic<unsigned> asked_{0};
-};
-
-// A stop that says what it is told to.
-class SaidStop final : public StopBoard {
- public:
-  StopNews stop_now() const override {
-    const std::lock_guard<std::mutex> locked(lock_);
-    return news_;
-  }
-  void say(const StopNews& news) {
-    const std::lock_guard<std::mutex> locked(lock_);
-    news_ = news;
-  }
-
- private:
-  mutable std::mutex lock_;
-  StopNews news_;
 };
 
 class Client {
@@ -184,21 +168,6 @@ TEST_F(ModbusServerTest, WithoutMotionItsRegistersAreNotThere) {
   constexpr char kAddress = 2;
   EXPECT_EQ(alone(read_request(3, 2000, 66), kExceptionBytes), exception(3, 4, kAddress));
   EXPECT_EQ(alone(read_request(3, 1000, 124), answer_bytes(124)).size(), answer_bytes(124));
-}
-
-// The answer of a stop that was opened, made to say something else.
-StopNews opened_news() {
-  pose_wall_config config;
-  EXPECT_EQ(pose_wall_config_init(&config), POSE_WALL_OK);
-  std::uint64_t bytes = 0;
-  EXPECT_EQ(pose_wall_planar_stop_memory_needed(&bytes), POSE_WALL_OK);
-  const PartBlock block(bytes);
-  pose_wall_planar_stop* stop = nullptr;
-  EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.bytes(), &stop), POSE_WALL_OK);
-  StopNews news;
-  news.result.struct_size = sizeof news.result;
-  EXPECT_EQ(pose_wall_planar_stop_tick(stop, 1'234'999'999, &news.result), POSE_WALL_OK);
-  return news;
 }
 
 TEST_F(ModbusServerTest, TheStopIsAnImageOfItsNewestAnswer) {

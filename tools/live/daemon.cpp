@@ -75,7 +75,7 @@ void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
   if (live.ros1 || reads_ros1) add(make_ros1_edge(loaded_, *this, reads_ros1, live.ros1));
   if (live.ros2 || reads_ros2) add(make_ros2_edge(loaded_, *this, reads_ros2, live.ros2));
   if (!live.modbus.empty()) add(make_modbus_sink(loaded_, runtime_, guard_.get()));
-  if (!live.can.empty()) add(make_can_sink(loaded_, runtime_));
+  if (!live.can.empty()) add(make_can_sink(loaded_, runtime_, guard_.get()));
   if (!live.mqtt.empty()) add(make_mqtt_sink(loaded_, *this));
   if (!live.http.empty()) add(make_page_sink(loaded_, *this, guard_.get()));
   if (!live.recording.empty()) add(make_recorder(loaded_, *this));

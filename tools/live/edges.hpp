@@ -46,7 +46,8 @@ RosEdge make_ros2_edge(const LoadedConfig& loaded, const HealthBoard& health, bo
 
 // stop: none where the planar part is off; its registers are then 0.
 std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop);
-std::unique_ptr<Sink> make_can_sink(const LoadedConfig& loaded, const Images& images);
+// stop: none where the planar part is off; it then has no frames.
+std::unique_ptr<Sink> make_can_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop);
 std::unique_ptr<Sink> make_mqtt_sink(const LoadedConfig& loaded, const HealthBoard& health);
 // stop: as above.
 std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop);

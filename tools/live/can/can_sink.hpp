@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The process images on CAN: with each publication all frames of each image, of a frame or of silence.
+// The process images on CAN: with each publication all frames of each image, of a frame or of silence. The frames of
+// the obstacle stop go first, and by themselves with each answer of it.
 
 #pragma once
 
@@ -23,16 +24,21 @@ pose_wall_can_bus can_bus_of(const LiveSettings& settings);
 
 class CanSink final : public Sink {
  public:
-  CanSink(std::string interface_name, const pose_wall_can_bus& bus, const Images& images,
+  // stop: none where the planar part is off.
+  CanSink(std::string interface_name, const pose_wall_can_bus& bus, const Images& images, const StopBoard* stop,
           OpenCanPort open = open_can_port);
 
   void start() override;
   void take(const LiveResult& result) override;
+  bool wants_planar() const override { return stop_ != nullptr; }
+  void take_stop(const StopNews& news) override;
   void stop() override;
   PartHealth health() const override;
 
  private:
-  std::vector<pose_wall_can_frame> frames_now() const;
+  void add_stop(std::vector<pose_wall_can_frame>* frames) const;
+  void add_images(std::vector<pose_wall_can_frame>* frames) const;
+  void send(const std::vector<pose_wall_can_frame>& frames);
   // 0, or why not all were sent.
   int send_all(const std::vector<pose_wall_can_frame>& frames);
   void fail(const std::string& why);
@@ -40,6 +46,7 @@ class CanSink final : public Sink {
   const std::string interface_;
   const pose_wall_can_bus bus_;
   const Images& images_;
+  const StopBoard* const stop_;
   const OpenCanPort open_;
   CanPort port_;
   std::atomic<std::uint64_t> sent_{0}, lost_{0}, waited_{0};

@@ -7,7 +7,7 @@
 
 namespace pose_wall::tools::live {
 
-std::unique_ptr<Sink> make_can_sink(const LoadedConfig&, const Images&) {
+std::unique_ptr<Sink> make_can_sink(const LoadedConfig&, const Images&, const StopBoard*) {
   throw EdgeMissing("this build has no CAN: install linux-libc-dev, configure and build again");
 }
 

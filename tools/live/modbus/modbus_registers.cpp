@@ -42,15 +42,6 @@ int request_bytes(const std::uint8_t* bytes, std::size_t count) {
   return count >= whole ? static_cast<int>(whole) : 0;
 }
 
-pose_wall_planar_stop_image stop_image(const StopBoard* stop) {
-  pose_wall_planar_stop_image image{};
-  if (stop == nullptr) return image;
-  const StopNews news = stop->stop_now();
-  image.struct_size = sizeof image;
-  const bool is_filled = pose_wall_planar_stop_image_fill(&news.result, &image) == POSE_WALL_OK;
-  return is_filled ? image : pose_wall_planar_stop_image{};
-}
-
 ModbusRegisters::ModbusRegisters(const Images& images, const StopBoard* stop)
     : images_(images),
       stop_(stop),
@@ -83,7 +74,8 @@ bool ModbusRegisters::answer(int socket, const std::uint8_t* request, int bytes,
 int ModbusRegisters::answer_read(const std::uint8_t* request, int bytes) {
   const unsigned address = big_endian_at(request, kAddressAt);
   if (address >= kStopImageRegister) {
-    copy_words(stop_image(stop_), stop_image_.get());
+    // Without a stop all bytes are 0: that is no image, and permits nothing.
+    copy_words(stop_ != nullptr ? stop_->image_now() : pose_wall_planar_stop_image{}, stop_image_.get());
     return modbus_reply(context_.get(), request, bytes, stop_image_.get());
   }
   if (address >= kMotionImageRegister) {

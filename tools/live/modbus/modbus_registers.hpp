@@ -24,9 +24,6 @@ constexpr int kImageRegisters = POSE_WALL_IMAGE_BYTES / 2, kImage2Registers = PO
               kMotionImageRegisters = POSE_WALL_MOTION_IMAGE_BYTES / 2,
               kStopImageRegisters = POSE_WALL_PLANAR_STOP_IMAGE_BYTES / 2;
 
-// The stop's newest answer. Without a stop, or an answer, all bytes are 0: that is no image, and permits nothing.
-pose_wall_planar_stop_image stop_image(const StopBoard* stop);
-
 // Bytes of a whole request that begins the buffer, by its MBAP header (Modbus Messaging on TCP/IP V1.0b, 3.1.3); 0
 // where more bytes must come to tell, -1 where these are no Modbus.
 int request_bytes(const std::uint8_t* bytes, std::size_t count);

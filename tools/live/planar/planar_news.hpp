@@ -37,6 +37,8 @@ class StopBoard {
 
   // Whatever was answered before: where nobody has answered for a while, the state is stop and the heartbeat stands.
   virtual StopNews stop_now() const = 0;
+  // The same for controllers. Bytes of 0 where it cannot be filled: no image, which permits nothing.
+  pose_wall_planar_stop_image image_now() const;
 };
 
 // Cells as nav_msgs/OccupancyGrid has them.

@@ -48,6 +48,14 @@ std::string stop_reasons_text(std::uint32_t reasons) {
   return fmt::format("{}", fmt::join(stop_reason_names(reasons), ", "));
 }
 
+pose_wall_planar_stop_image StopBoard::image_now() const {
+  const StopNews news = stop_now();
+  pose_wall_planar_stop_image image{};
+  image.struct_size = sizeof image;
+  const bool is_filled = pose_wall_planar_stop_image_fill(&news.result, &image) == POSE_WALL_OK;
+  return is_filled ? image : pose_wall_planar_stop_image{};
+}
+
 StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell)
     : settings_(stop_settings_of(loaded.planar)),
       takes_motion_(loaded.planar.motion == "measured"),

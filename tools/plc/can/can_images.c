@@ -6,6 +6,25 @@
 #include "can_images.h"
 
 /* clang-format off */
+static const pose_wall_can_signal stop_image_signals[] = {
+    {0, 1, 8, POSE_WALL_CAN_BITS, 16, 2}, /* Stop: state */
+    {0, 1, 9, POSE_WALL_CAN_SIGNED, 18, 20}, /* Stop: allowed_speed_mm_s */
+    {0, 1, 11, POSE_WALL_CAN_LIMIT, 38, 16}, /* Stop: age_ms */
+    {1, 3, 10, POSE_WALL_CAN_BITS, 16, 32}, /* StopReasons: reasons */
+    {1, 3, 12, POSE_WALL_CAN_BITS, 48, 16}, /* StopReasons: answered_ms */
+    {2, 6, 4, POSE_WALL_CAN_BITS, 16, 32}, /* StopSettings: settings_crc32 */
+};
+/* clang-format on */
+
+uint32_t pose_wall_can_of_stop_image(const pose_wall_planar_stop_image* image, const pose_wall_can_bus* bus,
+                                     pose_wall_can_frame frames[POSE_WALL_CAN_STOP_IMAGE_FRAMES]) {
+  const uint32_t count = sizeof(stop_image_signals) / sizeof(stop_image_signals[0]);
+  if (!image || !bus || !frames || !pose_wall_can_bus_is_sound(bus)) return 0;
+  if (pose_wall_planar_stop_image_check(image) != POSE_WALL_OK) return 0;
+  return pose_wall_can_pack(image, 3, stop_image_signals, count, bus, frames);
+}
+
+/* clang-format off */
 static const pose_wall_can_signal image2_signals[] = {
     {8, 3, 3, POSE_WALL_CAN_BITS, 16, 16}, /* Status: sequence */
     {8, 3, 15, POSE_WALL_CAN_BITS, 32, 7}, /* Status: valid */

@@ -9,12 +9,17 @@
 #define POSE_WALL_CAN_IMAGES_H
 
 #include "can_frames.h"
+#include "pose_wall_planar_stop.h"
 #include "pose_wall.h"
 #include "pose_wall_motion.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+#define POSE_WALL_CAN_STOP_IMAGE_FRAMES 3
+uint32_t pose_wall_can_of_stop_image(const pose_wall_planar_stop_image* image, const pose_wall_can_bus* bus,
+                                     pose_wall_can_frame frames[POSE_WALL_CAN_STOP_IMAGE_FRAMES]);
 
 #define POSE_WALL_CAN_IMAGE2_FRAMES 17
 uint32_t pose_wall_can_of_image2(const pose_wall_image2* image, const pose_wall_can_bus* bus,
