@@ -402,10 +402,11 @@ enum pose_wall_reason {
   POSE_WALL_R_STAMP_BACK = 1 << 3, /* stamp older than the last frame's: held values expire, smoothing restarts */
   POSE_WALL_R_STAMP_LEAP = 1 << 4, /* stamp more than stamp_gap_max ahead: smoothing restarts */
   POSE_WALL_R_FROZEN =
-      1 << 5, /* exactly the points of one of the last 64 clouds, or of a part of one of the last 8, under a new stamp: a
-                 frozen sensor, or a driver that repeats old packets. A part is 10 degrees with 256 points or more.
-                 Degraded, with a level that grows with the age of the first copy. Held after frozen_frames repeats in a
-                 row (repeats under an old stamp count, too), or where the clock went back since the first copy */
+      1 << 5, /* exactly the points of one of the last 64 clouds, or of a part of one of the last 8, under a new stamp:
+                 a frozen sensor, or a driver that repeats old packets. A part is 10 degrees, with 256 points or more in
+                 whole sectors of 1.4 degrees. Degraded, with a level that grows with the age of the first copy. Held
+                 after frozen_frames repeats in a row (repeats under an old stamp count, too), or where the clock went
+                 back since the first copy */
   /* the floor */
   POSE_WALL_R_FLOOR_NOT_FOUND = 1 << 6,   /* no plane below the sensor could be a floor */
   POSE_WALL_R_FLOOR_FEW_INLIERS = 1 << 7, /* fewer than ground_inlier_min */

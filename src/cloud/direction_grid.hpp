@@ -27,7 +27,12 @@ class Directions {
   // A cell of a column and a slice. ray: finite and not zero.
   static std::uint32_t cell_of(const Eigen::Vector3d& ray);
   // Of four rays at once, finite ones; norm2: their squared lengths. Of rays shorter than 1e-19 it is some cell.
-  static FourInts cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2);
+  // half_columns: which half of its column each is in, counted on.
+  static FourInts cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2, FourInts* half_columns);
+  static FourInts cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2) {
+    FourInts half_columns;
+    return cells_of(x, y, z, norm2, &half_columns);
+  }
   // Sine of the elevation in the middle of a slice.
   static double up(double slice) { return (slice + 0.5) * (2.0 / kSlices) - 1.0; }
 
@@ -58,9 +63,10 @@ inline std::uint32_t Directions::cell_of(const Eigen::Vector3d& ray) {
   return (slice < kSlices ? slice : kSlices - 1) * kColumns + (column < kColumns ? column : 0);
 }
 
-inline FourInts Directions::cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2) {
+inline FourInts Directions::cells_of(FourFloats x, FourFloats y, FourFloats z, FourFloats norm2,
+                                     FourInts* half_columns) {
   // The way around the square is 4 long, sines reach from -1 to 1.
-  constexpr float kColumnsPerWay = kColumns / 4.0F, kSlicesPerSine = kSlices / 2.0F;
+  constexpr float kHalvesPerWay = kColumns / 2.0F, kSlicesPerSine = kSlices / 2.0F;
   const FourFloats none{};
   const FourFloats around = magnitude_of(x) + magnitude_of(y);
   const FourFloats share = around > none ? y / around : none;
@@ -70,8 +76,8 @@ inline FourInts Directions::cells_of(FourFloats x, FourFloats y, FourFloats z, F
   // squares that are hardly floats the sine is anything: it must still be one of the slices.
   constexpr auto kLast = static_cast<std::int32_t>(kSlices - 1);
   const FourInts slice = cut_off((up + 1.0F) * kSlicesPerSine), last = all_four_ints(kLast);
-  const FourInts column = cut_off(way * kColumnsPerWay) & static_cast<std::int32_t>(kColumns - 1);
-  return ((slice < last ? slice : last) & kLast) * static_cast<std::int32_t>(kColumns) + column;
+  *half_columns = cut_off(way * kHalvesPerWay) & static_cast<std::int32_t>(2 * kColumns - 1);
+  return ((slice < last ? slice : last) & kLast) * static_cast<std::int32_t>(kColumns) + (*half_columns >> 1);
 }
 
 // Number of returns of each column, in so many rows.

@@ -38,7 +38,8 @@ Repeat SeenSectors::keep(const CloudPrint& now, std::int64_t at_ns) {
       FourInts seen;
       std::memcpy(&seen, &print[sector][four * kFour], sizeof(seen));
       run[four] = (run[four] + more) & (seen == this_one);
-      longest[four] = run[four] > longest[four] ? run[four] : longest[four];
+      // Of two sectors at least: one alone, of 32 bits, is another one's by chance once in 5 days at 10 Hz.
+      longest[four] = (run[four] > more) & (run[four] > longest[four]) ? run[four] : longest[four];
     }
   }
   Repeat repeat;

@@ -35,7 +35,8 @@ struct PointBlock {
   std::int32_t quadrant[kSize];
   std::int32_t fate[kSize];
   std::uint32_t weight[kSize];
-  std::uint32_t word[kSize];  // of the cloud's print
+  std::uint32_t word[kSize];  // of the cloud's print, and its sector
+  std::int32_t sector[kSize];
 };
 
 // Mean intensity of the readable points. Brighter points are brighter than this.
@@ -174,7 +175,9 @@ class Pass {
       x = there ? x : none;
       y = there ? y : none;
       z = there ? z : none;
-      store_four(Directions::cells_of(x, y, z, range2), &b->direction[k]);
+      FourInts half_columns;
+      store_four(Directions::cells_of(x, y, z, range2, &half_columns), &b->direction[k]);
+      store_four(half_columns, &b->sector[k]);
       const FourPlaces ray = to_base.turned(x, y, z);
       FourPlaces base = to_base.shifted(ray);
       if (skew_.is_there()) base = skew_.taken_out(base, load_four(&b->time_s[k]));
@@ -229,7 +232,7 @@ class Pass {
       }
       const auto direction = static_cast<std::uint32_t>(block->direction[k]);
       returns_lidar->all_slices.add(direction, 1);
-      print->add(direction % Directions::kColumns, block->word[k]);
+      print->add(static_cast<std::uint32_t>(block->sector[k]), block->word[k]);
       if (block->fate[k] == kKept) {
         ++counts->kept_by_quadrant[block->quadrant[k]];
         if (skew_.is_there()) counts->kept_us += microseconds_of(block->time_s[k]);

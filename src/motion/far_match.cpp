@@ -19,7 +19,8 @@ constexpr int kCurvesInFull = 3;                      // more, and all but the b
 // How a curve is drawn: in steps of 25 mm by all that it takes; or in steps of 5 cm, a cell of the map, by fewer
 // observations. Of 80 gaps of 0.6 to 6 s on five roads, all curves in full measured the way after 63, coarse ones after
 // 62, and with half as many observations after 57 (2026-11, simulated). What a wide start has placed gets an eighth: of
-// 210 scans of 80 roads, turned and after 0.8 to 4.5 s, it measured 161, as with a quarter; a sixteenth lost 2 of 79.
+// 210 scans of 80 roads, turned and after 0.8 to 4.5 s, it measured 161, as with a quarter. Of half of them a sixteenth
+// measured 77, and an eighth 79.
 struct Drawn {
   std::uint32_t rows, shifts;
 };

@@ -53,9 +53,8 @@ class Reader {
       std::memcpy(&p.z, point + cloud_.z.offset, sizeof(float));
       return p;
     }
-    return {static_cast<float>(read_field(point, cloud_.x, swap_)),
-            static_cast<float>(read_field(point, cloud_.y, swap_)),
-            static_cast<float>(read_field(point, cloud_.z, swap_))};
+    return {to_float(read_field(point, cloud_.x, swap_)), to_float(read_field(point, cloud_.y, swap_)),
+            to_float(read_field(point, cloud_.z, swap_))};
   }
 
   FourPlaces four(Points points) const {
@@ -88,7 +87,9 @@ class Reader {
     if (plain_time_) {
       FourWords words;
       for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-        std::memcpy(&words[lane], points[lane] + cloud_.time.offset, sizeof(std::uint32_t));
+        std::uint32_t word;
+        std::memcpy(&word, points[lane] + cloud_.time.offset, sizeof(word));
+        words[lane] = word;
       }
       numbers = __builtin_convertvector(words, FourDoubles);
     } else {
@@ -191,7 +192,6 @@ class Projector {
             CloudPrint* print)
       : reader_(cloud),
         layout_(look_at(cloud, reader_)),
-        cloud_(cloud),
         R_(reading.R_base_lidar.cast<float>()),
         origin_(reading.lidar_base_m.cast<float>()),
         velocity_(twist.velocity_m_s.cast<float>()),
@@ -213,10 +213,8 @@ class Projector {
   // dropped.
   void put(Points points, FourTruths those) const {
     const FourPlaces raw = reader_.four(points);
-    const FourFloats r2 = raw.x * raw.x + raw.y * raw.y + raw.z * raw.z;
-    const FourFloats range = root_of(r2);
-    those &= (r2 >= near2_) & (r2 <= far2_);
-    const FourFloats turn = rough_arc_tangent2(raw.y, raw.x) * (1.0F / kTurn_rad) + 0.5F;
+    const FourFloats r2 = range2_of(raw), range = root_of(r2), turn = turn_of(raw);
+    those &= is_in_range(r2);
     if (print_ != nullptr) print_->add_four(sectors_of(turn), words_of(raw), those);
     FourInts cells;
     those &= cells_of(points, raw, range, turn, &cells);
@@ -235,8 +233,21 @@ class Projector {
     image_->count = k;
   }
 
+  // Those of four that the image has no room for: which ones these are depends on the order of the cloud, and a print
+  // must not.
+  void print(Points points, FourTruths those) const {
+    const FourPlaces raw = reader_.four(points);
+    print_->add_four(sectors_of(turn_of(raw)), words_of(raw), those & is_in_range(range2_of(raw)));
+  }
+  bool prints() const { return print_ != nullptr; }
+
  private:
-  // turn: of one turn.
+  static FourFloats range2_of(const FourPlaces& raw) { return raw.x * raw.x + raw.y * raw.y + raw.z * raw.z; }
+  FourTruths is_in_range(FourFloats r2) const { return (r2 >= near2_) & (r2 <= far2_); }
+  static FourFloats turn_of(const FourPlaces& raw) {  // of one turn
+    return rough_arc_tangent2(raw.y, raw.x) * (1.0F / kTurn_rad) + 0.5F;
+  }
+
   static FourInts sectors_of(FourFloats turn) {
     return cut_off(turn * CloudPrint::kSectors) & static_cast<std::int32_t>(CloudPrint::kSectors - 1);
   }
@@ -295,7 +306,6 @@ class Projector {
 
   Reader reader_;
   Layout layout_;
-  const pose_wall_cloud& cloud_;
   Eigen::Matrix3f R_;
   Eigen::Vector3f origin_, velocity_, turn_;
   float near2_, far2_;
@@ -303,6 +313,29 @@ class Projector {
   std::uint32_t boxes_ = 0;
   RangeImage* image_;
   CloudPrint* print_;  // or NULL
+};
+
+// Points on their way, four at a time.
+class Gathered {
+ public:
+  template <typename Take>
+  void add(const unsigned char* point, const Take& take) {
+    points_[count_] = point;
+    if (++count_ < kFour) return;
+    take(points_, first_of_four(kFour));
+    count_ = 0;
+  }
+  template <typename Take>
+  void end(const Take& take) {
+    if (count_ == 0) return;
+    for (std::uint32_t lane = count_; lane < kFour; ++lane) points_[lane] = points_[0];
+    take(points_, first_of_four(count_));
+    count_ = 0;
+  }
+
+ private:
+  const unsigned char* points_[kFour];
+  std::uint32_t count_ = 0;
 };
 
 void project_some(const pose_wall_cloud& cloud, const Projector& projector, RangeImage* image) {
@@ -313,22 +346,23 @@ void project_some(const pose_wall_cloud& cloud, const Projector& projector, Rang
   // More points than cells: a share of them, spread by the golden ratio over rings and directions alike.
   constexpr std::uint32_t kGolden = 0x9E3779B9U;
   const std::uint32_t rows_in = rows_of(cloud), share = projector.layout().share;
-  std::uint32_t lot = 0, gathered = 0;
-  const unsigned char* points[kFour];
+  std::uint32_t lot = 0;
+  const auto put = [&](Points points, FourTruths those) { projector.put(points, those); };
+  const auto print = [&](Points points, FourTruths those) { projector.print(points, those); };
+  Gathered chosen, others;
   for (std::uint32_t row_in = 0; row_in < rows_in; ++row_in) {
     const unsigned char* point = row_of(cloud, row_in);
     for (std::uint32_t i = 0; i < cloud.width; ++i, point += cloud.point_step) {
       lot += kGolden;
-      if (lot > share) continue;
-      points[gathered] = point;
-      if (++gathered < kFour) continue;
-      projector.put(points, first_of_four(kFour));
-      gathered = 0;
+      if (lot <= share) {
+        chosen.add(point, put);
+      } else if (projector.prints()) {
+        others.add(point, print);
+      }
     }
   }
-  if (gathered == 0) return;
-  for (std::uint32_t lane = gathered; lane < kFour; ++lane) points[lane] = points[0];
-  projector.put(points, first_of_four(gathered));
+  chosen.end(put);
+  others.end(print);
 }
 
 }  // namespace

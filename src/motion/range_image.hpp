@@ -65,7 +65,7 @@ struct RangeImage {
 };
 
 // De-skewed by the twist where the cloud has times: each point where it would have been seen from at the stamp. The
-// print is of all points in range that are looked at, those of the machine's body too.
+// print is of all points in range, those of the machine's body and those that the image has no room for, too.
 void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image,
              CloudPrint* print);
 // The same cloud by another twist. Cells and the order of points do not depend on it, so flags stay. The exception is

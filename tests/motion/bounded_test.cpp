@@ -83,7 +83,9 @@ Points changed(const Points& scan, const Eigen::Matrix3d& R, double kept, Chance
   const Eigen::Matrix3f turn = R.cast<float>();
   for (const auto& p : scan) {
     if (kept < 1.0 && chance->between(0.0, 1.0) > kept) continue;
-    const Eigen::Vector3f q = turn * Eigen::Vector3f(p[0], p[1], p[2]);
+    // With noise of its own, or a scan of the way would come again bit for bit.
+    const float noise = 1.0F + 1e-4F * static_cast<float>(chance->between(-1.0, 1.0));
+    const Eigen::Vector3f q = noise * turn * Eigen::Vector3f(p[0], p[1], p[2]);
     out.push_back({q.x(), q.y(), q.z()});
   }
   return out;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "planar/encounter/plans.hpp"
@@ -32,7 +33,7 @@ using Cloud = std::vector<float>;
 // A machine in a road, whose driver may deliver what it likes.
 class FreshRoad {
  public:
-  FreshRoad() : draw_(3) {
+  explicit FreshRoad(const Sensor& of = {Pattern::os1_64, 2.0, 1.5, 0.0, 0.28, 1.0, 1024}) : sensor(of), draw_(3) {
     world.half_width_m = 3.0;
     world.wall_wave_m = 0.02;
     stop_.open(sensor, encounter_settings());
@@ -59,7 +60,7 @@ class FreshRoad {
   }
 
   World world;
-  Sensor sensor{Pattern::os1_64, 2.0, 1.5, 0.0, 0.28, 1.0, 1024};
+  Sensor sensor;
 
  private:
   Draw draw_;
@@ -110,6 +111,28 @@ TEST(StopFreshness, OldPointsOfLostPacketsHideNobody) {
                     points.begin() + static_cast<std::ptrdiff_t>(4 * i));
       }
       ASSERT_TRUE(stops_as_frozen(road.give(points))) << half_rad << " rad, frame " << k;
+    }
+  }
+}
+
+// A packet is a slice of the sensor's own azimuth, however the sensor is mounted.
+TEST(StopFreshness, ASliceIsKnownWhereverItLiesUnderAnyMount) {
+  for (const auto& [roll_rad, pitch_rad] : {std::pair{0.0, 0.0}, {0.0, 0.28}, {0.3, 0.6}, {1.5, 0.0}}) {
+    for (int degrees = -175; degrees < 180; degrees += 25) {
+      FreshRoad road({Pattern::os1_64, 2.0, 1.5, roll_rad, pitch_rad, 3.15, 1024});
+      const Cloud old = road.look();
+      road.give(old);
+      const double from_rad = degrees * 0.0174533, wide_rad = 10.0 * 0.0174533;
+      const auto& directions = Directions::of(road.sensor);
+      Cloud points = road.look();
+      for (std::size_t i = 0; i < directions.size(); ++i) {
+        const double away_rad = std::remainder(std::atan2(directions[i].y, directions[i].x) - from_rad, 6.2831853);
+        if (!(away_rad >= 0.0 && away_rad < wide_rad)) continue;
+        std::copy_n(old.begin() + static_cast<std::ptrdiff_t>(4 * i), 4,
+                    points.begin() + static_cast<std::ptrdiff_t>(4 * i));
+      }
+      EXPECT_TRUE(stops_as_frozen(road.give(points)))
+          << "from " << degrees << " degrees, mount " << roll_rad << ", " << pitch_rad;
     }
   }
 }

@@ -177,6 +177,11 @@ def dbc_signal(signal):
             f"[{number_text(least * factor)}|{number_text(most * factor)}] \"{unit}\" Vector__XXX")
 
 
+def dbc_comment(signal):
+    """That of the image, with what all ones of 32 bits mean told for the signal's own width."""
+    return signal.member.comment.replace(str((1 << 32) - 1), str((1 << signal.bits) - 1))
+
+
 def dbc_ids(bus, frames):
     """As DBC writes them: bit 31 stands for 29 bits."""
     return {frame.number: bus.id_of(frame) | (1 << 31 if bus.is_long else 0) for frame in frames}
@@ -194,7 +199,7 @@ def dbc(images, bus, headers):
     for frame in frames:
         at = ids[frame.number]
         lines.append(f'CM_ BO_ {at} "{frame.comment} Number {frame.number}.";')
-        lines += [f'CM_ SG_ {at} {dbc_name(signal.path)} "{signal.member.comment}";'
+        lines += [f'CM_ SG_ {at} {dbc_name(signal.path)} "{dbc_comment(signal)}";'
                   for signal in frame.signals if signal.member.comment]
     lines += ['BA_DEF_ BO_ "GenMsgCycleTime" INT 0 65535;',
               'BA_DEF_ BO_ "VFrameFormat" ENUM "StandardCAN","ExtendedCAN","reserved","J1939PG";',

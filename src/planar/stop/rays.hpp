@@ -58,7 +58,7 @@ class Rays {
 
   FourPlaces four_of(const unsigned char* point, std::uint32_t left) const;
   float number(const unsigned char* point, const pose_wall_field& field) const {
-    if (!plain_) return static_cast<float>(read_field(point, field, swap_));
+    if (!plain_) return to_float(read_field(point, field, swap_));
     float value;
     std::memcpy(&value, point + field.offset, sizeof(value));
     return value;

@@ -187,9 +187,10 @@ std::uint32_t Sight::look(const Rays& rays, const Ground& ground, CloudPrint* pr
   constexpr float kNearest_m = 0.05F;  // straight below the sensor there is no azimuth
   const auto look_at = [&](const FourPlaces& raw, FourTruths returns, FourFloats x, FourFloats y, FourFloats fall,
                            FourTruths those) {
-    static_assert(kAzimuths == 4 * CloudPrint::kSectors, "a shift of the azimuth");
+    static_assert(kAzimuths == 2 * CloudPrint::kSectors, "a shift of the azimuth");
+    // In the sensor's own azimuth: a packet is a slice of it, whatever the mount.
+    print->add_four(azimuths_of(raw.x, raw.y) >> 1, words_of(raw), returns);
     const FourInts azimuth = azimuths_of(x, y);
-    print->add_four(azimuth >> 2, words_of(raw), returns);
     const FourFloats range = root_of(x * x + y * y);
     used -= those;
     // Below the floor: a mirror image, of which the way is unknown. Upwards and out of the machine's height: no use.

@@ -316,7 +316,7 @@ void Stop::decide(std::uint32_t fatal, std::int64_t now_ns, pose_wall_planar_sto
 void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_motion& given, std::int64_t now_ns,
                    pose_wall_planar_stop_result* result) {
   const Rays rays(cloud, mount_);
-  // Each cloud is looked at, though nothing of one that is refused is kept but its print: it may come again.
+  // Each cloud is looked at: one that is refused may come again. Of what it shows only its print is kept.
   const Ground ground = find_ground(rays, mount_, settings_, looks_);
   const std::uint32_t points_used = sight_.look(rays, ground, print_);
   const Motion motion = motion_of(given);

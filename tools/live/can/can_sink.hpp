@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // The process images on CAN: with each publication all frames of each image, of a frame or of silence. The frames of
-// the obstacle stop go first, and by themselves with each answer of it.
+// the obstacle stop go first, and by themselves with its news: each sensor frame, each change, ten times a second.
 
 #pragma once
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause
  * Copyright (c) 2026 the pose_wall authors
  *
- * Process images as frames of CAN: plain ones of 11 bits, or those of SAE J1939 (29 bits). C99, and nothing but the
- * public headers; pose_walld sends these frames, and so may you. README.md beside it is the manual of the bytes.
+ * Process images as frames of CAN: plain ones of 11 bits, or those of SAE J1939 (29 bits). C99, with the public headers
+ * and, for the checks of the images, the libraries of engine, motion and planar. pose_walld sends these frames, and so
+ * may you. README.md beside it is the manual of the bytes.
  */
 #ifndef POSE_WALL_CAN_FRAMES_H
 #define POSE_WALL_CAN_FRAMES_H
