@@ -19,7 +19,7 @@ inline FourWords words_of(const FourPlaces& p) {
   // Odd, so that each bit spreads over the higher ones: the golden ratio, and the two of C. Wellons' hash lowbias32.
   // Shifts bring the high bits down, or changes of two points might cancel in a sum.
   constexpr std::uint32_t kGolden = 0x9E3779B9U, kMixer = 0x7FEB352DU, kOther = 0x846CA68BU;
-  constexpr int kDown = 15;
+  constexpr int kDown = 15;  // of that hash, too
   FourWords x, y, z;
   std::memcpy(&x, &p.x, sizeof(x));
   std::memcpy(&y, &p.y, sizeof(y));

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kEdgeStep_m = 0.05;  // ranges nearer to each other than this are one surface
 
-std::vector<Primitive> things_of(const Setup& setup, const World& world, const MachinePose& pose) {
-  std::vector<Primitive> things = world.objects_at(pose.time_s);
-  const std::vector<Primitive> body = machine_body(setup, pose, place(setup, pose));
+std::vector<Primitive> things_of(const Setup& setup, const World& world, const Moment& moment) {
+  std::vector<Primitive> things = world.objects_at(moment.pose.time_s);
+  const std::vector<Primitive> body = machine_body(setup, moment.pose, moment.at);
   things.insert(things.end(), body.begin(), body.end());
   return things;
 }
@@ -46,21 +46,22 @@ Matrix R_machine_base(const Machine& machine) {
 
 }  // namespace
 
-BeamCaster::BeamCaster(const Setup& setup, const World& world, const MachinePose& pose, std::uint64_t frame_seed)
+BeamCaster::BeamCaster(const Setup& setup, const World& world, const Moment& moment, std::uint64_t frame_seed)
     : setup_(setup),
       world_(world),
       random_(frame_seed),
       R_machine_lidar_(R_machine_base(setup.machine) * R_base_lidar(setup.mount)),
       water_below_(normal_quantile(setup.floor.puddle_coverage)),
       grazing_cosine_(std::sin(setup.sensor.grazing_limit_deg * kRadPerDeg)) {
-  move_to(pose);
+  move_to(moment);
 }
 
-void BeamCaster::move_to(const MachinePose& pose) {
-  const Placement at = place(setup_, pose);
+void BeamCaster::move_to(const Moment& moment) {
+  const auto& [pose, at] = moment;
   R_road_lidar_ = at.R_road_base * R_base_lidar(setup_.mount);
   origin_ = at.R_road_base * lidar_origin_base(setup_.mount) + at.origin_road;
-  things_ = things_of(setup_, world_, pose);
+  left_road_ = at.R_road_base * left_axis(setup_.machine);
+  things_ = things_of(setup_, world_, moment);
   index_ = SectorIndex(things_, origin_);
   dust_ = dust_at(setup_.faults, pose.time_s);
   wall_lost_ = within(pose.time_s, setup_.faults.lost_from_s, setup_.faults.lost_to_s);
@@ -91,6 +92,10 @@ BeamCaster::Returns BeamCaster::cast(const Vector& direction_lidar) {
 Return BeamCaster::meet(const Ray& ray) {
   const Hit hit = world_.trace(ray, setup_.sensor.range_ceiling_m, things_, index_);
   Return r{hit.t_m, hit.cosine, 1.0, hit.label, hit.side};
+  if (world_.is_surveyed() && r.label == Label::kFace) {  // all that is neither floor nor roof
+    r.side = left_road_.dot(ray.direction) > 0.0 ? 1 : -1;
+    r.label = r.side > 0 ? Label::kWallLeft : Label::kWallRight;
+  }
   if (r.label == Label::kNone || r.cosine < grazing_cosine_) return {};
   if (r.label != Label::kObject && r.label != Label::kBody) r.brightness = world_.brightness(ray.at(r.range_m));
   if (r.label == Label::kFloor) return meet_floor(ray, r);

@@ -23,10 +23,10 @@ struct Return {
 
 class BeamCaster {
  public:
-  BeamCaster(const Setup& setup, const World& world, const MachinePose& pose, std::uint64_t frame_seed);
+  BeamCaster(const Setup& setup, const World& world, const Moment& moment, std::uint64_t frame_seed);
 
   // The machine stands elsewhere, and it is another time.
-  void move_to(const MachinePose& pose);
+  void move_to(const Moment& moment);
 
   // One return, or two with dual_returns; label kNone for none. Directions in the lidar frame.
   struct Returns {
@@ -51,7 +51,7 @@ class BeamCaster {
   double grazing_cosine_;
   // Of the moment:
   Matrix R_road_lidar_;
-  Vector origin_;
+  Vector origin_, left_road_;
   std::vector<Primitive> things_;
   SectorIndex index_;
   double dust_ = 0.0;

@@ -4,6 +4,7 @@
 // The centre lines of a network of roads as a graph: where roads meet and end, how they run between, and ways through.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,12 @@
 #include "sim/network_plan.hpp"
 
 namespace pose_wall::tools::sim {
+
+inline double length_of(const std::vector<Place>& line) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) length_m += (line[i] - line[i - 1]).norm();
+  return length_m;
+}
 
 struct NetworkNode {
   Place at;

@@ -35,12 +35,6 @@ Stand stand_at(const std::vector<Place>& line, double along_m) {
   return {line.empty() ? Place(0.0, 0.0) : line.back(), Place(1.0, 0.0)};
 }
 
-double length_of(const std::vector<Place>& line) {
-  double length_m = 0.0;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) length_m += (line[i + 1] - line[i]).norm();
-  return length_m;
-}
-
 // Beside the line at one side, close to the wall.
 Place at_wall(const Network& network, const Stand& stand, double side) {
   const Place across(-side * stand.ahead.y(), side * stand.ahead.x());

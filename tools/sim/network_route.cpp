@@ -22,12 +22,6 @@ constexpr double kAlikeStep_m = 1.0;
 constexpr double kAlikeHeading_rad = 3.0 * kRadPerDeg;
 constexpr double kAlikeWidth_m = 0.3;
 
-double length_of(const std::vector<Place>& line) {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) length_m += (line[i] - line[i - 1]).norm();
-  return length_m;
-}
-
 // Points at even steps; both ends are among them.
 std::vector<Place> even_steps(const std::vector<Place>& line, double step_m) {
   const double length_m = length_of(line);

@@ -27,6 +27,12 @@ struct Placement {
   Vector origin_road;
 };
 
+// Of one moment.
+struct Moment {
+  MachinePose pose;
+  Placement at;
+};
+
 // To the left of the centre line, at the start.
 double start_lateral_m(const Setup& setup);
 // Frames before the scene begins, in which the machine drives in.

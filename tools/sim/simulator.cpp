@@ -10,6 +10,7 @@
 #include "sim/beam_caster.hpp"
 #include "sim/check_setup.hpp"
 #include "sim/sensors.hpp"
+#include "sim/survey_truth.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {
@@ -68,6 +69,26 @@ Simulator::Simulator(const Setup& setup, std::uint64_t seed)
   if (setup.sequence.scan_s > 0.0) sort_by_step(&beams_);
 }
 
+Simulator::Simulator(const Setup& setup, std::uint64_t seed, Survey survey)
+    : setup_(checked(setup)),
+      seed_(seed),
+      survey_(std::move(survey)),
+      world_(survey_.rock),
+      mean_rock_(survey_.rock),
+      beams_(beams_of(setup.sensor, 0)) {
+  if (setup.sequence.scan_s > 0.0) sort_by_step(&beams_);
+}
+
+Moment Simulator::moment_at(double time_s) const {
+  if (survey_.rock == nullptr) {
+    const MachinePose pose = pose_at(setup_, time_s);
+    return {pose, place(setup_, pose)};
+  }
+  MachinePose of_time;
+  of_time.time_s = time_s;
+  return {of_time, survey_.at(time_s * setup_.sequence.rate_hz)};
+}
+
 MachinePose Simulator::pose(std::uint32_t frame_index) const {
   return pose_at(setup_, frame_time_s(setup_, sensor_frame(setup_, frame_index)));
 }
@@ -85,10 +106,10 @@ Frame Simulator::render(std::uint32_t frame_index) const {
   frame.xyz_intensity.reserve(4 * beams.size());
   frame.labels.reserve(beams.size());
   const double begin_s = frame_time_s(setup_, seen), step_s = sequence.scan_s / scan_steps(setup_.sensor);
-  BeamCaster caster(setup_, world_, pose_at(setup_, begin_s), mix(seed_) ^ mix(seen + 1u));
+  BeamCaster caster(setup_, world_, moment_at(begin_s), mix(seed_) ^ mix(seen + 1u));
   std::uint32_t step = 0;
   for (const Beam& beam : beams) {
-    if (step_s > 0.0 && beam.step != step) caster.move_to(pose_at(setup_, begin_s + beam.step * step_s));
+    if (step_s > 0.0 && beam.step != step) caster.move_to(moment_at(begin_s + beam.step * step_s));
     step = beam.step;
     const auto time_ns = static_cast<std::uint32_t>(std::lround(beam.step * step_s * 1e9));
     const BeamCaster::Returns returns = caster.cast(beam.direction);
@@ -99,9 +120,10 @@ Frame Simulator::render(std::uint32_t frame_index) const {
 }
 
 TruthRow Simulator::truth(std::uint32_t frame_index, StepRule rule) const {
-  const MachinePose at = pose(frame_index);
-  TruthRow row = truth_of(setup_, mean_rock_, at, rule);
-  const Placement placement = place(setup_, at);
+  const Moment moment = moment_at(frame_time_s(setup_, sensor_frame(setup_, frame_index)));
+  const Placement& placement = moment.at;
+  TruthRow row = survey_.rock != nullptr ? survey_truth(*survey_.rock, placement, setup_.machine)
+                                         : truth_of(setup_, mean_rock_, moment.pose, rule);
   const Eigen::Quaterniond q(placement.R_road_base);
   const Vector& p = placement.origin_road;
   row.pose = BasePose{p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/rock_surface.hpp"
 #include "sim/sensors.hpp"
 #include "sim/truth.hpp"
 
@@ -25,8 +26,12 @@ class Simulator {
  public:
   // Throws std::invalid_argument where parts of the setup contradict each other (see check_setup).
   Simulator(const Setup& setup, std::uint64_t seed);
+  // A real road. Of the setup count sensor, mount, faults, sequence, and the machine's axes and body; its road and all
+  // in it, and how the machine moves, come from the survey.
+  Simulator(const Setup& setup, std::uint64_t seed, Survey survey);
 
   const Setup& setup() const { return setup_; }
+  // Of a road that is no survey.
   MachinePose pose(std::uint32_t frame_index) const;
   // May be called from several threads at once.
   Frame render(std::uint32_t frame_index) const;
@@ -34,9 +39,11 @@ class Simulator {
 
  private:
   std::int64_t stamp_ns(std::uint32_t frame_index) const;
+  Moment moment_at(double time_s) const;
 
   Setup setup_;
   std::uint64_t seed_;
+  Survey survey_;  // or none
   World world_;
   World mean_rock_;
   std::vector<Beam> beams_;  // of the first frame; all frames' for rotating sensors

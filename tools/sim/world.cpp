@@ -107,6 +107,7 @@ Hit World::trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& t
 
 // Surfaces in the order in which the ray comes into their reach; those it reaches after the best hit are not searched.
 Hit World::trace_rock(const Ray& ray, double t_max_m) const {
+  if (surveyed_) return surveyed_->trace(ray, t_max_m);
   std::array<double, kMostSurfaces> start{};
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const RoadSurface& s = surfaces_[i];

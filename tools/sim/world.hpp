@@ -4,23 +4,20 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "sim/objects.hpp"
+#include "sim/rock_surface.hpp"
 #include "sim/section.hpp"
 
 namespace pose_wall::tools::sim {
-
-struct Hit {
-  double t_m = kNever;
-  double cosine = 1.0;  // of the incidence on the mean surface
-  Label label = Label::kNone;
-  int side = 0;  // of the wall that was hit
-};
 
 // The road, and what stands or walks in it.
 class World {
  public:
   World(const Setup& setup, std::uint64_t seed);
+  // The rock of a real road, and nothing that stands in it.
+  explicit World(std::shared_ptr<const RockSurface> rock) : surveyed_(std::move(rock)) {}
 
   // The bare rock without relief, objects, crosscuts, heaps and faces: what truth is measured to.
   static World mean(const Setup& setup);
@@ -30,6 +27,7 @@ class World {
   std::vector<Primitive> objects_at(double time_s) const;
   Hit trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& things, const SectorIndex& index) const;
   Hit trace_rock(const Ray& ray, double t_max_m) const;
+  bool is_surveyed() const { return surveyed_ != nullptr; }
   const Plane& floor() const { return floor_; }
   // Smooth field over the floor, normally distributed, that decides where water stands.
   double wetness(const Vector& p) const;
@@ -41,6 +39,7 @@ class World {
   void hit_wall_or_recess(const RoadSurface& wall, const Ray& ray, double t_start, Hit* best) const;
   double hit_steel(const RoadSurface& behind, const Ray& ray, double t_behind) const;
 
+  std::shared_ptr<const RockSurface> surveyed_;  // in place of surfaces_ and recesses_
   CentreLine line_{0.0};
   Rock rock_;
   Plane floor_{};

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frames/pcd_writer.hpp"
@@ -21,6 +23,7 @@
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulator.hpp"
+#include "survey/survey_file.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
@@ -34,10 +37,14 @@
 namespace pose_wall::tools {
 namespace {
 
+constexpr std::uint32_t kFrames = 10;
+
 struct SimOptions {
   std::string scene = "clean";
+  std::string surface, path;  // a real road in place of a scene
+  std::optional<double> disc_radius_m;
   std::string sensor = "os1-64";
-  std::uint32_t frames = 10;
+  std::optional<std::uint32_t> frames;  // kFrames of a scene, all poses of a path
   std::optional<double> rate_hz;
   std::uint64_t seed = 1;
   std::vector<std::string> settings;
@@ -75,10 +82,52 @@ sim::Setup resolve_setup(const SimOptions& options) {
   return setup;
 }
 
+// Of a real road: what is of the road, and how the machine stands and drives, is not for setting.
+void refuse_keys_of_roads(const SimOptions& options) {
+  for (const std::string& assignment : options.settings) {
+    const std::string key = assignment.substr(0, assignment.find('='));
+    const sim::Parameter* const parameter = sim::find_parameter(key);
+    if (parameter == nullptr) continue;  // refused with what may have been meant
+    const std::string group = parameter->group;
+    constexpr const char* kOfMachine[] = {"forward_axis", "s_front_m", "s_back_m"};
+    const bool is_told =
+        std::any_of(std::begin(kOfMachine), std::end(kOfMachine), [&](const char* k) { return key == k; });
+    const bool is_body = key.rfind("body", 0) == 0 || key.rfind("boom", 0) == 0;
+    if (group == "mount" || group == "sensor" || group == "faults" || group == "sequence" || is_told || is_body)
+      continue;
+    throw std::invalid_argument(fmt::format(
+        "--set {}: with --surface the road and the machine's way come from the files; keys of mount, sensor, faults "
+        "and "
+        "sequence can be set, and of the machine forward_axis, s_front_m, s_back_m and those of body and boom",
+        key));
+  }
+}
+
+// Where base stands in a real road at each frame.
+sim::Survey resolve_survey(SimOptions* options) {
+  if (options->path.empty()) {
+    throw std::invalid_argument(
+        "--surface: --path is needed, too: lines `t x y z qx qy qz qw`, base in the surface's "
+        "frame, a line a frame");
+  }
+  refuse_keys_of_roads(*options);
+  const SurveyRock rock = read_survey_rock(options->surface, options->disc_radius_m);
+  sim::Survey survey{rock.rock, read_survey_path(options->path)};
+  const auto poses = static_cast<std::uint32_t>(survey.path.size());
+  if (options->frames && *options->frames > poses) {
+    throw std::invalid_argument(
+        fmt::format("--frames {}: {} holds {}", *options->frames, options->path, counted(poses, "pose")));
+  }
+  if (!options->frames) options->frames = poses;
+  if (!options->quiet) fmt::print(stderr, "{}: {}\n", options->surface, rock.about);
+  return survey;
+}
+
 // What the folder's settings begin with: the scene, and each size by which it differs from the scene's own, so that it
 // can be made again, or a little otherwise.
 std::string about_scene(const SimOptions& options, const sim::Setup& setup) {
-  std::string text = fmt::format("scene {}, sensor {}, seed {}{}", options.scene, options.sensor, options.seed,
+  const std::string road = options.surface.empty() ? "scene " + options.scene : "surface " + options.surface;
+  std::string text = fmt::format("{}, sensor {}, seed {}{}", road, options.sensor, options.seed,
                                  options.random ? ", random sizes" : "");
   sim::Setup of_scene = sim::make_setup(options.scene, options.sensor, false, options.seed), as_is = setup;
   for (const sim::Parameter& p : sim::parameters()) {
@@ -105,10 +154,11 @@ struct Written {
 
 // Ctrl-C ends it after the frame at work. Those that are there have their truth.
 Written write_frames(const SimOptions& options, const sim::Simulator& simulator) {
-  ProgressBar bar(options.frames, !options.quiet && is_terminal(2));
+  const std::uint32_t frames = options.frames.value_or(kFrames);
+  ProgressBar bar(frames, !options.quiet && is_terminal(2));
   std::vector<TruthRow> truth;
   std::uint32_t i = 0;
-  for (; i < options.frames && !InterruptWatch::is_interrupted(); ++i) {
+  for (; i < frames && !InterruptWatch::is_interrupted(); ++i) {
     const sim::Frame frame = simulator.render(i);
     const std::filesystem::path file = sim::frame_file(options.output, i);
     if (simulator.setup().sequence.scan_s > 0.0) {
@@ -133,20 +183,31 @@ void refuse_folder_of_others(const SimOptions& options) {
   if (!std::filesystem::exists(settings, ignored) && !has_frames) return;
   std::string first_line;
   std::getline(std::ifstream(settings), first_line);
-  if (first_line.rfind("# scene ", 0) == 0) return;
+  if (first_line.rfind("# scene ", 0) == 0 || first_line.rfind("# surface ", 0) == 0) return;
   throw std::invalid_argument(
       fmt::format("--output {}: it holds frames or settings that pose_wall sim did not write; choose another folder, "
                   "it is created if needed",
                   options.output));
 }
 
-int simulate(const SimOptions& options) {
+sim::Simulator simulator_of(SimOptions* options) {
+  if (options->surface.empty()) {
+    if (!options->path.empty() || options->disc_radius_m) {
+      throw std::invalid_argument("--path and --disc-radius belong to --surface");
+    }
+    return sim::Simulator(resolve_setup(*options), options->seed);
+  }
+  sim::Survey survey = resolve_survey(options);
+  return sim::Simulator(resolve_setup(*options), options->seed, std::move(survey));
+}
+
+int simulate(SimOptions options) {
   if (options.list) {
     print_list();
     return kExitDone;
   }
   if (options.output.empty()) throw std::invalid_argument("--output FOLDER is needed");
-  const sim::Simulator simulator(resolve_setup(options), options.seed);
+  const sim::Simulator simulator = simulator_of(&options);
   refuse_folder_of_others(options);
   make_output_folder(options.output);
   std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
@@ -157,9 +218,10 @@ int simulate(const SimOptions& options) {
     fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(written, "frame"));
   if (!options.quiet && removed > 0)
     fmt::print(stderr, "{}: {} of an earlier, longer run removed\n", options.output, counted(removed, "frame"));
-  if (written == options.frames) return kExitDone;
+  const std::uint32_t frames = options.frames.value_or(kFrames);
+  if (written == frames) return kExitDone;
   fmt::print(stderr, "interrupted: {} of {} written, with their truth\n", written,
-             counted(options.frames, "frame is", "frames are"));
+             counted(frames, "frame is", "frames are"));
   return kExitInterrupted;
 }
 
@@ -170,8 +232,17 @@ void add_sim(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("sim", "Simulate LiDAR frames of a roadway, with the truth of each");
   verb->add_option("--scene", options->scene, "Scene of the road; see --list")->capture_default_str();
   verb->add_option("--sensor", options->sensor, "Sensor model; see --list")->capture_default_str();
-  verb->add_option("-n,--frames", options->frames, "Number of frames")
-      ->capture_default_str()
+  auto* const surface = verb->add_option(
+      "--surface", options->surface,
+      "A real road in place of a scene: a mesh (PLY, OBJ, glTF), or a cloud with normals (PLY); m, z up");
+  verb->add_option("--path", options->path,
+                   "With --surface: poses of base in it, `t x y z qx qy qz qw`, a line a frame")
+      ->needs(surface);
+  verb->add_option("--disc-radius", options->disc_radius_m,
+                   "With --surface, m: each point of a cloud is a disc of this radius; default: twice their spacing")
+      ->needs(surface)
+      ->check(CLI::Range(0.001, 5.0));
+  verb->add_option("-n,--frames", options->frames, "Number of frames; default: 10, or all poses of --path")
       ->check(whole_number_within(1, 1000000));
   verb->add_option("-r,--rate", options->rate_hz, "Frames per second; the same as --set rate_hz");
   verb->add_option("--seed", options->seed, "Seed of rock, noise and --random; the same seed gives the same bits")
@@ -187,6 +258,7 @@ void add_sim(CLI::App& app, int& exit_code) {
       "  pose_wall sim --scene steel_sets --frames 50 --set speed_mps=0.2 --output /tmp/road\n"
       "  pose_wall run --config /tmp/road/pose_wall.yaml --output out.csv /tmp/road/frames\n"
       "  pose_wall eval out.csv /tmp/road/truth.csv\n"
+      "  pose_wall sim --surface gallery.ply --path poses.tum --sensor vlp16 --output /tmp/gallery\n"
       "Exit status: 0 done, 1 a file cannot be written, 2 bad usage, 130 interrupted by Ctrl-C: written\n"
       "frames are whole and have their truth.");
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("sim", [&] { return simulate(*options); }); });

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "sim/survey_truth.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace pose_wall::tools::sim {
+namespace {
+
+constexpr double kStep_m = 0.05;     // between probes: half the spacing of a coarse survey's points
+constexpr double kReach_m = 30.0;    // of a probe: wider than any roadway
+constexpr double kNearest_m = 0.02;  // a fit that is no better than that stays as it is
+constexpr double kHalf = 0.5;        // of the probes must lie near the plane
+constexpr int kRounds = 20;
+constexpr double kTukey = 4.685, kSigmaOfMad = 1.4826;  // 95 % efficient under normal errors
+
+// One probe: where it ended, in coordinates (a, b) of the region and h square to it.
+struct Probe {
+  double a, b, h;
+};
+
+// h = at[0] + at[1] a + at[2] b.
+struct Fit {
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  double near = 0.0;  // share of all probes, those that met nothing too, that weigh something
+};
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Least squares with Tukey's weights, from the median on.
+std::optional<Fit> fit_plane(const std::vector<Probe>& probes, std::size_t sent) {
+  if (static_cast<double>(probes.size()) < kHalf * static_cast<double>(sent)) return std::nullopt;
+  std::vector<double> off(probes.size());
+  for (std::size_t i = 0; i < probes.size(); ++i) off[i] = probes[i].h;
+  Fit fit;
+  fit.at[0] = median_of(off);
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      const Probe& p = probes[i];
+      off[i] = p.h - fit.at.dot(Eigen::Vector3d(1.0, p.a, p.b));
+    }
+    std::vector<double> size = off;
+    for (double& s : size) s = std::abs(s);
+    const double width = kTukey * std::max(kSigmaOfMad * median_of(size), kNearest_m);
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      const double u = off[i] / width;
+      if (std::abs(u) >= 1.0) continue;
+      ++near;
+      const double weight = (1.0 - u * u) * (1.0 - u * u);
+      const Eigen::Vector3d row(1.0, probes[i].a, probes[i].b);
+      A += weight * row * row.transpose();
+      b += weight * probes[i].h * row;
+    }
+    fit.at = A.ldlt().solve(b);
+    fit.near = static_cast<double>(near) / static_cast<double>(sent);
+  }
+  if (!fit.at.allFinite() || fit.near < kHalf) return std::nullopt;
+  return fit;
+}
+
+// n . p + d = 0 in the survey's frame, n towards base.
+struct FoundPlane {
+  Vector n;
+  double d_m;
+};
+
+// Rays from a plane through `middle` with axes a and b, that go along c.
+std::optional<FoundPlane> probe(const RockSurface& rock, const Vector& middle, const Vector& a, const Vector& b,
+                                const Vector& c, double half_a_m, double low_b_m, double high_b_m) {
+  std::vector<Probe> probes;
+  std::size_t sent = 0;
+  for (double at_a = -half_a_m; at_a <= half_a_m + 1e-9; at_a += kStep_m) {
+    for (double at_b = low_b_m; at_b <= high_b_m + 1e-9; at_b += kStep_m) {
+      ++sent;
+      const Hit hit = rock.trace({middle + at_a * a + at_b * b, c}, kReach_m);
+      if (hit.label != Label::kNone) probes.push_back({at_a, at_b, hit.t_m});
+    }
+  }
+  const std::optional<Fit> fit = fit_plane(probes, sent);
+  if (!fit) return std::nullopt;
+  const Vector on = middle + fit->at[0] * c;
+  const Vector n = (fit->at[1] * a + fit->at[2] * b - c).normalized();
+  return FoundPlane{n, -n.dot(on)};
+}
+
+}  // namespace
+
+TruthRow survey_truth(const RockSurface& rock, const Placement& base, const Machine& machine) {
+  TruthRow row;
+  const Vector ahead_road = base.R_road_base * forward_axis(machine);
+  const Vector ahead_level = Vector(ahead_road.x(), ahead_road.y(), 0.0).normalized();
+  const Vector left_level = Vector::UnitZ().cross(ahead_level);
+  const std::optional<FoundPlane> floor = probe(rock, base.origin_road, ahead_level, left_level, -Vector::UnitZ(),
+                                                kFloorAlong_m, -kFloorAcross_m, kFloorAcross_m);
+  if (!floor) return row;
+  const Vector up_base = base.R_road_base.transpose() * floor->n;
+  row.value[0] = std::atan2(up_base.y(), up_base.z());
+  row.value[1] = std::atan2(-up_base.x(), std::hypot(up_base.y(), up_base.z()));
+
+  // Along the floor from here on.
+  const Vector ahead = (ahead_road - ahead_road.dot(floor->n) * floor->n).normalized();
+  const Vector left = floor->n.cross(ahead);
+  const double height_m = floor->n.dot(base.origin_road) + floor->d_m;
+  Vector along = Vector::Zero();
+  std::size_t quantity = 3;
+  for (const int side : {1, -1}) {
+    const std::optional<FoundPlane> wall = probe(rock, base.origin_road, ahead, floor->n, side * left, kWallAlong_m,
+                                                 kWallLow_m - height_m, kWallHigh_m - height_m);
+    for (const double s : {machine.s_front_m, machine.s_back_m}) {
+      const Vector P = base.origin_road + s * ahead_road;
+      if (wall) row.value[quantity] = std::abs(wall->n.dot(P) + wall->d_m);
+      ++quantity;
+    }
+    if (!wall) continue;
+    const Vector t = floor->n.cross(wall->n).normalized();
+    along += t.dot(ahead) > 0.0 ? t : -t;
+  }
+  if (along.norm() > 0.0) row.value[2] = std::atan2(ahead.cross(along).dot(floor->n), ahead.dot(along));
+  return row;
+}
+
+}  // namespace pose_wall::tools::sim

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// A real road from files: a triangle mesh or a dense cloud with normals, and the poses of a machine in it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "sim/rock_surface.hpp"
+
+namespace pose_wall::tools {
+
+// The message names the file, what is wrong in it, and what is allowed.
+class SurveyError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct SurveyRock {
+  std::shared_ptr<const sim::RockSurface> rock;
+  std::string about;  // "1000000 triangles", "162113 discs of 0.150 m"
+};
+
+// Mesh: PLY, OBJ, glTF 2. Cloud: a PLY without faces, with nx, ny, nz; each point is a disc. Metres, z up; a glTF has y
+// up by its specification and is turned. disc_radius_m: none means twice the cloud's own spacing.
+SurveyRock read_survey_rock(const std::filesystem::path& file, std::optional<double> disc_radius_m);
+
+// Lines `t x y z qx qy qz qw` (TUM): base in the rock's frame, one line a frame.
+std::vector<sim::Placement> read_survey_path(const std::filesystem::path& file);
+
+}  // namespace pose_wall::tools
