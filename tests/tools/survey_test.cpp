@@ -315,6 +315,10 @@ TEST_F(SurveyFiles, TheVerbRefusesWhatARealRoadHasOfItsOwn) {
   EXPECT_NE(errors({"--path", path}).find("--surface"), std::string::npos);
   EXPECT_NE(errors({"--surface", box_obj(), "--path", path, "--set", "width_m=4"}).find("width_m"), std::string::npos);
   EXPECT_NE(errors({"--surface", box_obj(), "--path", path, "--frames", "2"}).find("1 pose"), std::string::npos);
+  EXPECT_NE(errors({"--surface", box_obj(), "--path", path, "--scene", "rough"}).find("--scene"), std::string::npos);
+  EXPECT_NE(errors({"--surface", box_obj(), "--path", path, "--random"}).find("--random"), std::string::npos);
+  const std::string far = path_of({turned(500.0, 0.0, 1.3, 0.0, 0.0, 0.0)});
+  EXPECT_NE(errors({"--surface", box_obj(), "--path", far}).find("below it"), std::string::npos);
 }
 
 #else

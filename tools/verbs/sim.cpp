@@ -118,6 +118,16 @@ sim::Survey resolve_survey(SimOptions* options) {
     throw std::invalid_argument(
         fmt::format("--frames {}: {} holds {}", *options->frames, options->path, counted(poses, "pose")));
   }
+  const auto stands = [&](const sim::Placement& base) {
+    constexpr double kHigh_m = 30.0;  // no base stands higher above its floor
+    return rock.rock->trace({base.origin_road, -sim::Vector::UnitZ()}, kHigh_m).label != sim::Label::kNone;
+  };
+  if (std::none_of(survey.path.begin(), survey.path.end(), stands)) {
+    throw std::invalid_argument(
+        fmt::format("--path {}: no pose has the surface {} below it; both need one frame, in "
+                    "metres, z up",
+                    options->path, options->surface));
+  }
   if (!options->frames) options->frames = poses;
   if (!options->quiet) fmt::print(stderr, "{}: {}\n", options->surface, rock.about);
   return survey;
@@ -230,11 +240,13 @@ int simulate(SimOptions options) {
 void add_sim(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SimOptions>();
   CLI::App* verb = app.add_subcommand("sim", "Simulate LiDAR frames of a roadway, with the truth of each");
-  verb->add_option("--scene", options->scene, "Scene of the road; see --list")->capture_default_str();
+  auto* const scene =
+      verb->add_option("--scene", options->scene, "Scene of the road; see --list")->capture_default_str();
   verb->add_option("--sensor", options->sensor, "Sensor model; see --list")->capture_default_str();
   auto* const surface = verb->add_option(
       "--surface", options->surface,
       "A real road in place of a scene: a mesh (PLY, OBJ, glTF), or a cloud with normals (PLY); m, z up");
+  surface->excludes(scene);
   verb->add_option("--path", options->path,
                    "With --surface: poses of base in it, `t x y z qx qy qz qw`, a line a frame")
       ->needs(surface);
@@ -249,7 +261,7 @@ void add_sim(CLI::App& app, int& exit_code) {
       ->capture_default_str()
       ->check(whole_number());
   verb->add_option("-s,--set", options->settings, "KEY=VALUE over the scene; may be repeated")->allow_extra_args(false);
-  verb->add_flag("--random", options->random, "Draw the sizes from the scene's ranges, by the seed");
+  verb->add_flag("--random", options->random, "Draw the sizes from the scene's ranges, by the seed")->excludes(surface);
   verb->add_flag("--list", options->list, "Print scenes, sensors and keys");
   verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
   verb->add_option("-o,--output", options->output, "Folder for frames/*.pcd, truth.csv and pose_wall.yaml");
