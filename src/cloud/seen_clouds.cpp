@@ -39,7 +39,8 @@ Repeat SeenSectors::keep(const CloudPrint& now, std::int64_t at_ns) {
       std::memcpy(&seen, &print[sector][four * kFour], sizeof(seen));
       run[four] = (run[four] + more) & (seen == this_one);
       // Of two sectors at least: one alone, of 32 bits, is another one's by chance once in 5 days at 10 Hz.
-      longest[four] = (run[four] > more) & (run[four] > longest[four]) ? run[four] : longest[four];
+      const FourTruths is_longest = (run[four] > more) & (run[four] > longest[four]);
+      longest[four] = is_longest ? run[four] : longest[four];
     }
   }
   Repeat repeat;

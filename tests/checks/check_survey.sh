@@ -19,11 +19,13 @@ done > "$work/box.obj"
 printf 'f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\n' >> "$work/box.obj"
 printf '%s\n' '0 0 0.2 1.3 0 0 0 1' '1 3 -0.2 1.4 0 0 0.0349995 0.9993873' > "$work/path.tum"
 
-if ! table=$("$source/tools/survey/trial.sh" "$work/box.obj" "$work/path.tum" "$work/trial" vlp16 2> "$work/errors"); then
+trial=$source/tools/survey/trial.sh
+if ! table=$("$trial" "$work/box.obj" "$work/path.tum" "$work/trial" vlp16 2> "$work/errors"); then
   cat "$work/errors"
   ! grep -q libembree "$work/errors" || exit 77
   exit 1
 fi
 echo "$table"
-echo "$table" | grep -Eq '^vlp16 +14 of +14 +0 +0 ' || { echo "not all of the 14 values are valid and true"; exit 1; }
+echo "$table" | grep -Eq '^vlp16 +14 of +14 +0 +0 ' ||
+  { echo "not all of the 14 values are valid and true"; exit 1; }
 [ -s "$work/trial/vlp16/errors.txt" ] || { echo "there is no errors.txt"; exit 1; }

@@ -102,7 +102,7 @@ def c_header(images):
 #define POSE_WALL_CAN_IMAGES_H
 
 #include "can_frames.h"
-""" + "".join(f'#include "{name}"\n' for name in headers_of(images)) + """
+""" + "".join(f'#include "{name}"\n' for name in sorted(set(headers_of(images)))) + """
 #ifdef __cplusplus
 extern "C" {
 #endif

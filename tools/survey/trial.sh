@@ -6,13 +6,14 @@
 #
 #   tools/survey/trial.sh SURFACE PATH FOLDER [SENSOR...]       sensors: see `pose_wall sim --list`
 #
-# FOLDER gets one folder for each sensor: frames, truth.csv, pose_wall.yaml, out.csv, and errors.txt of `pose_wall eval`.
+# FOLDER gets one folder for each sensor: frames, truth.csv, pose_wall.yaml, out.csv, errors.txt of `pose_wall eval`.
 # POSE_WALL names the command; default: build/release/pose_wall. SET holds more words for `pose_wall sim`, as
-# SET="--set range_noise_m=0.02 --set dropout=0.02". Poses may be far apart, so frames are 10 s apart: each stands alone.
+# SET="--set range_noise_m=0.02 --set dropout=0.02". Frames are 10 s apart, since poses may be far apart: each stands
+# alone.
 set -euo pipefail
 
 if [ $# -lt 3 ]; then
-  sed -n '5,12s/^# \{0,1\}//p' "$0"
+  sed -n '5,13s/^# \{0,1\}//p' "$0"
   exit 2
 fi
 surface=$1 path=$2 folder=$3
@@ -58,8 +59,9 @@ row() { # sensor, folder
         for (r in reasons) if (r != "" && r != "stamp_leap" && (best == "" || reasons[r] > reasons[best])) best = r
         if (best != "") { told = told (k > 1 ? ", " : "") best " " reasons[best]; delete reasons[best] }
       }
-      printf "%-10s %5d of %5d %10d %10d   %6.2f / %6.2f deg   %5.0f / %5.0f mm   %s\n", sensor, valid, values, misleading,
-        beyond, median(angle, angles), median(angle_level, angles), median(way, ways), median(way_level, ways), told
+      printf "%-10s %5d of %5d %10d %10d   %6.2f / %6.2f deg   %5.0f / %5.0f mm   %s\n", sensor, valid, values,
+        misleading, beyond, median(angle, angles), median(angle_level, angles), median(way, ways),
+        median(way_level, ways), told
     }' "$2/truth.csv" "$2/out.csv"
 }
 

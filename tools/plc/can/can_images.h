@@ -9,9 +9,9 @@
 #define POSE_WALL_CAN_IMAGES_H
 
 #include "can_frames.h"
-#include "pose_wall_planar_stop.h"
 #include "pose_wall.h"
 #include "pose_wall_motion.h"
+#include "pose_wall_planar_stop.h"
 
 #ifdef __cplusplus
 extern "C" {
