@@ -2,9 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: a real road from a file is a scene like any other. A box has its own truth, to a millimetre, and every value
-// in it is valid; openings and missing walls leave the truth of the rest as it is. Discs about the points of a cloud
-// give the ranges of its mesh within 3 mm. A glTF, which has y up, lies as its PLY does. What is no road is refused by
-// name.
+// in it is valid; openings and missing walls leave the truth of the rest as it is. A proposed path goes along the
+// middle, round bends, to the road's ends. Discs about the points of a cloud give the ranges of its mesh within 3 mm. A
+// glTF, which has y up, lies as its PLY does. What is no road is refused by name.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,6 +22,7 @@
 #include "ran_command.hpp"
 #include "sim/scenes.hpp"
 #include "sim/simulator.hpp"
+#include "sim/survey_line.hpp"
 #include "sim/survey_truth.hpp"
 #include "survey/survey_file.hpp"
 #include "truth/truth_csv.hpp"
@@ -110,6 +111,51 @@ TEST(Survey, BetweenTwoPosesItIsBetween) {
   EXPECT_EQ(survey.at(7.0).origin_road.x(), 1.0);
 }
 
+TEST(SurveyLine, GoesAlongTheMiddleOfABoxToBothEnds) {
+  const Box rock([](const Vector& p) { return std::abs(p.x()) > 20.0; });
+  const auto path = sim::propose_path(rock, {-20.0, -kHalf_m, 0.0}, {20.0, kHalf_m, kHigh_m}, 1.0, 1.3);
+  ASSERT_GT(path.size(), 30U);
+  for (const Placement& p : path) {
+    EXPECT_NEAR(p.origin_road.y(), 0.0, 0.1);
+    EXPECT_NEAR(p.origin_road.z(), 1.3, 1e-9);
+    EXPECT_NEAR(std::abs(p.R_road_base(0, 0)), 1.0, 0.01);
+  }
+  EXPECT_NEAR((path.front().origin_road - path.back().origin_road).norm(), static_cast<double>(path.size() - 1), 0.5);
+}
+
+// Between two circles, once round: it ends where it began.
+class Ring final : public sim::RockSurface {
+ public:
+  Hit trace(const Ray& ray, double t_max_m) const override {
+    Hit best;
+    const double from_m = ray.origin.head<2>().norm();
+    if (from_m < 17.5 || from_m > 22.5) return best;  // in the rock
+    const auto take = [&](double t, Label label) {
+      if (t > 1e-9 && t < best.t_m && t <= t_max_m) best = {t, 1.0, label, 0};
+    };
+    take(-ray.origin.z() / ray.direction.z(), Label::kFloor);
+    take((kHigh_m - ray.origin.z()) / ray.direction.z(), Label::kRoof);
+    for (const double radius_m : {17.5, 22.5}) {
+      const double a = ray.direction.head<2>().squaredNorm(), b = ray.origin.head<2>().dot(ray.direction.head<2>());
+      const double root = b * b - a * (ray.origin.head<2>().squaredNorm() - radius_m * radius_m);
+      if (!(a > 0.0 && root > 0.0)) continue;
+      for (const double sign : {-1.0, 1.0}) take((-b + sign * std::sqrt(root)) / a, Label::kFace);
+    }
+    return best;
+  }
+};
+
+TEST(SurveyLine, FollowsABendAndEndsWhereItBegan) {
+  const auto path = sim::propose_path(Ring(), {-22.0, -22.0, 0.0}, {22.0, 22.0, kHigh_m}, 1.0, 1.3);
+  ASSERT_GT(path.size(), 115U);
+  EXPECT_LT(path.size(), 135U) << "a circle of 20 m is 126 m long";
+  for (const Placement& p : path) EXPECT_NEAR(p.origin_road.head<2>().norm(), 20.0, 0.3);
+}
+
+TEST(SurveyLine, NoRoadHasNone) {
+  EXPECT_TRUE(sim::propose_path(Box([](const Vector&) { return true; }), {-5, -5, 0}, {5, 5, 3}, 1.0, 1.3).empty());
+}
+
 struct SurveyFiles : testing::Test {
   const TempFolder folder;
 
@@ -182,6 +228,19 @@ TEST_F(SurveyFiles, EveryValueInABoxIsValidAndTrue) {
       }
     }
   }
+}
+
+TEST_F(SurveyFiles, WithoutAPathItProposesOneThatCanBeGiven) {
+  const std::string road = folder.file("road"), again = folder.file("again");
+  ASSERT_EQ(command({"sim", "--surface", box_obj(), "--sensor", "vlp16", "-q", "-o", road}).exit_status, 0);
+  const std::vector<TruthRow> truth = read_truth_csv(road + "/truth.csv");
+  ASSERT_GT(truth.size(), 40U);
+  EXPECT_EQ(read_survey_path(road + "/path.tum").size(), truth.size());
+  ASSERT_EQ(command({"sim", "--surface", box_obj(), "--path", road + "/path.tum", "--sensor", "vlp16", "-q", "-n", "2",
+                     "-o", again})
+                .exit_status,
+            0);
+  EXPECT_NEAR(read_truth_csv(again + "/truth.csv")[1].value[3], truth[1].value[3], 1e-3);
 }
 
 TEST_F(SurveyFiles, LabelsTellFloorRoofAndWalls) {
@@ -311,7 +370,6 @@ TEST_F(SurveyFiles, TheVerbRefusesWhatARealRoadHasOfItsOwn) {
     EXPECT_EQ(ran.exit_status, 2) << ran.errors;
     return ran.errors;
   };
-  EXPECT_NE(errors({"--surface", box_obj()}).find("--path"), std::string::npos);
   EXPECT_NE(errors({"--path", path}).find("--surface"), std::string::npos);
   EXPECT_NE(errors({"--surface", box_obj(), "--path", path, "--set", "width_m=4"}).find("width_m"), std::string::npos);
   EXPECT_NE(errors({"--surface", box_obj(), "--path", path, "--frames", "2"}).find("1 pose"), std::string::npos);

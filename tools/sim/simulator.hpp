@@ -31,6 +31,7 @@ class Simulator {
   Simulator(const Setup& setup, std::uint64_t seed, Survey survey);
 
   const Setup& setup() const { return setup_; }
+  const Survey& survey() const { return survey_; }
   // Of a road that is no survey.
   MachinePose pose(std::uint32_t frame_index) const;
   // May be called from several threads at once.

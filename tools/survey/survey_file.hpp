@@ -21,7 +21,8 @@ class SurveyError : public std::runtime_error {
 
 struct SurveyRock {
   std::shared_ptr<const sim::RockSurface> rock;
-  std::string about;  // "1000000 triangles", "162113 discs of 0.150 m"
+  std::string about;      // "1000000 triangles", "162113 discs of 0.150 m"
+  sim::Vector low, high;  // of its points
 };
 
 // Mesh: PLY, OBJ, glTF 2. Cloud: a PLY without faces, with nx, ny, nz; each point is a disc. Metres, z up; a glTF has y
@@ -30,5 +31,7 @@ SurveyRock read_survey_rock(const std::filesystem::path& file, std::optional<dou
 
 // Lines `t x y z qx qy qz qw` (TUM): base in the rock's frame, one line a frame.
 std::vector<sim::Placement> read_survey_path(const std::filesystem::path& file);
+// The same lines, of poses a second apart.
+std::string survey_path_text(const std::vector<sim::Placement>& path);
 
 }  // namespace pose_wall::tools

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
 #include "planar/relations.hpp"
 #include "survey/survey_file.hpp"
 
@@ -19,6 +23,17 @@ std::vector<sim::Placement> read_survey_path(const std::filesystem::path& file) 
     throw SurveyError(file.string() + ": it holds no pose; a line a frame is needed: t x y z qx qy qz qw");
   }
   return path;
+}
+
+std::string survey_path_text(const std::vector<sim::Placement>& path) {
+  std::string text = "# t x y z qx qy qz qw\n";
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Eigen::Quaterniond q(path[i].R_road_base);
+    const sim::Vector& p = path[i].origin_road;
+    text += fmt::format("{} {:.4f} {:.4f} {:.4f} {:.8f} {:.8f} {:.8f} {:.8f}\n", i, p.x(), p.y(), p.z(), q.x(), q.y(),
+                        q.z(), q.w());
+  }
+  return text;
 }
 
 }  // namespace pose_wall::tools

@@ -4,7 +4,8 @@
 #
 # Tries sensors in a real road: frames with their truth, results, errors, and a table of what became of them.
 #
-#   tools/survey/trial.sh SURFACE PATH FOLDER [SENSOR...]       sensors: see `pose_wall sim --list`
+#   tools/survey/trial.sh SURFACE PATH FOLDER [SENSOR...]       PATH: -, the tool proposes one; sensors: see
+#                                                               `pose_wall sim --list`
 #
 # FOLDER gets one folder for each sensor: frames, truth.csv, pose_wall.yaml, out.csv, errors.txt of `pose_wall eval`.
 # POSE_WALL names the command; default: build/release/pose_wall. SET holds more words for `pose_wall sim`, as
@@ -13,12 +14,14 @@
 set -euo pipefail
 
 if [ $# -lt 3 ]; then
-  sed -n '5,13s/^# \{0,1\}//p' "$0"
+  sed -n '5,14s/^# \{0,1\}//p' "$0"
   exit 2
 fi
 surface=$1 path=$2 folder=$3
 shift 3
 pose_wall=${POSE_WALL:-build/release/pose_wall}
+along=(--path "$path")
+[ "$path" != - ] || along=()
 [ $# -gt 0 ] || set -- vlp16 os1-64 os0-128 mid360
 
 # Of one sensor: values and valid ones, those of them that are wrong, |error| and level of all that were measured (the
@@ -70,7 +73,7 @@ printf '%-10s %14s %10s %10s   %s   %s   %s\n' sensor valid misleading '> level'
 for sensor in "$@"; do
   of=$folder/$sensor
   # shellcheck disable=SC2086  # words
-  "$pose_wall" sim --quiet --surface "$surface" --path "$path" --sensor "$sensor" --rate 0.1 ${SET:-} --output "$of"
+  "$pose_wall" sim --quiet --surface "$surface" "${along[@]}" --sensor "$sensor" --rate 0.1 ${SET:-} --output "$of"
   "$pose_wall" run --quiet -c "$of/pose_wall.yaml" --output "$of/out.csv" "$of/frames"
   "$pose_wall" eval "$of/out.csv" "$of/truth.csv" > "$of/errors.txt" || true # a verdict, no failure
   row "$sensor" "$of"

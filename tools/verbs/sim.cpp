@@ -23,6 +23,7 @@
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulator.hpp"
+#include "sim/survey_line.hpp"
 #include "survey/survey_file.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
@@ -38,6 +39,8 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr std::uint32_t kFrames = 10;
+// Of a path that nobody gave: a place of a trial each metre, in the height of a sensor on a low machine.
+constexpr double kProposedStep_m = 1.0, kProposedHeight_m = 1.3;
 
 struct SimOptions {
   std::string scene = "clean";
@@ -103,30 +106,41 @@ void refuse_keys_of_roads(const SimOptions& options) {
   }
 }
 
-// Where base stands in a real road at each frame.
-sim::Survey resolve_survey(SimOptions* options) {
-  if (options->path.empty()) {
+// The poses of --path, or those that the tool proposes.
+std::vector<sim::Placement> path_of(const SimOptions& options, const SurveyRock& rock) {
+  if (options.path.empty()) {
+    const std::vector<sim::Placement> path =
+        sim::propose_path(*rock.rock, rock.low, rock.high, kProposedStep_m, kProposedHeight_m);
+    if (!path.empty()) return path;
     throw std::invalid_argument(
-        "--surface: --path is needed, too: lines `t x y z qx qy qz qw`, base in the surface's "
-        "frame, a line a frame");
+        fmt::format("--surface {}: no place in it is like a road, with a floor and walls around; "
+                    "is z up, in metres? Poses of your own go by --path",
+                    options.surface));
   }
-  refuse_keys_of_roads(*options);
-  const SurveyRock rock = read_survey_rock(options->surface, options->disc_radius_m);
-  sim::Survey survey{rock.rock, read_survey_path(options->path)};
-  const auto poses = static_cast<std::uint32_t>(survey.path.size());
-  if (options->frames && *options->frames > poses) {
-    throw std::invalid_argument(
-        fmt::format("--frames {}: {} holds {}", *options->frames, options->path, counted(poses, "pose")));
-  }
+  std::vector<sim::Placement> path = read_survey_path(options.path);
   const auto stands = [&](const sim::Placement& base) {
     constexpr double kHigh_m = 30.0;  // no base stands higher above its floor
     return rock.rock->trace({base.origin_road, -sim::Vector::UnitZ()}, kHigh_m).label != sim::Label::kNone;
   };
-  if (std::none_of(survey.path.begin(), survey.path.end(), stands)) {
+  if (std::none_of(path.begin(), path.end(), stands)) {
     throw std::invalid_argument(
         fmt::format("--path {}: no pose has the surface {} below it; both need one frame, in "
                     "metres, z up",
-                    options->path, options->surface));
+                    options.path, options.surface));
+  }
+  return path;
+}
+
+// Where base stands in a real road at each frame.
+sim::Survey resolve_survey(SimOptions* options) {
+  refuse_keys_of_roads(*options);
+  const SurveyRock rock = read_survey_rock(options->surface, options->disc_radius_m);
+  sim::Survey survey{rock.rock, path_of(*options, rock)};
+  const auto poses = static_cast<std::uint32_t>(survey.path.size());
+  if (options->frames && *options->frames > poses) {
+    throw std::invalid_argument(fmt::format("--frames {}: {} holds {}", *options->frames,
+                                            options->path.empty() ? "the proposed path" : options->path,
+                                            counted(poses, "pose")));
   }
   if (!options->frames) options->frames = poses;
   if (!options->quiet) fmt::print(stderr, "{}: {}\n", options->surface, rock.about);
@@ -223,6 +237,9 @@ int simulate(SimOptions options) {
   std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
   write_whole_file(std::filesystem::path(options.output) / "pose_wall.yaml",
                    sim::engine_settings(simulator.setup(), about_scene(options, simulator.setup())));
+  if (!options.surface.empty() && options.path.empty()) {
+    write_whole_file(std::filesystem::path(options.output) / "path.tum", survey_path_text(simulator.survey().path));
+  }
   const auto [written, removed] = write_frames(options, simulator);
   if (!options.quiet)
     fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(written, "frame"));
@@ -248,7 +265,8 @@ void add_sim(CLI::App& app, int& exit_code) {
       "A real road in place of a scene: a mesh (PLY, OBJ, glTF), or a cloud with normals (PLY); m, z up");
   surface->excludes(scene);
   verb->add_option("--path", options->path,
-                   "With --surface: poses of base in it, `t x y z qx qy qz qw`, a line a frame")
+                   "With --surface: poses of base in it, `t x y z qx qy qz qw`, a line a frame; default: a way along "
+                   "the road's middle, a pose a metre, which --output then holds as path.tum")
       ->needs(surface);
   verb->add_option("--disc-radius", options->disc_radius_m,
                    "With --surface, m: each point of a cloud is a disc of this radius; default: twice their spacing")
@@ -270,7 +288,7 @@ void add_sim(CLI::App& app, int& exit_code) {
       "  pose_wall sim --scene steel_sets --frames 50 --set speed_mps=0.2 --output /tmp/road\n"
       "  pose_wall run --config /tmp/road/pose_wall.yaml --output out.csv /tmp/road/frames\n"
       "  pose_wall eval out.csv /tmp/road/truth.csv\n"
-      "  pose_wall sim --surface gallery.ply --path poses.tum --sensor vlp16 --output /tmp/gallery\n"
+      "  pose_wall sim --surface gallery.ply --sensor vlp16 --output /tmp/gallery\n"
       "Exit status: 0 done, 1 a file cannot be written, 2 bad usage, 130 interrupted by Ctrl-C: written\n"
       "frames are whole and have their truth.");
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("sim", [&] { return simulate(*options); }); });
