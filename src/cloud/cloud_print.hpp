@@ -3,7 +3,7 @@
 //
 // Tells a cloud from all others by the bits of its points, sector by sector of azimuth about the sensor. The noise of
 // real ranges never repeats, so equal prints mean that somebody delivered the same points again. Each part of the
-// product adds the returns that it uses, where it has them at hand and knows their azimuth anyway.
+// product adds returns as it reads them, by the sensor's own azimuth.
 
 #pragma once
 

@@ -238,7 +238,7 @@ class CurveBuilder {
 
   // Rows lie on few of a map's tiles.
   void number_patches() {
-    constexpr std::uint16_t kNone = 0xFFFF;
+    constexpr std::uint16_t kNone = 0xFFFF;  // no row lies there; a map has fewer tiles
     const Span<std::uint16_t> patch_of = s_->patch_of.first(scan_.map->tiles());
     patch_of.fill(kNone);
     for (std::uint32_t row = 0; row < rows_; ++row) patch_of[s_->tile[row]] = 0;

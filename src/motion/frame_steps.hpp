@@ -22,7 +22,7 @@ constexpr std::uint64_t kCellDrawn = 2, kWindowOpened = 4, kEightWindows = 12, k
 // All of a wide start, at most: pose_wall_motion.h promises it.
 constexpr std::uint64_t kSearchMost = 5000000;
 
-// Curves along the road: an observation at a shift.
+// Curves along the road: an observation at a shift. Likewise.
 constexpr std::uint64_t kRowShifted = 20;
 
 inline std::uint64_t of_curve(std::uint32_t observations, std::uint32_t rows_most, std::uint32_t shifts) {

@@ -313,7 +313,7 @@ struct Ring {
   }
 };
 
-constexpr std::uint64_t kRing = 160000;
+constexpr std::uint64_t kRing = 160000;  // bytes: room for a memento and some frames
 
 // Some large, most small: laps end far apart from each other.
 Clouds uneven(std::uint32_t seed, std::uint32_t frames) {

@@ -36,7 +36,7 @@ using sim::Placement;
 using sim::Ray;
 using sim::Vector;
 
-constexpr double kLong_m = 30.0, kHalf_m = 2.4, kHigh_m = 3.6;
+constexpr double kLong_m = 30.0, kHalf_m = 2.4, kHigh_m = 3.6;  // of a roadway; half its length and width
 
 // Walls at y = +-kHalf_m, floor at 0, roof at kHigh_m; a rule may take rays past a wall.
 class Box final : public sim::RockSurface {
@@ -173,16 +173,7 @@ struct SurveyFiles : testing::Test {
     for (const char* face : {"1 5 7 3", "2 4 8 6", "1 2 6 5", "3 7 8 4"}) text += fmt::format("f {}\n", face);
     return write("box.obj", text);
   }
-  std::string path_of(const std::vector<Placement>& path) {
-    std::string text = "# t x y z qx qy qz qw\n";
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      const Eigen::Quaterniond q(path[i].R_road_base);
-      const Vector& p = path[i].origin_road;
-      text += fmt::format("{} {} {} {} {:.9f} {:.9f} {:.9f} {:.9f}\n", 0.1 * static_cast<double>(i), p.x(), p.y(),
-                          p.z(), q.x(), q.y(), q.z(), q.w());
-    }
-    return write("path.tum", text);
-  }
+  std::string path_of(const std::vector<Placement>& path) { return write("path.tum", survey_path_text(path)); }
 };
 
 std::string refusal_of(const std::function<void()>& read) {
@@ -272,7 +263,7 @@ Eigen::Vector3d normal_of(double x, double y) {
 }
 
 TEST_F(SurveyFiles, DiscsGiveTheRangesOfTheirMesh) {
-  constexpr int kSteps = 300;
+  constexpr int kSteps = 300;  // of 2 cm: 3 m to each side
   constexpr double kMesh_m = 0.02, kCloud_m = 0.08;
   std::string mesh = fmt::format(
       "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\n"

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "angles.hpp"
+#include "sim/middle_of.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {
@@ -73,8 +74,7 @@ class Walker {
         ways[count++] = hit.label == Label::kNone ? kFar_m : hit.t_m;
       }
     }
-    std::nth_element(ways.begin(), ways.begin() + 4, ways.end());
-    return ways[4];
+    return middle_of(&ways);
   }
 
   // How much a place is like one of a road: walls around, neither too near nor missing, and one way that is long.
@@ -140,8 +140,7 @@ class Walker {
       const double slant = (k - 1) * 15.0 * kRadPerDeg;
       ways[static_cast<std::size_t>(k)] = free_m(from, azimuth_rad + side * 0.5 * M_PI + slant) * std::cos(slant);
     }
-    std::nth_element(ways.begin(), ways.begin() + 1, ways.end());
-    return ways[1];
+    return middle_of(&ways);
   }
 
   const RockSurface& rock_;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <optional>
 
+#include "sim/middle_of.hpp"
+
 namespace pose_wall::tools::sim {
 namespace {
 
@@ -29,19 +31,13 @@ struct Fit {
   double near = 0.0;  // share of all probes, those that met nothing too, that weigh something
 };
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Least squares with Tukey's weights, from the median on.
 std::optional<Fit> fit_plane(const std::vector<Probe>& probes, std::size_t sent) {
   if (static_cast<double>(probes.size()) < kHalf * static_cast<double>(sent)) return std::nullopt;
   std::vector<double> off(probes.size());
   for (std::size_t i = 0; i < probes.size(); ++i) off[i] = probes[i].h;
   Fit fit;
-  fit.at[0] = median_of(off);
+  fit.at[0] = middle_of(&off);
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t i = 0; i < probes.size(); ++i) {
       const Probe& p = probes[i];
@@ -49,7 +45,7 @@ std::optional<Fit> fit_plane(const std::vector<Probe>& probes, std::size_t sent)
     }
     std::vector<double> size = off;
     for (double& s : size) s = std::abs(s);
-    const double width = kTukey * std::max(kSigmaOfMad * median_of(size), kNearest_m);
+    const double width = kTukey * std::max(kSigmaOfMad * middle_of(&size), kNearest_m);
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
     std::size_t near = 0;

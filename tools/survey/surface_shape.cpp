@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/middle_of.hpp"
 #include "survey/survey_file.hpp"
 
 namespace pose_wall::tools {
@@ -124,9 +125,7 @@ double spacing_m(const std::vector<Eigen::Vector3f>& points) {
     }
     nearest.push_back(best);
   }
-  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
-  return std::sqrt(static_cast<double>(*middle));
+  return std::sqrt(static_cast<double>(sim::middle_of(&nearest)));
 }
 
 }  // namespace pose_wall::tools

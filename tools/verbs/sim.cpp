@@ -124,8 +124,7 @@ std::vector<sim::Placement> path_of(const SimOptions& options, const SurveyRock&
   };
   if (std::none_of(path.begin(), path.end(), stands)) {
     throw std::invalid_argument(
-        fmt::format("--path {}: no pose has the surface {} below it; both need one frame, in "
-                    "metres, z up",
+        fmt::format("--path {}: no pose has the surface {} below it; both need one frame, in metres, z up",
                     options.path, options.surface));
   }
   return path;
@@ -178,7 +177,7 @@ struct Written {
 
 // Ctrl-C ends it after the frame at work. Those that are there have their truth.
 Written write_frames(const SimOptions& options, const sim::Simulator& simulator) {
-  const std::uint32_t frames = options.frames.value_or(kFrames);
+  const std::uint32_t frames = *options.frames;
   ProgressBar bar(frames, !options.quiet && is_terminal(2));
   std::vector<TruthRow> truth;
   std::uint32_t i = 0;
@@ -214,11 +213,10 @@ void refuse_folder_of_others(const SimOptions& options) {
                   options.output));
 }
 
+// Fills in the number of frames, too.
 sim::Simulator simulator_of(SimOptions* options) {
   if (options->surface.empty()) {
-    if (!options->path.empty() || options->disc_radius_m) {
-      throw std::invalid_argument("--path and --disc-radius belong to --surface");
-    }
+    if (!options->frames) options->frames = kFrames;
     return sim::Simulator(resolve_setup(*options), options->seed);
   }
   sim::Survey survey = resolve_survey(options);
@@ -245,10 +243,9 @@ int simulate(SimOptions options) {
     fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(written, "frame"));
   if (!options.quiet && removed > 0)
     fmt::print(stderr, "{}: {} of an earlier, longer run removed\n", options.output, counted(removed, "frame"));
-  const std::uint32_t frames = options.frames.value_or(kFrames);
-  if (written == frames) return kExitDone;
+  if (written == *options.frames) return kExitDone;
   fmt::print(stderr, "interrupted: {} of {} written, with their truth\n", written,
-             counted(frames, "frame is", "frames are"));
+             counted(*options.frames, "frame is", "frames are"));
   return kExitInterrupted;
 }
 

@@ -21,8 +21,9 @@ class Rays {
 
   std::uint64_t points() const { return points_; }
 
-  // visit(the points as the cloud has them and which of them are returns in range, x and y from the sensor, how far
-  // they lie below a plane through the sensor with these slopes, which of the returns are not of the machine).
+  // visit(raw, returns, x, y, fall, those). Raw points are as the cloud has them, returns are those in range. The
+  // others are about the sensor in base's axes; fall is how far they lie below a plane through it with these slopes.
+  // Those are the returns that are not of the machine.
   template <typename Visit>
   void each_four(float slope_x, float slope_y, const Visit& visit) const {
     float fall[3];

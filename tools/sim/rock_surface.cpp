@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
+#include "sim/rock_surface.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include "sim/rock_surface.hpp"
 
 namespace pose_wall::tools::sim {
 
