@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 #
-# tools/survey/trial.sh in a box of four faces: all values are valid and none is wrong, and the table says so.
+# tools/survey/trial.sh in a box of four faces: all values are valid and none is wrong, and the table says so. The same
+# box as a class of a campaign, on its card by name. Its rock is flat, and a blasted road beside it is not.
 # usage: check_survey.sh SOURCE_DIR POSE_WALL; 77: this build reads no surfaces
 set -eu
 source=$1
@@ -29,3 +30,17 @@ echo "$table"
 echo "$table" | grep -Eq '^vlp16 +14 of +14 +0 +0 ' ||
   { echo "not all of the 14 values are valid and true"; exit 1; }
 [ -s "$work/trial/vlp16/errors.txt" ] || { echo "there is no errors.txt"; exit 1; }
+
+# Near the ends of the box, where the floor ends, angles are not valid.
+"$POSE_WALL" campaign --quiet --scenes clean --sensors vlp16 --draws 1 --surface "$work/box.obj" --output "$work/campaign"
+grep -Eq '^\| surveyed \| vlp16 \| mine \| 1 \| 6[0-9] \| [89][0-9.]+ % \| [89][0-9.]+ % \| 100 % ' "$work/campaign/card.md" ||
+  { grep '^| surveyed' "$work/campaign/card.md"; echo "the card has no row of the box, mostly valid"; exit 1; }
+grep -q "each frame by itself: $work/box.obj" "$work/campaign/card.md" || { echo "the card names no box"; exit 1; }
+
+"$(dirname "$POSE_WALL")/pose_wall_rock" --surface "$work/box.obj" --scene mine_blasted --roads 1 \
+  --output "$work/rock" > "$work/rock.txt"
+grep -Eq '^walls +along +2 m +0\.0 +0\.0 ' "$work/rock.txt" ||
+  { cat "$work/rock.txt"; echo "a box has rough walls"; exit 1; }
+awk -F, '$1 == "mine_blasted" && $2 == "walls" && $3 == "along" && $4 == 2 { found = $5 > 0.005 } END { exit !found }' \
+  "$work/rock/spectra.csv" || { echo "blasted walls are as flat as a box"; exit 1; }
+grep -q '</svg>' "$work/rock/spectra.svg" || { echo "there is no picture"; exit 1; }

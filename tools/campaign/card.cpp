@@ -26,7 +26,7 @@ void merge(SevenStatistics& into, const SevenStatistics& other) {
 }
 
 void count_reasons(ClassCard& card, const QuantityRecord& record) {
-  if (!std::isfinite(record.truth) || record.measured.state == POSE_WALL_VALID) return;
+  if (!std::isfinite(record.judged_truth()) || record.measured.state == POSE_WALL_VALID) return;
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
     if ((record.reasons >> bit & 1U) != 0) ++card.reasons[bit];
   }
@@ -41,8 +41,12 @@ void add_run(ClassCard& card, const RunRecord& record, const AlertLimits& limits
     card.frames.add(frame, limits);
     if (!is_in_shares(frame)) continue;  // what is wrong there is wrong all the same
     for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-      card.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].truth);
-      if (is_straight) card.straight[q].add(frame.quantity[q].measured, frame.quantity[q].truth);
+      card.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].judged_truth());
+      if (is_straight) card.straight[q].add(frame.quantity[q].measured, frame.quantity[q].judged_truth());
+      if (card.scene->kind == sim::SceneKind::kMine) {
+        card.by_road[q].add(frame.quantity[q].measured, frame.quantity[q].truth);
+        card.by_survey[q].add(frame.quantity[q].measured, frame.quantity[q].surveyed);
+      }
       count_reasons(card, frame.quantity[q]);
     }
   }
@@ -72,6 +76,7 @@ Card empty_card(const Manifest& manifest) {
   return {manifest,
           0,
           {},
+          none("mine"),
           none("nominal"),
           none("adversarial"),
           none("both"),
@@ -95,14 +100,22 @@ ClassCard& class_of(Card& card, const RunRecord& record) {
   one.scene = sim::find_scene(record.run.scene);
   one.sensor = record.run.sensor;
   one.quantities = empty_statistics(card.manifest.limits);
-  one.straight = one.quantities;
+  one.straight = one.by_road = one.by_survey = one.quantities;
   if (one.scene == nullptr) {
     throw std::runtime_error(fmt::format("a record of the scene '{}', which does not exist", record.run.scene));
   }
   return one;
 }
 
+constexpr std::array kToldKinds = {sim::SceneKind::kMine, sim::SceneKind::kNominal, sim::SceneKind::kAdversarial};
+
+// By the ideal road, for which the levels are made.
+bool is_judged(sim::SceneKind kind) {
+  return kind == sim::SceneKind::kNominal || kind == sim::SceneKind::kAdversarial;
+}
+
 Totals& totals_for(Card& card, sim::SceneKind kind) {
+  if (kind == sim::SceneKind::kMine) return card.mine;
   if (kind == sim::SceneKind::kNominal) return card.nominal;
   return kind == sim::SceneKind::kAdversarial ? card.adversarial : card.unobservable;
 }
@@ -125,7 +138,7 @@ void add_class(KindCard& row, const ClassCard& one) {
 
 std::vector<KindCard> kind_cards(const std::vector<ClassCard>& classes, const AlertLimits& limits) {
   std::vector<KindCard> rows;
-  for (const sim::SceneKind kind : {sim::SceneKind::kNominal, sim::SceneKind::kAdversarial}) {
+  for (const sim::SceneKind kind : kToldKinds) {
     std::vector<KindCard> of_kind;
     KindCard all{kind, "all", 0, empty_statistics(limits), {}};
     for (const ClassCard& one : classes) {
@@ -153,21 +166,21 @@ void add_frames(FramesCard& row, const RunRecord& record, bool (*counts)(const F
     if (!counts(frame)) continue;
     ++added;
     for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-      row.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].truth);
+      row.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].judged_truth());
     }
   }
   row.frames += added;
   if (added > 0) ++row.runs;
 }
 
-std::vector<FramesCard> frames_cards(const std::vector<const RunRecord*>& judged, const AlertLimits& limits) {
+std::vector<FramesCard> frames_cards(const std::vector<const RunRecord*>& told, const AlertLimits& limits) {
   std::vector<FramesCard> rows;
-  for (const sim::SceneKind kind : {sim::SceneKind::kNominal, sim::SceneKind::kAdversarial}) {
+  for (const sim::SceneKind kind : kToldKinds) {
     std::vector<FramesCard> of_kind;
     for (const char* name : {"first", "later, standing", "later, moving", "all"}) {
       of_kind.push_back({kind, name, 0, 0, empty_statistics(limits)});
     }
-    for (const RunRecord* const record : judged) {
+    for (const RunRecord* const record : told) {
       if (sim::find_scene(record->run.scene)->kind != kind) continue;
       add_frames(of_kind[0], *record, is_first);
       add_frames(of_kind[stands(record->run.settings) ? 1 : 2], *record, is_in_shares);
@@ -240,11 +253,12 @@ void add_class(Totals& totals, const ClassCard& card) {
 Card make_card(const Manifest& manifest, const std::vector<RunRecord>& records, std::size_t events_max) {
   Card card = empty_card(manifest);
   card.runs = records.size();
-  std::vector<const RunRecord*> judged;
+  std::vector<const RunRecord*> told, judged;
   for (const RunRecord& record : records) {
     ClassCard& one = class_of(card, record);
     add_run(one, record, manifest.limits);
-    if (one.scene->kind == sim::SceneKind::kUnobservable) continue;
+    if (one.scene->kind != sim::SceneKind::kUnobservable) told.push_back(&record);
+    if (!is_judged(one.scene->kind)) continue;
     judged.push_back(&record);
     add_to_diagrams(card, record);
     const bool is_nominal = one.scene->kind == sim::SceneKind::kNominal;
@@ -252,10 +266,10 @@ Card make_card(const Manifest& manifest, const std::vector<RunRecord>& records, 
   }
   for (const ClassCard& one : card.classes) {
     add_class(totals_for(card, one.scene->kind), one);
-    if (one.scene->kind != sim::SceneKind::kUnobservable) add_class(card.judged, one);
+    if (is_judged(one.scene->kind)) add_class(card.judged, one);
   }
   card.kinds = kind_cards(card.classes, manifest.limits);
-  card.frames = frames_cards(judged, manifest.limits);
+  card.frames = frames_cards(told, manifest.limits);
   card.events = worst_events(judged, manifest.limits, events_max);
   return card;
 }

@@ -64,6 +64,7 @@ struct ClassCard {
   SevenStatistics quantities;  // of the scene, without the way in and the first frame
   std::size_t straight_runs = 0;
   SevenStatistics straight;  // the same, of runs in whose scans no motion is
+  SevenStatistics by_road, by_survey;  // of mine classes, likewise, by each truth alone
   EventTimes times;
   std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons{};  // values with a truth that were not valid, by reason
 };
@@ -106,12 +107,13 @@ struct Card {
   Manifest manifest;
   std::size_t runs = 0;  // with a record
   std::vector<ClassCard> classes;
+  Totals mine;
   Totals nominal;
   Totals adversarial;
-  Totals judged;  // both of them
+  Totals judged;  // nominal and adversarial: by the ideal road
   Totals unobservable;
-  std::vector<KindCard> kinds;     // of the judged: nominal by sensor and all, then adversarial
-  std::vector<FramesCard> frames;  // of the judged, by kind; without empty ones
+  std::vector<KindCard> kinds;     // mine by sensor and all, then nominal, then adversarial
+  std::vector<FramesCard> frames;  // likewise by kind; without empty ones
   LevelCurve nominal_curve;
   LevelCurve adversarial_curve;
   std::vector<WorstEvent> events;  // of the judged, as the diagrams

@@ -62,7 +62,7 @@ std::string card_summary(const Card& card) {
     table.add_row(row_of(totals, sim::scene_kind_name(scene->kind), false));
   }
   table.add_row({"in all"});
-  for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged}) {
+  for (const Totals* totals : {&card.mine, &card.nominal, &card.adversarial, &card.judged}) {
     if (totals->classes > 0) table.add_row(row_of(*totals, "", true));
   }
   return movement_text(card.manifest) + "\n\n" + table.text(2) + "\n" + valid_summary(card) + "\n" +

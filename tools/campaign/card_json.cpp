@@ -159,7 +159,8 @@ std::string card_json(const Card& card) {
   page["runs_planned"] = card.manifest.runs;
   page["runs"] = card.runs;
   page["gate_faults"] = gate_faults(card);
-  page["totals"] = {{"nominal", totals(card.nominal)},
+  page["totals"] = {{"mine", totals(card.mine)},
+                    {"nominal", totals(card.nominal)},
                     {"adversarial", totals(card.adversarial)},
                     {"both", totals(card.judged)},
                     {"unobservable", totals(card.unobservable)}};

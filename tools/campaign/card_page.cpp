@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "campaign/card_files.hpp"
 #include "campaign/card_sections.hpp"
@@ -18,10 +19,15 @@ namespace {
 
 std::string head_of(const Card& card) {
   std::string text = "# Integrity card\n\n";
-  text += fmt::format("{} in {} of {}, {} (scene and sensor). Alert limits: {}, {}.\n\n",
-                      counted(card.judged.frames.frames + card.unobservable.frames.frames, "frame"), card.runs,
-                      counted(card.manifest.runs, "run"), counted(card.classes.size(), "class", "classes"),
-                      amount(true, card.manifest.limits.angle_rad), amount(false, card.manifest.limits.distance_m));
+  text += fmt::format(
+      "{} in {} of {}, {} (scene and sensor). Alert limits: {}, {}.\n\n",
+      counted(card.mine.frames.frames + card.judged.frames.frames + card.unobservable.frames.frames, "frame"),
+      card.runs, counted(card.manifest.runs, "run"), counted(card.classes.size(), "class", "classes"),
+      amount(true, card.manifest.limits.angle_rad), amount(false, card.manifest.limits.distance_m));
+  text += card.manifest.plan.surfaces.empty()
+              ? "No real road is among them: `--surface FILE` takes its scan.\n\n"
+              : fmt::format("Real roads, class `surveyed`, each frame by itself: {}.\n\n",
+                            fmt::join(card.manifest.plan.surfaces, ", "));
   const std::string movement = movement_text(card.manifest);
   text += card.manifest.motion_is_on ? movement + "\n\n" : fmt::format("**{}**\n\n", movement);
   if (card.manifest.plan.drive_in_m > 0.0) {
@@ -38,7 +44,7 @@ std::string head_of(const Card& card) {
 std::string totals_of(const Card& card) {
   MarkdownTable table({"over", "classes", "runs", "frames", "valid", "degraded", "held", "invalid", "misleading",
                        "value > protection", "raw > protection", "work limit"});
-  for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged, &card.unobservable}) {
+  for (const Totals* totals : {&card.mine, &card.nominal, &card.adversarial, &card.judged, &card.unobservable}) {
     const Totals& t = *totals;
     if (t.classes == 0) continue;
     const FrameCounts& f = t.frames;
@@ -53,7 +59,10 @@ std::string totals_of(const Card& card) {
          "Counts are frames with at least one such value among the seven. In brackets: the 95 % upper bound of the "
          "rate (Clopper-Pearson). Runs are independent; frames of one run are not. *Misleading*: valid, and the error "
          "exceeds the alert limit or there is nothing to measure. *Work limit*: the engine ran out of its budget "
-         "(`work_max`). States are of later frames than a run's first. In *unobservable* classes the data of one "
+         "(`work_max`). States are of later frames than a run's first. *Mine*: rock as it was measured; what lies "
+         "between "
+         "its two truths is not wrong (*Two truths*). The other classes are short-waved rock on ideal planes. In "
+         "*unobservable* classes the data of one "
          "sensor "
          "cannot show the fault. They are listed, and left out of everything else.\n\n" +
          table.text() + "\n";
@@ -166,7 +175,7 @@ std::string events_of(const Card& card) {
 
 std::string card_page(const Card& card) {
   return head_of(card) + gate_text(gate_faults(card)) + valid_section(card) + frames_section(card) + totals_of(card) +
-         curve_section(card) + sigma_of(card) +
+         truths_section(card) + curve_section(card) + sigma_of(card) +
          "## Stanford diagrams\n\n![angles](stanford_angles.svg)\n\n![distances](stanford_distances.svg)\n\n" +
          classes_of(card) + quantities_of(card) + events_of(card);
 }

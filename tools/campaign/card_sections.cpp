@@ -122,6 +122,36 @@ std::string frames_section(const Card& card) {
          table.text() + "\n";
 }
 
+std::string truths_section(const Card& card) {
+  MarkdownTable table({"scene", "sensor", "quantity", "valid", "95 % by road", "95 % surveyed", "misleading by road",
+                       "misleading surveyed", "misleading"},
+                      3);
+  bool is_any = false;
+  for (const ClassCard& one : card.classes) {
+    if (one.scene->kind != sim::SceneKind::kMine) continue;
+    is_any = true;
+    const std::vector<QuantityGroup> all = grouped(one.quantities), road = grouped(one.by_road),
+                                     survey = grouped(one.by_survey);
+    for (std::size_t group = 0; group < kGroups; ++group) {
+      const auto error = [&](const QuantityGroup& by) {
+        const double within = by.statistics.valid_levels().absolute_error_95;
+        return std::isfinite(within) ? amount(by.is_angle, within) : "-";
+      };
+      const auto wrong = [](const QuantityGroup& by) { return std::to_string(by.statistics.valid_beyond_alert()); };
+      table.add_row({one.scene->name, one.sensor, all[group].name, std::to_string(all[group].statistics.valid()),
+                     error(road[group]), error(survey[group]), wrong(road[group]), wrong(survey[group]),
+                     wrong(all[group])});
+    }
+  }
+  if (!is_any) return "";
+  return "## Two truths\n\n"
+         "Rock that bulges has two: planes of the *road* as a whole, and *surveyed* planes of what is really there "
+         "within "
+         "2.5 m of the machine. Valid values of mine classes, the error that 95 % of them are within, and how many are "
+         "beyond the alert limit, by each. A value between both, or within the limit of one, is not misleading.\n\n" +
+         table.text() + "\n";
+}
+
 std::string curve_section(const Card& card) {
   MarkdownTable table(kCurveHead);
   for (std::size_t i = 0; i < kLevelScales.size(); ++i) {

@@ -22,6 +22,8 @@ std::string level_text(const QuantityGroup& group);
 // Of card.md.
 std::string valid_section(const Card& card);
 std::string frames_section(const Card& card);
+// Of mine classes: their values against each of the two truths. Empty without any.
+std::string truths_section(const Card& card);
 std::string curve_section(const Card& card);
 // For the terminal, as tables.
 std::string valid_summary(const Card& card);

@@ -58,6 +58,7 @@ std::string campaign_command(const PlanRequest& request, const EngineChoice& cho
   std::string words = fmt::format("{} --size {} --seed {}", verb_words(request), request.size, request.seed);
   if (request.kind != "all") words += " --kind " + request.kind;
   if (!request.scenes.empty()) words += fmt::format(" --scenes {}", fmt::join(request.scenes, ","));
+  for (const std::string& file : request.surfaces) words += " --surface " + shell_word(file);
   if (!request.sensors.empty()) words += fmt::format(" --sensors {}", fmt::join(request.sensors, ","));
   if (request.draws) words += fmt::format(" --draws {}", *request.draws);
   if (request.frames) words += fmt::format(" --frames {}", *request.frames);
@@ -71,6 +72,7 @@ std::vector<std::pair<std::string, std::string>> request_words(const PlanRequest
           {"size", request.size},
           {"scenes", names_or(request.scenes, "all")},
           {"kind", request.kind},
+          {"surfaces", names_or(request.surfaces, "none")},
           {"sensors", names_or(request.sensors, "those of the size")},
           {"draws", number_or(request.draws, "those of the size")},
           {"first draw", std::to_string(request.first_draw)},

@@ -11,7 +11,11 @@ namespace {
 void demand_bounds(Faults& faults, const Card& card) {
   const FrameCounts& nominal = card.nominal.frames;
   const FrameCounts& adversarial = card.adversarial.frames;
-  faults.demand(card.judged.frames.frames > 0, "no frame was judged: unobservable classes prove nothing");
+  faults.demand(card.judged.frames.frames + card.mine.frames.frames > 0,
+                "no frame was judged: unobservable classes prove nothing");
+  faults.demand(card.mine.frames.misleading == 0,
+                "mine classes: misleading frames: {} of {}, valid beyond the alert limit; none is allowed",
+                card.mine.frames.misleading, card.mine.frames.frames);
   faults.demand(card.judged.frames.misleading == 0,
                 "misleading frames: {} of {}, valid beyond the alert limit; none is allowed",
                 card.judged.frames.misleading, card.judged.frames.frames);

@@ -66,6 +66,7 @@ Json plan_page(const PlanRequest& plan) {
           {"size", plan.size},
           {"scenes", plan.scenes},
           {"kind", plan.kind},
+          {"surfaces", plan.surfaces},
           {"sensors", plan.sensors},
           {"draws", number_page(plan.draws)},
           {"first_draw", plan.first_draw},
@@ -81,6 +82,7 @@ PlanRequest plan_from(const Json& page) {
   plan.size = page.at("size");
   page.at("scenes").get_to(plan.scenes);
   plan.kind = page.at("kind");
+  plan.surfaces = page.value("surfaces", std::vector<std::string>{});
   page.at("sensors").get_to(plan.sensors);
   plan.draws = number_from(page.at("draws"));
   plan.first_draw = page.at("first_draw");

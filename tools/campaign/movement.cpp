@@ -134,9 +134,10 @@ double room_to_drive_m(const sim::Setup& setup) {
   const sim::Objects& o = setup.objects;
   const double nowhere = sim::kSideNone;
   const bool has_things = setup.openings.crosscut_side != nowhere || setup.openings.widening_side != nowhere ||
-                          setup.openings.narrow_side != nowhere || o.vehicle_side != nowhere ||
-                          o.people_side != nowhere || o.curtain_side != nowhere || o.clutter_count > 0.0 ||
-                          setup.road.splay_left_deg != 0.0 || setup.road.splay_right_deg != 0.0;
+                          setup.road.ramp_deg != 0.0 || setup.openings.narrow_side != nowhere ||
+                          o.vehicle_side != nowhere || o.people_side != nowhere || o.curtain_side != nowhere ||
+                          o.clutter_count > 0.0 || setup.road.splay_left_deg != 0.0 ||
+                          setup.road.splay_right_deg != 0.0;
   double room_m = has_things ? kRoomAtThings_m : kInf;
   for (const double end_m : {setup.road.face_distance_m, setup.road.rear_distance_m}) {
     if (end_m > 0.0) room_m = std::min(room_m, kRoomToFace * end_m);

@@ -12,6 +12,7 @@
 
 #include "campaign/event.hpp"
 #include "campaign/fingerprint.hpp"
+#include "campaign/surfaces.hpp"
 #include "sim/parameters.hpp"
 #include "sim/pose.hpp"
 #include "sim/scenes.hpp"
@@ -25,7 +26,7 @@ constexpr std::uint32_t kWhole = std::numeric_limits<std::uint32_t>::max();
 struct Size {
   const char* name;
   std::vector<std::string> sensors;
-  std::uint32_t nominal_draws;        // of nominal scenes that stay as they are
+  std::uint32_t nominal_draws;        // of nominal and mine's scenes that stay as they are
   std::uint32_t draws;                // of the other ones that do
   std::uint32_t frames;               // of each of both
   std::uint32_t sequence_draws;       // of scenes in which something happens
@@ -76,12 +77,27 @@ Run make_run(const PlanRequest& request, const Size& size, const std::string& sc
           request.frames.value_or(size.frames),
           request.drive_in_m,
           0,
+          {},
           movement_of({scene, sensor, draw, run_seed(request.seed, scene, sensor, draw)}, request.scans)};
   const sim::Setup setup = setup_of(run);
   run.drive_in_frames = sim::drive_in_frames(setup);
   const std::uint32_t watched = frames_to_watch(setup);
   if (watched > 0 && !request.frames) run.frames = std::min(watched, size.sequence_frames_max);
   return run;
+}
+
+// Its places are far apart: each frame stands alone, 10 s from the next.
+Run surveyed_run(const PlanRequest& request, const std::string& file, const std::string& sensor, std::uint32_t draw) {
+  const auto places = static_cast<std::uint32_t>(survey_of(file).path.size());
+  return {sim::kSurveyedScene,
+          sensor,
+          draw,
+          run_seed(request.seed, file, sensor, draw),
+          std::min(places, request.frames.value_or(places)),
+          0.0,
+          0,
+          file,
+          {"rate_hz=0.1"}};
 }
 
 bool is_sequence(const std::string& scene, const std::string& sensor) {
@@ -93,14 +109,16 @@ std::uint32_t draws_of(const PlanRequest& request, const Size& size, const std::
                        const std::string& sensor) {
   if (request.draws) return *request.draws;
   if (is_sequence(scene, sensor)) return size.sequence_draws;
-  return sim::find_scene(scene)->kind == sim::SceneKind::kNominal ? size.nominal_draws : size.draws;
+  const sim::SceneKind kind = sim::find_scene(scene)->kind;
+  const bool is_ordinary = kind == sim::SceneKind::kNominal || kind == sim::SceneKind::kMine;
+  return is_ordinary ? size.nominal_draws : size.draws;
 }
 
 }  // namespace
 
 // Rock that repeats could look the same at two places of the way.
 sim::Setup setup_of(const Run& run) {
-  sim::Setup setup = sim::make_setup(run.scene, run.sensor, true, run.seed);
+  sim::Setup setup = sim::make_setup(run.scene, run.sensor, run.surface.empty(), run.seed);
   for (const std::string& setting : run.settings) sim::set_parameter(setup, setting);
   if (run.drive_in_m > 0.0) {
     setup.machine.drive_in_m = run.drive_in_m;
@@ -135,6 +153,10 @@ std::vector<Run> make_plan(const PlanRequest& request) {
         runs.push_back(make_run(request, size, scene, sensor, request.first_draw + i));
       }
     }
+  }
+  for (const std::string& sensor : sensors_of(request)) {
+    std::uint32_t draw = 0;
+    for (const std::string& file : request.surfaces) runs.push_back(surveyed_run(request, file, sensor, draw++));
   }
   return runs;
 }

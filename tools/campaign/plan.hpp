@@ -24,6 +24,7 @@ struct Run {
   std::uint32_t frames = 0;             // of the scene
   double drive_in_m = 0.0;              // driven before the scene begins
   std::uint32_t drive_in_frames = 0;    // on this way
+  std::string surface{};                // file of a real road, in place of the scene
   std::vector<std::string> settings{};  // KEY=VALUE of the simulator over what the scene draws: see movement_of
 };
 
@@ -31,10 +32,11 @@ struct Run {
 sim::Setup setup_of(const Run& run);
 
 struct PlanRequest {
-  bool motion = false;               // of the motion library, its classes for scenes: see motion_plan
-  std::vector<std::string> scenes;   // empty: all
-  std::vector<std::string> sensors;  // empty: those of the size
-  std::string kind = "all";          // or the name of a scene kind
+  bool motion = false;                // of the motion library, its classes for scenes: see motion_plan
+  std::vector<std::string> scenes;    // empty: all
+  std::vector<std::string> sensors;   // empty: those of the size
+  std::vector<std::string> surfaces;  // files of real roads, besides the scenes
+  std::string kind = "all";           // or the name of a scene kind
   std::string size = "small";
   std::optional<std::uint32_t> draws;   // per scene and sensor; none: those of the size
   std::optional<std::uint32_t> frames;  // per draw; none: those of the size, or what the scene's event asks for

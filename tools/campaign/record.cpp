@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -55,7 +56,7 @@ Phase phase_of(const std::string& name) {
 }
 
 constexpr std::size_t kFirstQuantity = 9;  // columns before it
-constexpr std::size_t kPerQuantity = 7;
+constexpr std::size_t kPerQuantity = 8;
 
 FrameRecord frame_of(const CsvTable& table, std::size_t row) {
   FrameRecord frame;
@@ -66,9 +67,10 @@ FrameRecord frame_of(const CsvTable& table, std::size_t row) {
   std::size_t column = kFirstQuantity;
   for (QuantityRecord& q : frame.quantity) {
     q.truth = table.number(row, column);
-    q.measured = {table.number(row, column + 1), table.number(row, column + 2), table.number(row, column + 3),
-                  table.number(row, column + 4), state_of(table.cell(row, column + 5))};
-    q.reasons = reasons_of(table.cell(row, column + 6));
+    q.surveyed = table.number(row, column + 1);
+    q.measured = {table.number(row, column + 2), table.number(row, column + 3), table.number(row, column + 4),
+                  table.number(row, column + 5), state_of(table.cell(row, column + 6))};
+    q.reasons = reasons_of(table.cell(row, column + 7));
     column += kPerQuantity;
   }
   return frame;
@@ -89,6 +91,14 @@ RunRecord record_of(const CsvTable& table) {
 }
 
 }  // namespace
+
+double QuantityRecord::judged_truth() const {
+  if (!std::isfinite(surveyed)) return truth;
+  if (!std::isfinite(truth)) return surveyed;
+  const double low = std::min(truth, surveyed), high = std::max(truth, surveyed);
+  const double told = std::isfinite(measured.raw) ? measured.raw : measured.value;
+  return std::isfinite(told) ? std::clamp(told, low, high) : truth;
+}
 
 bool is_in_shares(const FrameRecord& frame) {
   return frame.phase != Phase::kDriveIn && frame.phase != Phase::kFirst;
@@ -112,7 +122,7 @@ bool same_outcome(const FrameRecord& a, const FrameRecord& b) {
 
 Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& limits) {
   const QuantityRecord& v = frame.quantity[quantity];
-  return tools::judge(v.measured, v.truth, is_angle(quantity), limit_of(quantity, limits));
+  return tools::judge(v.measured, v.judged_truth(), is_angle(quantity), limit_of(quantity, limits));
 }
 
 std::vector<std::string> record_head() {
@@ -120,8 +130,8 @@ std::vector<std::string> record_head() {
                                    "frame", "stamp_ns", "phase", "frame_reason"};
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const std::string name = pose_wall_quantity_name(q);
-    head.insert(head.end(), {name + "_truth", name, name + "_raw", name + "_sigma", name + "_pl", name + "_state",
-                             name + "_reason"});
+    head.insert(head.end(), {name + "_truth", name + "_surveyed", name, name + "_raw", name + "_sigma", name + "_pl",
+                             name + "_state", name + "_reason"});
   }
   return head;
 }
@@ -140,7 +150,7 @@ std::string record_lines(const RunRecord& record) {
                                       reason_names(frame.reasons)};
     for (const QuantityRecord& q : frame.quantity) {
       for (const double number :
-           {q.truth, q.measured.value, q.measured.raw, q.measured.sigma, q.measured.protection_level}) {
+           {q.truth, q.surveyed, q.measured.value, q.measured.raw, q.measured.sigma, q.measured.protection_level}) {
         cells.push_back(csv_number(number));
       }
       cells.insert(cells.end(), {pose_wall_state_name(q.measured.state), reason_names(q.reasons)});

@@ -15,6 +15,7 @@
 #include "pose_wall.h"
 #include "truth/alert_limits.hpp"
 #include "truth/error_statistics.hpp"
+#include "truth/truth_csv.hpp"
 
 namespace pose_wall::tools::campaign {
 
@@ -23,9 +24,14 @@ namespace pose_wall::tools::campaign {
 enum class Phase { kNone, kBefore, kEvent, kAfter, kDriveIn, kFirst };
 
 struct QuantityRecord {
-  double truth;
+  double truth;  // of the ideal road
   Measured measured;
-  std::uint32_t reasons;  // pose_wall_reason bits
+  std::uint32_t reasons;       // pose_wall_reason bits
+  double surveyed = kNoTruth;  // of the rock that is really there; in mine classes alone
+
+  // What the measured value is judged by. Rock that bulges has two truths, and what lies between them is not wrong: the
+  // nearest of the two, or the value itself.
+  double judged_truth() const;
 };
 
 struct FrameRecord {

@@ -12,6 +12,7 @@
 #include "campaign/event.hpp"
 #include "campaign/folder.hpp"
 #include "campaign/motion_runs.hpp"
+#include "campaign/surfaces.hpp"
 #include "motion/moving_engine.hpp"
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
@@ -35,13 +36,14 @@ void demand_ok(std::int32_t status, const Run& run) {
                                        pose_wall_status_text(status)));
 }
 
-FrameRecord record_of(const pose_wall_result& result, const TruthRow& truth) {
+FrameRecord record_of(const pose_wall_result& result, const TruthRow& truth, const TruthRow& surveyed) {
   FrameRecord record;
   record.stamp_ns = result.stamp_ns;
   record.reasons = result.frame_reasons;
   for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const pose_wall_value& v = result.quantity[q];
-    record.quantity[q] = {truth.value[q], {v.value, v.raw, v.sigma, v.protection_level, v.state}, v.reasons};
+    record.quantity[q] = {
+        truth.value[q], {v.value, v.raw, v.sigma, v.protection_level, v.state}, v.reasons, surveyed.value[q]};
   }
   return record;
 }
@@ -55,12 +57,22 @@ LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice) {
   return load_config(choice.config_file, settings);
 }
 
+namespace {
+
+sim::Simulator simulator_of(const Run& run) {
+  if (run.surface.empty()) return {setup_of(run), run.seed};
+  return {setup_of(run), run.seed, survey_of(run.surface)};
+}
+
+}  // namespace
+
 RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& instrument,
                   const std::function<void()>& on_frame) {
-  const sim::Simulator simulator(setup_of(run), run.seed);
+  const sim::Simulator simulator = simulator_of(run);
   const std::optional<Event> event = event_of(simulator.setup());
   const LoadedConfig loaded = config_for(simulator.setup(), choice);
   demand_ok(instrument.open(loaded), run);
+  const bool by_survey = sim::find_scene(run.scene)->kind == sim::SceneKind::kMine;
   RunRecord record{run, {}};
   for (std::uint32_t i = 0; i < frames_of(run); ++i) {
     const sim::Frame rendered = simulator.render(i);
@@ -68,7 +80,8 @@ RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& 
     frame.cloud.stamp_ns = rendered.stamp_ns;
     pose_wall_result result = api::make_result();
     demand_ok(instrument.process(frame.cloud, result), run);
-    record.frames.push_back(record_of(result, simulator.truth(i)));
+    record.frames.push_back(
+        record_of(result, simulator.truth(i), by_survey ? simulator.surveyed_truth(i) : TruthRow{}));
     record.frames.back().frame = i;
     record.frames.back().phase = phase_of(i, run, event);
     on_frame();

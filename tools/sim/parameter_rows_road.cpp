@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include "sim/parameter_rows.hpp"
+#include "sim/rock_scales.hpp"
 
 #define ROAD(...) POSE_WALL_SIM_NUMBER(road, Road, __VA_ARGS__)
 #define ROCK(...) POSE_WALL_SIM_NUMBER(rock, Rock, __VA_ARGS__)
@@ -19,6 +20,7 @@ const std::vector<Parameter> kRoadRows = {
     ROAD(lean_left_deg, "deg", -30.0, 30.0, "+ leans away from the road at the top"),
     ROAD(lean_right_deg, "deg", -30.0, 30.0, "see lean_left_deg"),
     ROAD(arch_springing_m, "m", 0.0, 20.0, "0: flat roof; else an elliptic arch from this height to height_m"),
+    ROAD(bow_m, "m", -0.5, 0.5, "+ the walls stand back by this in the middle of their height: a horseshoe"),
     ROAD(slope_deg, "deg", -30.0, 30.0,
          "along the road; visible only in things that stand upright by gravity: face, props, people"),
     ROAD(cross_fall_deg, "deg", -20.0, 20.0, "+ the floor rises to the left; walls keep upright"),
@@ -33,6 +35,13 @@ const std::vector<Parameter> kRoadRows = {
     ROAD(face_niche_m, "m", 0.1, 50.0, "see face_extra_width_m"),
     ROAD(rear_distance_m, "m", 0.0, 1000.0, "the road's end behind the start; 0: open"),
 
+    ROAD(ramp_deg, "deg", -15.0, 15.0, "+ floor and roof rise ahead from ramp_at_m on; the machine stays on its level"),
+    ROAD(ramp_at_m, "m", -100.0, 100.0, "ahead of the start"),
+    ROAD(ramp_length_m, "m", 0.5, 20.0, "level again behind it"),
+
+    POSE_WALL_SIM_WORDS(rock, Rock, rock, kRockWords, 4.0,
+                        "relief of several lengths as measured; plain: none but that of the keys below"),
+    ROCK(rock_scale, "1", 0.0, 2.0, "times that relief"),
     ROCK(roughness_m, "m", 0.0, 0.5, "standard deviation of walls, roof and face"),
     ROCK(roughness_length_m, "m", 0.05, 10.0, "where their correlation has fallen to 1/e"),
     ROCK(wave_m, "m", 0.0, 0.5, "amplitude of shotcrete waves"),
@@ -52,6 +61,7 @@ const std::vector<Parameter> kRoadRows = {
     FLOOR(rut_depth_m, "m", 0.0, 1.0, "two ruts along the road"),
     FLOOR(rut_gauge_m, "m", 0.2, 5.0, "between the ruts' middles"),
     FLOOR(rut_width_m, "m", 0.1, 2.0, "of each rut"),
+    FLOOR(camber_m, "m", -0.3, 0.3, "+ the middle of the floor is higher than its sides"),
     SIDE(floor, Floor, bench_side, "a bench or kerb along the wall"),
     FLOOR(bench_width_m, "m", 0.05, 10.0, "out of the wall"),
     FLOOR(bench_height_m, "m", 0.02, 3.0, "above the floor"),
@@ -71,6 +81,11 @@ const std::vector<Parameter> kRoadRows = {
     OPENING(crosscut_depth_m, "m", 0.1, 200.0, "from the wall to its end"),
     OPENING(crosscut_height_m, "m", 0.5, 50.0, "of its roof"),
     OPENING(crosscut_oblique_deg, "deg", -65.0, 65.0, "0: square to the road; + it leads ahead"),
+    SIDE(openings, Openings, niche_side, "recesses of a man's height, one after the other"),
+    OPENING(niche_pitch_m, "m", 2.0, 100.0, "from one to the next, give or take a quarter"),
+    OPENING(niche_width_m, "m", 0.3, 5.0, "along the road"),
+    OPENING(niche_depth_m, "m", 0.1, 5.0, "from the wall to its end"),
+    OPENING(niche_height_m, "m", 0.5, 5.0, "of its roof"),
     SIDE(openings, Openings, widening_side, "the wall steps back"),
     OPENING(widening_at_m, "m", -100.0, 100.0, "from here on"),
     OPENING(widening_m, "m", 0.01, 20.0, "by this much"),

@@ -25,6 +25,8 @@ class RockSurface {
   RockSurface() = default;
   RockSurface(const RockSurface&) = delete;
   RockSurface& operator=(const RockSurface&) = delete;
+  RockSurface(RockSurface&&) = default;
+  RockSurface& operator=(RockSurface&&) = default;
   virtual ~RockSurface() = default;
 
   // The first rock within t_max_m. Floor and roof by how they lie, z up; all else is kFace, of no side. From several

@@ -8,6 +8,7 @@
 
 namespace pose_wall::tools::sim {
 
+std::vector<SceneChoice> mines_scenes();
 std::vector<SceneChoice> walls_scenes();
 std::vector<SceneChoice> along_scenes();
 std::vector<SceneChoice> openings_scenes();

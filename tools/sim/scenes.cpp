@@ -57,6 +57,8 @@ const std::vector<NominalRange>& nominal_ranges() {
 
 const char* scene_kind_name(SceneKind kind) {
   switch (kind) {
+    case SceneKind::kMine:
+      return "mine";
     case SceneKind::kNominal:
       return "nominal";
     case SceneKind::kAdversarial:
@@ -70,8 +72,8 @@ const char* scene_kind_name(SceneKind kind) {
 const std::vector<SceneChoice>& scenes() {
   static const std::vector<SceneChoice> table = [] {
     std::vector<SceneChoice> all;
-    for (const auto& part : {walls_scenes(), along_scenes(), openings_scenes(), floors_scenes(), air_scenes(),
-                             machine_scenes(), sensor_scenes()}) {
+    for (const auto& part : {mines_scenes(), walls_scenes(), along_scenes(), openings_scenes(), floors_scenes(),
+                             air_scenes(), machine_scenes(), sensor_scenes()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;
@@ -80,10 +82,11 @@ const std::vector<SceneChoice>& scenes() {
 }
 
 const SceneChoice* find_scene(std::string_view name) {
+  static const SceneChoice surveyed{kSurveyedScene, SceneKind::kMine, "a real road", "as the road is", {}};
   for (const SceneChoice& scene : scenes()) {
     if (scene.name == name) return &scene;
   }
-  return nullptr;
+  return name == kSurveyedScene ? &surveyed : nullptr;
 }
 
 void apply_scene(Setup& setup, const SceneChoice& scene) {

@@ -5,23 +5,40 @@
 
 #include <cmath>
 
+#include "sim/random.hpp"
+
 namespace pose_wall::tools::sim {
 namespace {
 
-Relief rock_relief(const Rock& rock, const NoiseTile* tile, std::uint64_t identity) {
+constexpr double kNichesWithin_m = 60.0;  // of the start
+
+Relief rock_relief(const Rock& rock, const NoiseTile* tile, std::uint64_t identity, RockFace face = RockFace::kWall) {
   Relief relief;
   if (tile == nullptr) return relief;
   relief.tile = tile;
+  relief.scales =
+      RockScales(static_cast<RockKind>(rock.rock), face, rock.rock_scale, rock.rock_repeats != 0.0, mix(identity + 1u));
   relief.rough = NoiseLayer::make(rock.roughness_m, rock.roughness_length_m, rock.rock_repeats != 0.0, identity);
   relief.wave_m = rock.wave_m;
   relief.wave_per_m = 2.0 * M_PI / rock.wave_length_m;
   return relief;
 }
 
-Relief floor_relief(const Floor& floor, bool repeats, const NoiseTile* tile, std::uint64_t identity) {
+// + rises ahead.
+Ramp ramp_of(const Road& road) {
+  return {std::tan(road.ramp_deg * kRadPerDeg), road.ramp_at_m, road.ramp_length_m};
+}
+
+Relief floor_relief(const Setup& setup, const NoiseTile* tile, std::uint64_t identity) {
+  const Floor& floor = setup.floor;
+  const bool repeats = setup.rock.rock_repeats != 0.0;
   Relief relief;
   if (tile == nullptr) return relief;
   relief.tile = tile;
+  relief.scales = RockScales(static_cast<RockKind>(setup.rock.rock), RockFace::kFloor, setup.rock.rock_scale, repeats,
+                             mix(identity + 1u));
+  relief.bow = {-floor.camber_m, 0.0, 0.5 * setup.road.width_m};
+  relief.ramp = ramp_of(setup.road);
   relief.rough = NoiseLayer::make(floor.floor_roughness_m, floor.floor_roughness_length_m, repeats, identity);
   relief.hump = NoiseLayer::make(floor.hump_m, floor.hump_length_m, repeats, mix(identity));
   relief.rut_depth_m = floor.rut_depth_m;
@@ -63,6 +80,8 @@ void add_walls(const Setup& setup, const NoiseTile* tile, std::uint64_t seed, st
     const double lean = wall_lean_tangent(setup.road, side);
     Surface wall = wall_mean(setup.road, side, half_width, lean);
     wall.relief = rock_relief(setup.rock, tile, mix(seed + 10u + static_cast<unsigned>(side)));
+    const double wall_top_m = setup.road.arch_springing_m > 0.0 ? setup.road.arch_springing_m : setup.road.height_m;
+    if (tile != nullptr) wall.relief.bow = {setup.road.bow_m, 0.5 * wall_top_m, 0.5 * wall_top_m};
     out.push_back({wall, side > 0 ? Label::kWallLeft : Label::kWallRight, side, setup.rock.steel_pitch_m > 0.0});
 
     if (!has_side(setup.floor.muck_side, side)) continue;
@@ -77,7 +96,11 @@ void add_walls(const Setup& setup, const NoiseTile* tile, std::uint64_t seed, st
 void add_roof(const Setup& setup, const NoiseTile* tile, std::uint64_t seed, std::vector<RoadSurface>& out) {
   const Road& road = setup.road;
   if (road.roof == 0.0) return;
-  Surface roof{level_plane(road.height_m, -1.0), rock_relief(setup.rock, tile, mix(seed + 30u))};
+  Surface roof{level_plane(road.height_m, -1.0), rock_relief(setup.rock, tile, mix(seed + 30u), RockFace::kRoof)};
+  if (tile != nullptr) {
+    roof.relief.ramp = ramp_of(road);
+    roof.relief.ramp.tangent *= -1.0;
+  }
   if (road.arch_springing_m > 0.0) {
     roof.shape = Arch{0.5 * road.width_m, road.height_m - road.arch_springing_m, road.arch_springing_m};
   }
@@ -98,6 +121,17 @@ Recess make_recess(const Setup& setup, const NoiseTile* tile, std::uint64_t iden
   recess.bounds.push_back(back);
   if (height_m < road.height_m) recess.bounds.push_back({level_plane(height_m, -1.0), {}});
   return recess;
+}
+
+void add_niches(const Setup& setup, const NoiseTile* tile, std::uint64_t identity, int side, std::vector<Recess>& out) {
+  const Openings& o = setup.openings;
+  Random random(identity, 0x21c4);
+  const double first_m = -kNichesWithin_m + random.uniform(0.0, o.niche_pitch_m);
+  for (double at_m = first_m; at_m < kNichesWithin_m; at_m += o.niche_pitch_m) {
+    const double from_m = at_m + o.niche_pitch_m * random.uniform(-0.25, 0.25);
+    out.push_back(
+        make_recess(setup, tile, identity, side, from_m, from_m + o.niche_width_m, o.niche_depth_m, o.niche_height_m));
+  }
 }
 
 }  // namespace
@@ -132,10 +166,7 @@ std::vector<RoadSurface> road_surfaces(const Setup& setup, const NoiseTile* tile
   const Road& road = setup.road;
   std::vector<RoadSurface> out;
   add_walls(setup, tile, seed, out);
-  out.push_back({{floor_plane(road), floor_relief(setup.floor, setup.rock.rock_repeats != 0.0, tile, mix(seed + 1u))},
-                 Label::kFloor,
-                 0,
-                 false});
+  out.push_back({{floor_plane(road), floor_relief(setup, tile, mix(seed + 1u))}, Label::kFloor, 0, false});
   add_roof(setup, tile, seed, out);
   if (road.face_distance_m > 0.0) {
     const Plane face = face_plane(road, road.face_distance_m, road.face_oblique_deg * kRadPerDeg, -1.0);
@@ -159,6 +190,7 @@ std::vector<Recess> road_recesses(const Setup& setup, const NoiseTile* tile, std
       out.push_back(make_recess(setup, tile, identity, side, o.crosscut_at_m - half, o.crosscut_at_m + half,
                                 o.crosscut_depth_m, o.crosscut_height_m, o.crosscut_oblique_deg));
     }
+    if (has_side(o.niche_side, side)) add_niches(setup, tile, identity, side, out);
     if (has_side(o.widening_side, side)) {
       out.push_back(make_recess(setup, tile, identity, side, o.widening_at_m, kNever, o.widening_m, kNever));
     }

@@ -24,6 +24,7 @@ struct Road {
   double lean_left_deg = 0.0;  // + leans away at the top
   double lean_right_deg = 0.0;
   double arch_springing_m = 0.0;  // 0: flat roof; else an elliptic arch from here to height_m
+  double bow_m = 0.0;             // the walls stand back in the middle of their height: a horseshoe
   double slope_deg = 0.0;         // seen only in what stands upright by gravity: faces, props, people
   double cross_fall_deg = 0.0;    // + floor rises to the left; the walls keep upright
   double curve_radius_m = 0.0;    // 0: straight; + bends left
@@ -36,9 +37,14 @@ struct Road {
   double face_extra_width_m = 0.0;  // the last face_niche_m before the face are wider by this on each side
   double face_niche_m = 2.0;
   double rear_distance_m = 0.0;  // 0: open behind
+  double ramp_deg = 0.0;         // + floor and roof rise from ramp_at_m on, over ramp_length_m
+  double ramp_at_m = 3.0;
+  double ramp_length_m = 10.0;
 };
 
 struct Rock {
+  double rock = 0.0;         // RockKind of rock_scales.hpp: relief of several lengths, as measured
+  double rock_scale = 1.0;   // times that
   double roughness_m = 0.0;  // standard deviation of walls, roof and face
   double roughness_length_m = 0.5;
   double wave_m = 0.0;  // amplitude of shotcrete waves
@@ -59,6 +65,7 @@ struct Floor {
   double rut_depth_m = 0.0;
   double rut_gauge_m = 1.0;
   double rut_width_m = 0.4;
+  double camber_m = 0.0;  // the middle of the floor is higher than its sides
   double bench_side = kSideNone;
   double bench_width_m = 0.8;
   double bench_height_m = 0.4;
@@ -80,6 +87,11 @@ struct Openings {
   double crosscut_depth_m = 15.0;
   double crosscut_height_m = 3.5;
   double crosscut_oblique_deg = 0.0;  // 0: square to the road; + it leads ahead
+  double niche_side = kSideNone;
+  double niche_pitch_m = 12.0;
+  double niche_width_m = 1.5;
+  double niche_depth_m = 0.8;
+  double niche_height_m = 2.2;
   double widening_side = kSideNone;
   double widening_at_m = 2.0;
   double widening_m = 0.5;

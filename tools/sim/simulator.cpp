@@ -119,17 +119,28 @@ Frame Simulator::render(std::uint32_t frame_index) const {
   return frame;
 }
 
-TruthRow Simulator::truth(std::uint32_t frame_index, StepRule rule) const {
-  const Moment moment = moment_at(frame_time_s(setup_, sensor_frame(setup_, frame_index)));
-  const Placement& placement = moment.at;
-  TruthRow row = survey_.rock != nullptr ? survey_truth(*survey_.rock, placement, setup_.machine)
-                                         : truth_of(setup_, mean_rock_, moment.pose, rule);
-  const Eigen::Quaterniond q(placement.R_road_base);
-  const Vector& p = placement.origin_road;
+Moment Simulator::truth_moment(std::uint32_t frame_index) const {
+  return moment_at(frame_time_s(setup_, sensor_frame(setup_, frame_index)));
+}
+
+TruthRow Simulator::with_pose(TruthRow row, std::uint32_t frame_index, const Placement& at) const {
+  const Eigen::Quaterniond q(at.R_road_base);
+  const Vector& p = at.origin_road;
   row.pose = BasePose{p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
   row.frame = frame_index;
   row.stamp_ns = stamp_ns(frame_index);
   return row;
+}
+
+TruthRow Simulator::truth(std::uint32_t frame_index, StepRule rule) const {
+  if (survey_.rock != nullptr) return surveyed_truth(frame_index);
+  const Moment moment = truth_moment(frame_index);
+  return with_pose(truth_of(setup_, mean_rock_, moment.pose, rule), frame_index, moment.at);
+}
+
+TruthRow Simulator::surveyed_truth(std::uint32_t frame_index) const {
+  const Placement at = truth_moment(frame_index).at;
+  return with_pose(survey_truth(world_, at, setup_.machine), frame_index, at);
 }
 
 std::int64_t Simulator::stamp_ns(std::uint32_t frame_index) const {

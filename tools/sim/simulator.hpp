@@ -36,10 +36,15 @@ class Simulator {
   MachinePose pose(std::uint32_t frame_index) const;
   // May be called from several threads at once.
   Frame render(std::uint32_t frame_index) const;
+  // By the ideal road; of a real one, surveyed.
   TruthRow truth(std::uint32_t frame_index, StepRule rule = StepRule::kSquare) const;
+  // By planes of the rock that is really there (survey_truth.hpp), steel sets with it, objects and heaps without.
+  TruthRow surveyed_truth(std::uint32_t frame_index) const;
 
  private:
   std::int64_t stamp_ns(std::uint32_t frame_index) const;
+  Moment truth_moment(std::uint32_t frame_index) const;
+  TruthRow with_pose(TruthRow row, std::uint32_t frame_index, const Placement& at) const;
   Moment moment_at(double time_s) const;
 
   Setup setup_;

@@ -27,7 +27,10 @@ constexpr double kEnd_m = 2.5;           // ahead: the road ends
 constexpr double kTurnMost_deg = 40.0;   // from step to step
 constexpr double kTurnCost_m_deg = 0.1;  // of a turn, against the way that is free ahead
 constexpr double kBesides_m = 4.0;       // a wall further aside is an opening
-constexpr double kSearch_m = 1.0;        // between places that are tried for the beginning
+constexpr double kSearch_m = 1.0;        // between places that may be the beginning
+constexpr double kUpLeast = 0.87;        // cosine of 30 degrees: no road is steeper
+constexpr std::size_t kStarts = 12;      // that are tried, at least kStartsApart_m apart
+constexpr double kStartsApart_m = 15.0;  // a crosscut and the road that it leaves are two
 constexpr std::size_t kStepsMost = 5000;
 
 struct Standpoint {
@@ -59,6 +62,7 @@ class Walker {
     if (count < kLeast) return std::nullopt;
     const Vector plane = A.ldlt().solve(b);
     const Vector up = Vector(-plane[1], -plane[2], 1.0).normalized();
+    if (!(up.z() >= kUpLeast)) return std::nullopt;
     return Standpoint{Vector(above.x(), above.y(), plane[0]) + height_m_ * up, up};
   }
 
@@ -153,41 +157,64 @@ bool came_back(const std::vector<Standpoint>& line, const std::vector<Standpoint
   return std::any_of(line.begin(), line.end(), is_near) || std::any_of(other.begin(), other.end(), is_near);
 }
 
-}  // namespace
+struct Start {
+  double likeness;
+  Standpoint place;
+  double azimuth_rad;
+};
 
-std::vector<Placement> propose_path(const RockSurface& rock, const Vector& low, const Vector& high, double step_m,
-                                    double height_m) {
-  const Walker walker(rock, step_m, height_m);
-  std::optional<Standpoint> start;
-  double azimuth_rad = 0.0, best = 0.0;
+// The places most like one of a road, apart from each other, best first.
+std::vector<Start> starts(const Walker& walker, const Vector& low, const Vector& high) {
+  std::vector<Start> all, chosen;
   for (double x = low.x(); x <= high.x(); x += kSearch_m) {
     for (double y = low.y(); y <= high.y(); y += kSearch_m) {
       for (double z = low.z() + 1.0; z <= high.z(); z += 2.0) {
         const std::optional<Standpoint> place = walker.stand({x, y, z});
         double along_rad = 0.0;
         const double likeness = place ? walker.likeness(*place, &along_rad) : 0.0;
-        if (likeness > best) best = likeness, start = place, azimuth_rad = along_rad;
+        if (likeness > 0.0) all.push_back({likeness, *place, along_rad});
       }
     }
   }
-  if (!start) return {};
-  if (const auto middle = walker.stand(walker.centred(start->at, azimuth_rad, kBesides_m))) start = middle;
+  std::stable_sort(all.begin(), all.end(), [](const Start& a, const Start& b) { return a.likeness > b.likeness; });
+  for (const Start& start : all) {
+    const auto is_near = [&](const Start& other) { return (start.place.at - other.place.at).norm() < kStartsApart_m; };
+    if (chosen.size() < kStarts && std::none_of(chosen.begin(), chosen.end(), is_near)) chosen.push_back(start);
+  }
+  return chosen;
+}
 
+// Both ways from the middle of a place, until the road ends or comes back to itself.
+std::vector<Standpoint> walk(const Walker& walker, const Start& from, double step_m) {
+  Standpoint start = from.place;
+  if (const auto middle = walker.stand(walker.centred(start.at, from.azimuth_rad, kBesides_m))) start = *middle;
   std::array<std::vector<Standpoint>, 2> ways;  // back, ahead
-  for (int k = 0; k < 2; ++k) {
-    std::vector<Standpoint>& way = ways[static_cast<std::size_t>(k)];
-    double heading_rad = azimuth_rad + (k == 0 ? M_PI : 0.0);
-    Standpoint at = *start;
-    while (way.size() < kStepsMost) {
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    double heading_rad = from.azimuth_rad + (k == 0 ? M_PI : 0.0);
+    Standpoint at = start;
+    while (ways[k].size() < kStepsMost) {
       const std::optional<Standpoint> next = walker.step(at, &heading_rad);
-      if (!next || came_back(way, ways[static_cast<std::size_t>(1 - k)], next->at, step_m)) break;
-      way.push_back(*next);
+      if (!next || came_back(ways[k], ways[1 - k], next->at, step_m)) break;
+      ways[k].push_back(*next);
       at = *next;
     }
   }
   std::vector<Standpoint> line(ways[0].rbegin(), ways[0].rend());
-  line.push_back(*start);
+  line.push_back(start);
   line.insert(line.end(), ways[1].begin(), ways[1].end());
+  return line;
+}
+
+}  // namespace
+
+std::vector<Placement> propose_path(const RockSurface& rock, const Vector& low, const Vector& high, double step_m,
+                                    double height_m) {
+  const Walker walker(rock, step_m, height_m);
+  std::vector<Standpoint> line;
+  for (const Start& start : starts(walker, low, high)) {
+    std::vector<Standpoint> other = walk(walker, start, step_m);
+    if (other.size() > line.size()) line = std::move(other);
+  }
   if (line.size() < 2) return {};
 
   std::vector<Placement> path;

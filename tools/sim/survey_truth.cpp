@@ -9,15 +9,18 @@
 #include <optional>
 
 #include "sim/middle_of.hpp"
+#include "sim/random.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {
 
 constexpr double kStep_m = 0.05;     // between probes: half the spacing of a coarse survey's points
-constexpr double kReach_m = 30.0;    // of a probe: wider than any roadway
 constexpr double kNearest_m = 0.02;  // a fit that is no better than that stays as it is
 constexpr double kHalf = 0.5;        // of the probes must lie near the plane
 constexpr int kRounds = 20;
+constexpr int kPicks = 300;           // of three probes: with half of them off, 1e-17 that none is of the plane
+constexpr std::size_t kJudges = 300;  // probes that tell how near half of them are
+constexpr double kSpread_m2 = 0.5;    // three probes nearer to one line than that tell no plane
 constexpr double kTukey = 4.685, kSigmaOfMad = 1.4826;  // 95 % efficient under normal errors
 
 // One probe: where it ended, in coordinates (a, b) of the region and h square to it.
@@ -31,32 +34,63 @@ struct Fit {
   double near = 0.0;  // share of all probes, those that met nothing too, that weigh something
 };
 
-// Least squares with Tukey's weights, from the median on.
+using Plane3 = Eigen::Vector3d;
+
+double height_over(const Plane3& plane, const Probe& p) {
+  return p.h - plane.dot(Plane3(1.0, p.a, p.b));
+}
+
+// The plane through three probes that half of some of them are nearest to (Rousseeuw 1984): whatever the other half
+// does, niches and turned machines, it stays. The spread of that half goes with it.
+struct MiddlePlane {
+  Plane3 plane = Plane3::Zero();
+  double median_m = kProbe_m;
+};
+
+MiddlePlane middle_plane(const std::vector<Probe>& probes) {
+  Random random(kPicks, probes.size());
+  const auto pick = [&]() -> const Probe& {
+    return probes[static_cast<std::size_t>(random.uniform() * static_cast<double>(probes.size()))];
+  };
+  MiddlePlane best;
+  std::vector<double> off(kJudges);
+  for (int k = 0; k < kPicks; ++k) {
+    Eigen::Matrix3d A;
+    Eigen::Vector3d b;
+    for (int i = 0; i < 3; ++i) {
+      const Probe& p = pick();
+      A.row(i) << 1.0, p.a, p.b;
+      b[i] = p.h;
+    }
+    if (std::abs(A.determinant()) < kSpread_m2) continue;
+    const Plane3 plane = A.inverse() * b;
+    for (std::size_t i = 0; i < kJudges; ++i)
+      off[i] = std::abs(height_over(plane, probes[i * probes.size() / kJudges]));
+    const double median_m = middle_of(&off);
+    if (median_m < best.median_m) best = {plane, median_m};
+  }
+  return best;
+}
+
+// Least squares with Tukey's weights of that spread, from that plane on: an MM-estimate (Yohai 1987).
 std::optional<Fit> fit_plane(const std::vector<Probe>& probes, std::size_t sent) {
   if (static_cast<double>(probes.size()) < kHalf * static_cast<double>(sent)) return std::nullopt;
-  std::vector<double> off(probes.size());
-  for (std::size_t i = 0; i < probes.size(); ++i) off[i] = probes[i].h;
+  const MiddlePlane start = middle_plane(probes);
+  const double width_m = kTukey * std::max(kSigmaOfMad * start.median_m, kNearest_m);
   Fit fit;
-  fit.at[0] = middle_of(&off);
+  fit.at = start.plane;
   for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-      const Probe& p = probes[i];
-      off[i] = p.h - fit.at.dot(Eigen::Vector3d(1.0, p.a, p.b));
-    }
-    std::vector<double> size = off;
-    for (double& s : size) s = std::abs(s);
-    const double width = kTukey * std::max(kSigmaOfMad * middle_of(&size), kNearest_m);
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
     std::size_t near = 0;
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-      const double u = off[i] / width;
+    for (const Probe& p : probes) {
+      const double u = height_over(fit.at, p) / width_m;
       if (std::abs(u) >= 1.0) continue;
       ++near;
       const double weight = (1.0 - u * u) * (1.0 - u * u);
-      const Eigen::Vector3d row(1.0, probes[i].a, probes[i].b);
+      const Plane3 row(1.0, p.a, p.b);
       A += weight * row * row.transpose();
-      b += weight * probes[i].h * row;
+      b += weight * p.h * row;
     }
     fit.at = A.ldlt().solve(b);
     fit.near = static_cast<double>(near) / static_cast<double>(sent);
@@ -79,7 +113,7 @@ std::optional<FoundPlane> probe(const RockSurface& rock, const Vector& middle, c
   for (double at_a = -half_a_m; at_a <= half_a_m + 1e-9; at_a += kStep_m) {
     for (double at_b = low_b_m; at_b <= high_b_m + 1e-9; at_b += kStep_m) {
       ++sent;
-      const Hit hit = rock.trace({middle + at_a * a + at_b * b, c}, kReach_m);
+      const Hit hit = rock.trace({middle + at_a * a + at_b * b, c}, kProbe_m);
       if (hit.label != Label::kNone) probes.push_back({at_a, at_b, hit.t_m});
     }
   }

@@ -5,8 +5,9 @@
 //
 // Floor: the plane, by area, of what lies below base within kFloorAlong_m along the road and kFloorAcross_m across it.
 // Wall: the plane, by area, of what lies to that side within kWallAlong_m along the road, kWallLow_m to kWallHigh_m
-// above the floor. Openings and things weigh little, by Tukey's function of their distance from the plane. A wall of
-// which less than half is near its plane has no truth, nor has yaw without any wall.
+// above the floor. An MM-estimate (Yohai 1987): openings and things weigh little, by Tukey's function of their
+// distance from the plane that half of the rock is nearest to. A wall of which less than half is near its plane has no
+// truth, nor has yaw without any wall.
 #pragma once
 
 #include "sim/rock_surface.hpp"
@@ -19,6 +20,9 @@ namespace pose_wall::tools::sim {
 // which 2.5 m met fewer openings than 5 m, and as wide as a machine and half a metre on either side. 2026-11.
 inline constexpr double kFloorAlong_m = 3.0, kFloorAcross_m = 1.1, kWallAlong_m = 2.5, kWallLow_m = 0.25,
                         kWallHigh_m = 2.5;
+
+// How far a probe looks for rock: wider than any roadway.
+inline constexpr double kProbe_m = 30.0;
 
 // Values alone: without pose and stamp.
 TruthRow survey_truth(const RockSurface& rock, const Placement& base, const Machine& machine);

@@ -14,9 +14,10 @@ constexpr std::size_t kMostSurfaces = 10;
 
 bool needs_tile(const Setup& setup) {
   const Floor& f = setup.floor;
-  return setup.rock.roughness_m > 0.0 || setup.rock.wave_m > 0.0 || f.floor_roughness_m > 0.0 || f.hump_m > 0.0 ||
-         f.rut_depth_m > 0.0 || setup.rock.texture > 0.0 || f.muck_side != static_cast<double>(kSideNone) ||
-         f.puddle_coverage > 0.0;
+  const bool has_form = setup.road.bow_m != 0.0 || setup.road.ramp_deg != 0.0 || f.camber_m != 0.0;
+  return has_form || setup.rock.rock != 0.0 || setup.rock.roughness_m > 0.0 || setup.rock.wave_m > 0.0 ||
+         f.floor_roughness_m > 0.0 || f.hump_m > 0.0 || f.rut_depth_m > 0.0 || setup.rock.texture > 0.0 ||
+         f.muck_side != static_cast<double>(kSideNone) || f.puddle_coverage > 0.0;
 }
 
 void hit_things(const Ray& ray, const std::vector<Primitive>& things, const SectorIndex& index, Hit* best) {
@@ -71,6 +72,7 @@ World World::mean(const Setup& setup) {
   bare.rock.steel_pitch_m = 0.0;
   bare.floor = Floor{};
   bare.openings.crosscut_side = kSideNone;
+  bare.openings.niche_side = kSideNone;
   World world;
   world.line_ = CentreLine(bare.road.curve_radius_m);
   world.rock_ = bare.rock;
@@ -100,13 +102,13 @@ std::vector<Primitive> World::objects_at(double time_s) const {
 }
 
 Hit World::trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& things, const SectorIndex& index) const {
-  Hit best = trace_rock(ray, t_max_m);
+  Hit best = trace(ray, t_max_m);
   if (!index.empty()) hit_things(ray, things, index, &best);
   return best;
 }
 
 // Surfaces in the order in which the ray comes into their reach; those it reaches after the best hit are not searched.
-Hit World::trace_rock(const Ray& ray, double t_max_m) const {
+Hit World::trace(const Ray& ray, double t_max_m) const {
   if (surveyed_) return surveyed_->trace(ray, t_max_m);
   std::array<double, kMostSurfaces> start{};
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {

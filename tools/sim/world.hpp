@@ -12,8 +12,8 @@
 
 namespace pose_wall::tools::sim {
 
-// The road, and what stands or walks in it.
-class World {
+// The road, and what stands or walks in it. Its surface is the rock alone, with steel sets.
+class World final : public RockSurface {
  public:
   World(const Setup& setup, std::uint64_t seed);
   // The rock of a real road, and nothing that stands in it.
@@ -26,7 +26,7 @@ class World {
   const std::vector<Primitive>& objects() const { return objects_; }
   std::vector<Primitive> objects_at(double time_s) const;
   Hit trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& things, const SectorIndex& index) const;
-  Hit trace_rock(const Ray& ray, double t_max_m) const;
+  Hit trace(const Ray& ray, double t_max_m) const override;
   bool is_surveyed() const { return surveyed_ != nullptr; }
   const Plane& floor() const { return floor_; }
   // Smooth field over the floor, normally distributed, that decides where water stands.

@@ -29,6 +29,10 @@ struct SurveyRock {
 // up by its specification and is turned. disc_radius_m: none means twice the cloud's own spacing.
 SurveyRock read_survey_rock(const std::filesystem::path& file, std::optional<double> disc_radius_m);
 
+// A way through it that nobody gave poses for (survey_line.hpp), a place each metre, in the height of a sensor on a low
+// machine. Throws SurveyError that names the file where no place of it is like a road.
+std::vector<sim::Placement> propose_survey_path(const SurveyRock& rock, const std::filesystem::path& file);
+
 // Lines `t x y z qx qy qz qw` (TUM): base in the rock's frame, one line a frame.
 std::vector<sim::Placement> read_survey_path(const std::filesystem::path& file);
 // The same lines, of poses a second apart.

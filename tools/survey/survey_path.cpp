@@ -6,9 +6,25 @@
 #include <Eigen/Geometry>
 
 #include "planar/relations.hpp"
+#include "sim/survey_line.hpp"
 #include "survey/survey_file.hpp"
 
 namespace pose_wall::tools {
+namespace {
+
+constexpr double kProposedStep_m = 1.0, kProposedHeight_m = 1.3;
+
+}  // namespace
+
+std::vector<sim::Placement> propose_survey_path(const SurveyRock& rock, const std::filesystem::path& file) {
+  const std::vector<sim::Placement> path =
+      sim::propose_path(*rock.rock, rock.low, rock.high, kProposedStep_m, kProposedHeight_m);
+  if (!path.empty()) return path;
+  throw SurveyError(
+      fmt::format("{}: no place in it is like a road, with a floor and walls around; is z up, in metres? Poses of your "
+                  "own go by --path",
+                  file.string()));
+}
 
 std::vector<sim::Placement> read_survey_path(const std::filesystem::path& file) {
   std::vector<sim::Placement> path;

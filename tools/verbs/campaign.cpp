@@ -274,6 +274,9 @@ void demand_words_go_together(const CLI::App& verb, const CampaignOptions& optio
     throw std::invalid_argument(
         "--drive-in applies to scenes; in the classes of --motion the machine drives by itself");
   }
+  if (options.plan.motion && !options.plan.surfaces.empty()) {
+    throw std::invalid_argument("--surface is a road for the engine; --motion has classes of its own");
+  }
   if (options.plan.motion && !options.scans.empty()) {
     throw std::invalid_argument("--scans applies to scenes; each class of --motion has its own");
   }
@@ -319,9 +322,12 @@ void add_plan_options(CLI::App& verb, CampaignOptions& options) {
   verb.add_option("--scenes", plan.scenes, "Names, separated by commas; see pose_wall sim --list, and --motion --list")
       ->delimiter(',')
       ->transform(trimmed);
-  verb.add_option("--kind", plan.kind, "Kind of scenes: nominal, adversarial, unobservable or all")
+  verb.add_option("--kind", plan.kind, "Kind of scenes: mine, nominal, adversarial, unobservable or all")
       ->capture_default_str()
-      ->check(one_of({"nominal", "adversarial", "unobservable", "all"}));
+      ->check(one_of({"mine", "nominal", "adversarial", "unobservable", "all"}));
+  verb.add_option("--surface", plan.surfaces,
+                  "A real road besides the scenes: its scan as of `pose_wall sim --surface`; may come several times")
+      ->type_name("FILE");
   verb.add_option("--sensors", plan.sensors, "Names, separated by commas")->delimiter(',')->transform(trimmed);
   verb.add_option("--draws", plan.draws, "Draws per scene and sensor; overrides --size")
       ->check(whole_number_within(1, 1000000));

@@ -23,7 +23,6 @@
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
 #include "sim/simulator.hpp"
-#include "sim/survey_line.hpp"
 #include "survey/survey_file.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
@@ -39,8 +38,6 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr std::uint32_t kFrames = 10;
-// Of a path that nobody gave: a place of a trial each metre, in the height of a sensor on a low machine.
-constexpr double kProposedStep_m = 1.0, kProposedHeight_m = 1.3;
 
 struct SimOptions {
   std::string scene = "clean";
@@ -79,6 +76,9 @@ void print_list() {
 }
 
 sim::Setup resolve_setup(const SimOptions& options) {
+  if (options.scene == sim::kSurveyedScene && options.surface.empty()) {
+    throw std::invalid_argument(fmt::format("--scene {}: it is a real road; --surface FILE has it", options.scene));
+  }
   sim::Setup setup = sim::make_setup(options.scene, options.sensor, options.random, options.seed);
   if (options.rate_hz) sim::set_parameter(setup, "rate_hz", fmt::format("{}", *options.rate_hz));
   for (const std::string& assignment : options.settings) sim::set_parameter(setup, assignment);
@@ -108,15 +108,7 @@ void refuse_keys_of_roads(const SimOptions& options) {
 
 // The poses of --path, or those that the tool proposes.
 std::vector<sim::Placement> path_of(const SimOptions& options, const SurveyRock& rock) {
-  if (options.path.empty()) {
-    const std::vector<sim::Placement> path =
-        sim::propose_path(*rock.rock, rock.low, rock.high, kProposedStep_m, kProposedHeight_m);
-    if (!path.empty()) return path;
-    throw std::invalid_argument(
-        fmt::format("--surface {}: no place in it is like a road, with a floor and walls around; "
-                    "is z up, in metres? Poses of your own go by --path",
-                    options.surface));
-  }
+  if (options.path.empty()) return propose_survey_path(rock, options.surface);
   std::vector<sim::Placement> path = read_survey_path(options.path);
   const auto stands = [&](const sim::Placement& base) {
     constexpr double kHigh_m = 30.0;  // no base stands higher above its floor
@@ -179,7 +171,7 @@ struct Written {
 Written write_frames(const SimOptions& options, const sim::Simulator& simulator) {
   const std::uint32_t frames = *options.frames;
   ProgressBar bar(frames, !options.quiet && is_terminal(2));
-  std::vector<TruthRow> truth;
+  std::vector<TruthRow> truth, surveyed;
   std::uint32_t i = 0;
   for (; i < frames && !InterruptWatch::is_interrupted(); ++i) {
     const sim::Frame frame = simulator.render(i);
@@ -191,10 +183,13 @@ Written write_frames(const SimOptions& options, const sim::Simulator& simulator)
       write_pcd_binary(file, frame.xyz_intensity.data(), frame.count(), frame.stamp_ns);
     }
     truth.push_back(simulator.truth(i));
+    if (options.surface.empty()) surveyed.push_back(simulator.surveyed_truth(i));
     bar.advance(file.filename().string());
   }
   const std::uint32_t removed = remove_later_frames(options, i);
-  write_truth_csv(std::filesystem::path(options.output) / "truth.csv", truth);
+  const std::filesystem::path folder(options.output);
+  write_truth_csv(folder / "truth.csv", truth);
+  if (options.surface.empty()) write_truth_csv(folder / "surveyed_truth.csv", surveyed);
   return {i, removed};
 }
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Mine classes have two truths. Proves: what lies between them is not wrong, what lies beyond both is; each is told by
+// its name; such classes have rows of their own, and a misleading value in them fails the gate; records keep both.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "campaign/card_files.hpp"
+#include "campaign/card_sections.hpp"
+#include "campaign/gate.hpp"
+#include "campaign/plan.hpp"
+#include "campaign/runner.hpp"
+#include "campaign_records.hpp"
+#include "ran_command.hpp"
+#include "test_files.hpp"
+
+namespace pose_wall::tools::test {
+namespace {
+
+using namespace campaign;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+QuantityRecord told(double raw, double road, double surveyed) {
+  return {road, {raw, raw, 0.01, 0.015, POSE_WALL_VALID}, 0, surveyed};
+}
+
+TEST(MineTruths, WhatLiesBetweenIsNotWrong) {
+  EXPECT_EQ(told(2.45, 2.4, 2.5).judged_truth(), 2.45);
+  EXPECT_EQ(told(2.45, 2.5, 2.4).judged_truth(), 2.45);
+  EXPECT_EQ(told(2.7, 2.4, 2.5).judged_truth(), 2.5) << "beyond both, it is off the nearer one";
+  EXPECT_EQ(told(2.1, 2.4, 2.5).judged_truth(), 2.4);
+}
+
+TEST(MineTruths, OneAloneCounts) {
+  EXPECT_EQ(told(2.45, 2.4, kNone).judged_truth(), 2.4);
+  EXPECT_EQ(told(2.45, kNone, 2.5).judged_truth(), 2.5);
+  EXPECT_TRUE(std::isnan(told(2.45, kNone, kNone).judged_truth()));
+  EXPECT_EQ(told(kNone, 2.4, 2.5).judged_truth(), 2.4) << "a value that is not there still has a truth";
+}
+
+RunRecord mine_run(double raw, double road, double surveyed) {
+  RunRecord run = good_run("mine_blasted", 0, 2);
+  for (auto& frame : run.frames) frame.quantity[POSE_WALL_D_LF] = told(raw, road, surveyed);
+  return run;
+}
+
+TEST(MineTruths, ClassesHaveARowOfTheirOwn) {
+  const Card card = card_of({mine_run(2.45, 2.4, 2.5), good_run("clean", 0, 3)});
+  EXPECT_EQ(card.mine.frames.frames, 2U);
+  EXPECT_EQ(card.mine.frames.misleading, 0U);
+  EXPECT_EQ(card.judged.frames.frames, 3U) << "levels are made for the ideal road";
+  ASSERT_FALSE(card.kinds.empty());
+  EXPECT_EQ(card.kinds.front().kind, sim::SceneKind::kMine);
+}
+
+TEST(MineTruths, EachIsToldByItsName) {
+  const Card card = card_of({mine_run(2.55, 2.4, 2.5)});  // 15 cm off the road, 5 cm off the rock
+  const ClassCard& one = card.classes.front();
+  EXPECT_EQ(one.by_road[POSE_WALL_D_LF].valid_beyond_alert(), 2U);
+  EXPECT_EQ(one.by_survey[POSE_WALL_D_LF].valid_beyond_alert(), 0U);
+  EXPECT_EQ(one.quantities[POSE_WALL_D_LF].valid_beyond_alert(), 0U);
+  EXPECT_TRUE(
+      contains(truths_section(card), "| mine_blasted | os1-64 | distances | 8 | 150.0 mm | 50.0 mm | 2 | 0 | 0 |"))
+      << truths_section(card);
+  EXPECT_EQ(truths_section(card_of({good_run("clean", 0, 3)})), "");
+}
+
+TEST(MineTruths, AValueBeyondBothFailsTheGate) {
+  EXPECT_FALSE(contains(joined(gate_faults(card_of({mine_run(2.58, 2.4, 2.5)}))), "misleading"));
+  EXPECT_TRUE(
+      contains(joined(gate_faults(card_of({mine_run(2.65, 2.4, 2.5)}))), "mine classes: misleading frames: 2 of 2"));
+}
+
+TEST(MineTruths, ARecordKeepsBoth) {
+  const TempFolder folder;
+  const RunRecord run = mine_run(2.45, 2.4, 2.5);
+  write_record(folder.file("r.csv"), run, "c");
+  const QuantityRecord back = read_record(folder.file("r.csv"), "c").frames[1].quantity[POSE_WALL_D_LF];
+  EXPECT_EQ(back.truth, 2.4);
+  EXPECT_EQ(back.surveyed, 2.5);
+  EXPECT_EQ(back.measured.raw, 2.45);
+}
+
+TEST(MineTruths, MeasuredRunsOfMinesHaveBothAndOthersOne) {
+  PlanRequest request;
+  request.scenes = {"mine_cut", "clean"};
+  request.sensors = {"vlp16"};
+  request.draws = 1;
+  request.frames = 1;
+  const Instrument nothing = {[](const LoadedConfig&) { return std::int32_t{POSE_WALL_OK}; },
+                              [](const pose_wall_cloud&, pose_wall_result&) { return std::int32_t{POSE_WALL_OK}; }};
+  for (const auto& run : make_plan(request)) {
+    const QuantityRecord q = measure(run, {}, nothing, [] {}).frames.front().quantity[POSE_WALL_D_LF];
+    EXPECT_TRUE(std::isfinite(q.truth)) << run.scene;
+    EXPECT_EQ(std::isfinite(q.surveyed), run.scene == "mine_cut") << run.scene;
+  }
+}
+
+TEST(CampaignSurface, ARoadThatCannotBeReadIsNamed) {
+  const TempFolder folder;
+  const Ran ran =
+      command({"campaign", "--scenes", "clean", "--surface", folder.file("none.ply"), "--output", folder.file("out")});
+  EXPECT_NE(ran.exit_status, 0);
+  EXPECT_TRUE(contains(ran.errors, "none.ply")) << ran.errors;
+  const Ran motion = command({"campaign", "--motion", "--surface", "a.ply", "--output", folder.file("out")});
+  EXPECT_TRUE(contains(motion.errors, "--surface")) << motion.errors;
+  const Ran sim = command({"sim", "--scene", "surveyed", "--output", folder.file("sim")});
+  EXPECT_TRUE(contains(sim.errors, "--surface FILE")) << sim.errors;
+}
+
+}  // namespace
+}  // namespace pose_wall::tools::test
