@@ -32,10 +32,12 @@ echo "$table" | grep -Eq '^vlp16 +14 of +14 +0 +0 ' ||
 [ -s "$work/trial/vlp16/errors.txt" ] || { echo "there is no errors.txt"; exit 1; }
 
 # Near the ends of the box, where the floor ends, angles are not valid.
-"$POSE_WALL" campaign --quiet --scenes clean --sensors vlp16 --draws 1 --surface "$work/box.obj" --output "$work/campaign"
-grep -Eq '^\| surveyed \| vlp16 \| mine \| 1 \| 6[0-9] \| [89][0-9.]+ % \| [89][0-9.]+ % \| 100 % ' "$work/campaign/card.md" ||
-  { grep '^| surveyed' "$work/campaign/card.md"; echo "the card has no row of the box, mostly valid"; exit 1; }
-grep -q "each frame by itself: $work/box.obj" "$work/campaign/card.md" || { echo "the card names no box"; exit 1; }
+card=$work/campaign/card.md
+"$POSE_WALL" campaign --quiet --scenes clean --sensors vlp16 --draws 1 --surface "$work/box.obj" \
+  --output "$work/campaign"
+grep -Eq '^\| surveyed \| vlp16 \| mine \| 1 \| 6[0-9] \| [89][0-9.]+ % \| [89][0-9.]+ % \| 100 % ' "$card" ||
+  { grep '^| surveyed' "$card"; echo "the card has no row of the box, mostly valid"; exit 1; }
+grep -q "each frame by itself: $work/box.obj" "$card" || { echo "the card names no box"; exit 1; }
 
 "$(dirname "$POSE_WALL")/pose_wall_rock" --surface "$work/box.obj" --scene mine_blasted --roads 1 \
   --output "$work/rock" > "$work/rock.txt"

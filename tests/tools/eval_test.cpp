@@ -4,6 +4,7 @@
 // Proves: the tables of eval keep the four states apart, never call a value usable that was not valid, say their units,
 // and come in both languages. The numbers: comparison_test.cpp.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -90,6 +91,28 @@ TEST(EvalTables, JsonCountsEachState) {
   EXPECT_EQ(roll.at("degraded"), 2);
   EXPECT_EQ(roll.at("held"), 1);
   EXPECT_EQ(roll.at("invalid"), 6);
+}
+
+// A folder of the simulator's: what is right by one truth is wrong by the other, and each says its name.
+TEST(EvalTables, AFolderHasTwoTruths) {
+  const Roll roll({"valid", "valid"});
+  std::string road = "frame,stamp_ns,roll\n", surveyed = road;
+  for (int f = 0; f < 10; ++f) {
+    road += fmt::format("{},{},0\n", f, 100 * f);
+    surveyed += fmt::format("{},{},0.1\n", f, 100 * f);
+  }
+  roll.folder.write("truth.csv", road);
+  const std::string folder = roll.folder.path(), results = roll.folder.file("o.csv");
+  const Ran one = command({"eval", results, folder});
+  EXPECT_TRUE(contains(one.printed, "truth.csv: the road as a whole")) << one.printed;
+  EXPECT_FALSE(contains(one.printed, "surveyed")) << "there is none";
+  roll.folder.write("surveyed_truth.csv", surveyed);
+  const Ran both = command({"eval", results, folder});
+  EXPECT_TRUE(contains(both.printed, "2 of 2") && contains(both.printed, "0 of 2")) << both.printed;
+  EXPECT_TRUE(contains(both.printed, "surveyed_truth.csv: planes of the rock")) << both.printed;
+  const nlohmann::json page = nlohmann::json::parse(command({"eval", results, folder, "--json"}).printed);
+  EXPECT_EQ(page.at("truth.csv").at("quantities").at("roll").at("valid_beyond_alert"), 2);
+  EXPECT_EQ(page.at("surveyed_truth.csv").at("quantities").at("roll").at("valid_beyond_alert"), 0);
 }
 
 TEST(EvalTables, ComeInChinese) {

@@ -7,11 +7,13 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "angles.hpp"
@@ -150,7 +152,7 @@ Json json_points(const Efficiency& efficiency) {
           {"believable", efficiency.is_believable()}};
 }
 
-void print_json(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
+Json comparison_json(const Comparison& comparison, const std::optional<Efficiency>& efficiency) {
   Json page = {{"matched_by", comparison.matched_by},
                {"matched", comparison.matched},
                {"other_stamps", comparison.other_stamps},
@@ -174,7 +176,7 @@ void print_json(const Comparison& comparison, const std::optional<Efficiency>& e
     if (efficiency) page["quantities"][quantity.name]["bound"] = json_bound(efficiency->quantity[quantity.index]);
   }
   if (efficiency) page["bound"] = json_points(*efficiency);
-  fmt::print("{}\n", json_text(page, 2));
+  return page;
 }
 
 std::optional<Efficiency> efficiency(const EvalOptions& options, const LoadedConfig& loaded, const CsvTable& results,
@@ -221,19 +223,48 @@ int eval_motion(const EvalOptions& options, const CsvTable& results, const CsvTa
   return kExitDone;
 }
 
-int eval(const EvalOptions& options) {
-  demand_settings_for_bound(options);
-  const LoadedConfig loaded = load_config(options.config_file, options.settings);
-  tell_notes(loaded, false);
+// Against one file of truth. JSON where it was asked for; tables are printed.
+Json eval_one(const EvalOptions& options, const LoadedConfig& loaded, const CsvTable& results, const CsvTable& truth) {
   const AlertLimits limits = alert_limits_of(loaded.config);
-  const CsvTable results = read_csv_file(options.results);
-  const CsvTable truth = read_csv_file(options.truth);
-  if (is_motion_table(results)) return eval_motion(options, results, truth);
   const Comparison comparison = in_csv_file(say("{} against {}", options.results, options.truth),
                                             [&] { return compare_with_truth(results, truth, limits); });
   tell_other_stamps(options, comparison.other_stamps, comparison.matched);
   const std::optional<Efficiency> bound = efficiency(options, loaded, results, truth, comparison);
-  options.json ? print_json(comparison, bound) : print_tables(comparison, bound);
+  if (options.json) return comparison_json(comparison, bound);
+  print_tables(comparison, bound);
+  return {};
+}
+
+// A folder of `pose_wall sim` has two truths, each under its name.
+int eval_both(EvalOptions options, const LoadedConfig& loaded, const CsvTable& results) {
+  const std::filesystem::path folder(options.truth);
+  const std::pair<const char*, std::string> truths[] = {
+      {"truth.csv", tr("the road as a whole")},
+      {"surveyed_truth.csv", tr("planes of the rock that is really there, within 2.5 m")}};
+  Json page;
+  for (const auto& [file, about] : truths) {
+    options.truth = (folder / file).string();
+    if (page.empty() || std::filesystem::exists(options.truth)) {
+      if (!options.json) fmt::print("{}{}: {}\n", page.empty() ? "" : "\n", file, about);
+      page[file] = eval_one(options, loaded, results, read_csv_file(options.truth));
+    }
+  }
+  if (options.json) fmt::print("{}\n", json_text(page, 2));
+  return kExitDone;
+}
+
+int eval(const EvalOptions& options) {
+  demand_settings_for_bound(options);
+  const LoadedConfig loaded = load_config(options.config_file, options.settings);
+  tell_notes(loaded, false);
+  const CsvTable results = read_csv_file(options.results);
+  const bool is_folder = std::filesystem::is_directory(options.truth);
+  if (is_folder && !is_motion_table(results)) return eval_both(options, loaded, results);
+  const CsvTable truth =
+      read_csv_file(is_folder ? (std::filesystem::path(options.truth) / "truth.csv").string() : options.truth);
+  if (is_motion_table(results)) return eval_motion(options, results, truth);
+  const Json page = eval_one(options, loaded, results, truth);
+  if (options.json) fmt::print("{}\n", json_text(page, 2));
   return kExitDone;
 }
 
@@ -252,7 +283,8 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->add_option("RESULT", options->results, tr("CSV written by pose_wall run or pose_wall motion"))->required();
   verb->add_option("TRUTH", options->truth,
                    tr("CSV with frame or stamp_ns and any of roll, pitch, yaw (rad), d_lf, d_lb, d_rf, d_rb (m). For "
-                      "motion: x, y, z (m) and qx, qy, qz, qw, or r00 to r22 and tx, ty, tz"))
+                      "motion: x, y, z (m) and qx, qy, qz, qw, or r00 to r22 and tx, ty, tz. Or a folder of pose_wall "
+                      "sim: each of its two truths by its name"))
       ->required();
   verb->add_option("-c,--config", options->config_file,
                    config_help(tr("Settings that RESULT was measured with; they hold the alert limits")));
