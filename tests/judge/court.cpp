@@ -39,7 +39,8 @@ class MotionBeside {
   pose_wall_motion* motion_ = nullptr;
 };
 
-Finding finding_of(const pose_wall_value& value, int quantity, int frame, const Truth& truth) {
+Finding finding_of(const pose_wall_value& value, int quantity, int frame, const Truths& truths) {
+  const Truth& truth = truths.road;
   Finding finding;
   finding.frame = frame;
   finding.quantity = quantity;
@@ -49,6 +50,7 @@ Finding finding_of(const pose_wall_value& value, int quantity, int frame, const 
   finding.cause = value.cause;
   finding.error = truth.error(quantity, value.value);
   finding.raw_error = truth.error(quantity, value.raw);
+  finding.surveyed_error = truths.surveyed.error(quantity, value.value);
   finding.level = value.protection_level;
   finding.raw_level = value.raw_protection_level;
   finding.sigma = value.sigma;
@@ -83,6 +85,7 @@ std::string replay(const Case& tried, const Treatment& treatment) {
   if (tried.furnishing == Furnishing::kQuiet) text += " --quiet";
   if (tried.furnishing == Furnishing::kRich) text += " --rich";
   if (tried.no_bias) text += " --no-bias";
+  if (tried.surveyed) text += " --surveyed";
   if (!tried.times) text += " --times off";
   if (!treatment.motion) text += " --motion off";
   if (treatment.work_max > 0) text += format(" --work-max %u", treatment.work_max);
@@ -91,11 +94,11 @@ std::string replay(const Case& tried, const Treatment& treatment) {
   return text;
 }
 
-void judge_frame(const pose_wall_result& result, int frame, const Truth& truth, const std::array<double, 2>& limits,
+void judge_frame(const pose_wall_result& result, int frame, const Truths& truths, const std::array<double, 2>& limits,
                  Verdict* verdict) {
   verdict->work.push_back(work_of(result));
   for (int q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    verdict->findings.push_back(finding_of(result.quantity[q], q, frame, truth));
+    verdict->findings.push_back(finding_of(result.quantity[q], q, frame, truths));
     verdict->findings.back().alert_limit = limits[q < POSE_WALL_D_LF ? 0 : 1];
   }
 }
@@ -130,12 +133,12 @@ std::vector<Verdict> hear(const Case& tried, const std::vector<Open>& each) {
   std::vector<Process> processes;
   for (const Open& open : each) processes.push_back(open(setup));
   for (int frame = 0; frame < tried.frames; ++frame) {
-    Truth truth;
-    const Cloud points = trial.next_frame(&truth);
+    Truths truths;
+    const Cloud points = trial.next_frame(&truths);
     const pose_wall_cloud cloud = points.described((frame + 1) * kPeriod_ns);
     for (std::size_t k = 0; k < each.size(); ++k) {
       const pose_wall_result result = processes[k](cloud);
-      if (frame >= tried.from_frame) judge_frame(result, frame, truth, limits, &verdicts[k]);
+      if (frame >= tried.from_frame) judge_frame(result, frame, truths, limits, &verdicts[k]);
     }
   }
   return verdicts;

@@ -22,6 +22,12 @@ void Tally::add(const Finding& finding) {
   if (finding.beyond()) ++*beyond[finding.state];
   raw_beyond += finding.raw_beyond() ? 1 : 0;
   misleading += finding.misleading() ? 1 : 0;
+  misleading_surveyed += finding.misleading_surveyed() ? 1 : 0;
+  misleading_by_both += finding.misleading_by_both() ? 1 : 0;
+  if (finding.state == POSE_WALL_VALID && std::isfinite(finding.surveyed_error)) {
+    valid_errors.push_back(finding.error_abs());
+    valid_surveyed_errors.push_back(finding.surveyed_error_abs());
+  }
   if (finding.raw_state != POSE_WALL_INVALID) {
     closest = std::max(closest, finding.raw_error_abs() / finding.raw_level);
     z2_sum += std::pow(finding.raw_error_abs() / finding.sigma, 2.0);
@@ -53,6 +59,21 @@ std::string table(const Tallies& tallies) {
                    shown(q, quantile(tally.levels, 0.5)), quantile(tally.levels_in_sigma, 0.5), tally.closest,
                    tally.z2_sum / std::max<double>(1.0, static_cast<double>(tally.errors.size())), tally.beyond_valid,
                    tally.beyond_degraded, tally.beyond_held, tally.raw_beyond, tally.misleading);
+  }
+  return text;
+}
+
+std::string truths_table(const Tallies& tallies) {
+  std::string text = format("%-6s %6s %10s %10s %10s %10s %6s %6s %6s\n", "", "valid", "road 50%", "road 95%",
+                            "survey 50%", "survey 95%", "mis.r", "mis.s", "both");
+  for (std::size_t k = 0; k < tallies.size(); ++k) {
+    const Tally& tally = tallies[k];
+    const int q = static_cast<int>(k);
+    text += format(
+        "%-6s %6d %10.3f %10.3f %10.3f %10.3f %6d %6d %6d\n", pose_wall_quantity_name(static_cast<std::uint32_t>(k)),
+        tally.valid, shown(q, quantile(tally.valid_errors, 0.5)), shown(q, quantile(tally.valid_errors, 0.95)),
+        shown(q, quantile(tally.valid_surveyed_errors, 0.5)), shown(q, quantile(tally.valid_surveyed_errors, 0.95)),
+        tally.misleading, tally.misleading_surveyed, tally.misleading_by_both);
   }
   return text;
 }

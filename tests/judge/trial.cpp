@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include "judge/trial.hpp"
+#include "judge/surveyed.hpp"
 
 #include <algorithm>
 #include <array>
@@ -98,18 +99,23 @@ Setup Trial::setup() const {
   return setup;
 }
 
-Cloud Trial::creeping_frame(Truth* truth) {
+Truths Trial::truths_at(const Pose& pose) const {
+  const Truth road = truth_of(road_, machine_, pose);
+  return {road, tried_.surveyed ? surveyed_truth(road_, machine_, pose) : road};
+}
+
+Cloud Trial::creeping_frame(Truths* truths) {
   if (frame_ > 0 && !stands_) creep(&stance_, &draw_);
   const Pose pose = stance_.pose(road_, machine_);
-  *truth = truth_of(road_, machine_, pose);
+  *truths = truths_at(pose);
   return scanner_.scan(road_, machine_, pose, frame_++, &draw_);
 }
 
-Cloud Trial::next_frame(Truth* truth) {
-  if (!tried_.times) return creeping_frame(truth);
+Cloud Trial::next_frame(Truths* truths) {
+  if (!tried_.times) return creeping_frame(truths);
   const auto at = static_cast<std::size_t>(frame_);
   const Passage passage(road_, machine_, drive_.stances.at(at), drive_.stances.at(at + 1));
-  *truth = truth_of(road_, machine_, passage.at(0.0));
+  *truths = truths_at(passage.at(0.0));
   return scanner_.sweep(road_, machine_, passage, frame_++, &draw_);
 }
 
@@ -128,10 +134,10 @@ void write_frames(const Case& tried, const std::string& folder) {
   }
   for (const Setting& setting : own) settings << setting.first << ": " << setting.second << "\n";
   for (int frame = 0; frame < tried.frames; ++frame) {
-    Truth truth;
+    Truths truths;
     std::array<char, 40> name{};
     std::snprintf(name.data(), name.size(), "/frame_%03d.pcd", frame);
-    write_points(trial.next_frame(&truth), folder + name.data());
+    write_points(trial.next_frame(&truths), folder + name.data());
   }
 }
 

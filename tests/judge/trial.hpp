@@ -22,12 +22,18 @@ struct Case {
   Furnishing furnishing = Furnishing::kDrawn;
   int sensor = -1;  // row of kSensorTable; -1: drawn
   int frames = 4;
-  int from_frame = 0;    // frames before it are measured and not judged
-  bool no_bias = false;  // ranges without a constant error
+  int from_frame = 0;     // frames before it are measured and not judged
+  bool no_bias = false;   // ranges without a constant error
+  bool surveyed = false;  // the second truth as well: it costs more than the frame
   // Scans that take their time, while the machine drives or stands, by sensors with their own tables of beams. Else all
   // rays at one instant, and a machine that creeps.
   bool times = false;
   Going going = Going::kDrawn;
+};
+
+// Of the road's planes, and of the rock that is really there: the same where the case does not ask for it.
+struct Truths {
+  Truth road, surveyed;
 };
 
 // With what a road is measured.
@@ -52,10 +58,11 @@ class Trial {
   std::vector<Setting> settings() const;
   Setup setup() const;
 
-  Cloud next_frame(Truth* truth);
+  Cloud next_frame(Truths* truths);
 
  private:
-  Cloud creeping_frame(Truth* truth);
+  Cloud creeping_frame(Truths* truths);
+  Truths truths_at(const Pose& pose) const;
 
   Case tried_;
   Draw draw_, drive_draw_;
