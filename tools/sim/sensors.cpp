@@ -3,7 +3,11 @@
 
 #include "sim/sensors.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
+
+#include "sim/sector.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {
@@ -47,6 +51,58 @@ Vector direction(double azimuth_rad, double elevation_rad) {
           std::sin(elevation_rad)};
 }
 
+// Enough of them for an engine of the class that has as many rings.
+std::vector<EngineSetting> engine_of(const BeamTable& table) {
+  const std::size_t rings = table.lasers.size();
+  if (rings <= 16) return few_points("15.0", "0.015");
+  std::vector<EngineSetting> settings = {{"range_bias_max", kBiasMost_m}};
+  if (rings <= 64) settings.insert(settings.begin(), {"ground_inlier_min", "400"});
+  if (rings <= 64) settings.push_back({"range_noise", "0.015"});
+  return settings;
+}
+
+Sensor real_sensor(const BeamTable& table) {
+  Sensor sensor;
+  sensor.name = table.word;
+  sensor.beams = &table;
+  sensor.rings = static_cast<double>(table.lasers.size());
+  sensor.columns = table.columns;
+  sensor.elevation_min_deg = table.lowest_deg();
+  sensor.elevation_max_deg = table.highest_deg();
+  sensor.range_noise_m = table.ranges.noise_m;
+  sensor.range_quantum_m = table.ranges.unit_m;
+  sensor.range_floor_m = table.ranges.min_m;
+  sensor.range_ceiling_m = table.ranges.max_m;
+  sensor.divergence_deg = table.ranges.beam_deg;
+  return sensor;
+}
+
+std::string help_of(const BeamTable& table) {
+  std::ostringstream help;
+  help << table.title << ": " << table.lasers.size() << " lasers, " << table.lowest_deg() << " to "
+       << table.highest_deg() << " deg, " << table.columns << " columns, noise " << 100.0 * table.ranges.noise_m
+       << " cm, steps of " << 1000.0 * table.ranges.unit_m << " mm, light from "
+       << std::round(1e6 * table.reach_m()) / 1e3 << " mm off the origin";
+  return help.str();
+}
+
+std::vector<Beam> table_beams(const Sensor& sensor) {
+  const BeamTable& table = *sensor.beams;
+  std::vector<Laser> by_ring = table.lasers;
+  std::sort(by_ring.begin(), by_ring.end(), [](const Laser& a, const Laser& b) { return a.ring < b.ring; });
+  const auto columns = static_cast<std::uint32_t>(sensor.columns);
+  std::vector<Beam> beams;
+  beams.reserve(by_ring.size() * columns);
+  for (const Laser& laser : by_ring) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const auto [origin_m, direction] = laser_ray(table, laser, column, columns);
+      beams.push_back({Vector(direction.data()), laser.ring, static_cast<std::uint16_t>(column),
+                       laser.after_ns / table.cycle_ns, Vector(origin_m.data())});
+    }
+  }
+  return beams;
+}
+
 std::vector<Beam> ring_beams(const Sensor& sensor) {
   const auto rings = static_cast<int>(sensor.rings);
   const auto columns = static_cast<int>(sensor.columns);
@@ -58,7 +114,7 @@ std::vector<Beam> ring_beams(const Sensor& sensor) {
         sensor.elevation_min_deg + (rings > 1 ? span_deg * ring / (rings - 1) : 0.5 * span_deg);
     for (int column = 0; column < columns; ++column) {
       beams.push_back({direction(-2.0 * M_PI * column / columns, elevation_deg * kRadPerDeg),
-                       static_cast<std::uint16_t>(ring), static_cast<std::uint16_t>(column)});
+                       static_cast<std::uint16_t>(ring), static_cast<std::uint16_t>(column), 0.0, Vector::Zero()});
     }
   }
   return beams;
@@ -77,8 +133,8 @@ std::vector<Beam> pattern_beams(const Sensor& sensor, std::uint32_t frame_index)
     double whole = 0.0;
     const double azimuth = 2.0 * M_PI * std::modf(n * kStepAzimuth, &whole);
     const double elevation_deg = sensor.elevation_min_deg + span_deg * std::modf(n * kStepElevation, &whole);
-    beams.push_back(
-        {direction(azimuth, elevation_deg * kRadPerDeg), 0, static_cast<std::uint16_t>(i * kPatternSteps / count)});
+    beams.push_back({direction(azimuth, elevation_deg * kRadPerDeg), 0,
+                     static_cast<std::uint16_t>(i * kPatternSteps / count), 0.0, Vector::Zero()});
   }
   return beams;
 }
@@ -104,15 +160,51 @@ const std::vector<SensorModel>& sensor_models() {
   return models;
 }
 
+const std::vector<SensorModel>& real_sensor_models() {
+  static const std::vector<SensorModel> models = [] {
+    std::vector<SensorModel> all;
+    for (const BeamTable* const table : beam_tables()) {
+      all.push_back({real_sensor(*table), help_of(*table), 0.0, engine_of(*table)});
+    }
+    return all;
+  }();
+  return models;
+}
+
 const SensorModel* find_sensor(std::string_view name) {
-  for (const SensorModel& model : sensor_models()) {
-    if (model.sensor.name == name) return &model;
+  for (const auto* const models : {&sensor_models(), &real_sensor_models()}) {
+    for (const SensorModel& model : *models) {
+      if (model.sensor.name == name) return &model;
+    }
   }
   return nullptr;
 }
 
+std::vector<std::string> sensor_names() {
+  std::vector<std::string> names;
+  for (const auto* const models : {&sensor_models(), &real_sensor_models()}) {
+    for (const SensorModel& model : *models) names.push_back(model.sensor.name);
+  }
+  return names;
+}
+
+Vector point_of(const Beam& beam, double range_m, double unit_scale) {
+  const Vector way = range_m * unit_scale * beam.direction;
+  // Zeros would be added to minus zeros, and change their bits.
+  return beam.origin.isZero(0.0) ? way : Vector(way + unit_scale * beam.origin);
+}
+
 std::vector<Beam> beams_of(const Sensor& sensor, std::uint32_t frame_index) {
-  return sensor.rings > 0.0 ? ring_beams(sensor) : pattern_beams(sensor, frame_index);
+  std::vector<Beam> beams = sensor.beams != nullptr ? table_beams(sensor)
+                            : sensor.rings > 0.0    ? ring_beams(sensor)
+                                                    : pattern_beams(sensor, frame_index);
+  if (sensor.window_from_deg == sensor.window_to_deg) return beams;
+  const auto is_outside = [&sensor](const Beam& beam) {
+    const double azimuth_deg = std::atan2(beam.direction.y(), beam.direction.x()) / kRadPerDeg;
+    return !in_sector(azimuth_deg, sensor.window_from_deg, sensor.window_to_deg);
+  };
+  beams.erase(std::remove_if(beams.begin(), beams.end(), is_outside), beams.end());
+  return beams;
 }
 
 std::uint32_t scan_steps(const Sensor& sensor) {
