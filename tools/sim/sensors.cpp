@@ -46,19 +46,22 @@ std::vector<EngineSetting> few_points(const char* ground_roi_radius_max, const c
       {"range_noise", range_noise}};
 }
 
+std::vector<EngineSetting> more_points() {
+  return {{"ground_inlier_min", "400"}, {"range_bias_max", kBiasMost_m}, {"range_noise", "0.015"}};
+}
+
 Vector direction(double azimuth_rad, double elevation_rad) {
   return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
           std::sin(elevation_rad)};
 }
 
-// Enough of them for an engine of the class that has as many rings.
+// As of the class that has as many rings. The lowest laser of a Puck Hi-Res meets the floor only at 5.7 times the
+// sensor's height: of a sensor 2 m high, three of its rings lie within 20 m, and two within 15 m.
 std::vector<EngineSetting> engine_of(const BeamTable& table) {
+  constexpr double kLooksFar_deg = -12.0;  // between the lowest lasers of a Puck and of a Hi-Res
   const std::size_t rings = table.lasers.size();
-  if (rings <= 16) return few_points("15.0", "0.015");
-  std::vector<EngineSetting> settings = {{"range_bias_max", kBiasMost_m}};
-  if (rings <= 64) settings.insert(settings.begin(), {"ground_inlier_min", "400"});
-  if (rings <= 64) settings.push_back({"range_noise", "0.015"});
-  return settings;
+  if (rings <= 16) return few_points(table.lowest_deg() > kLooksFar_deg ? "20.0" : "15.0", "0.015");
+  return rings <= 64 ? more_points() : std::vector<EngineSetting>{{"range_bias_max", kBiasMost_m}};
 }
 
 Sensor real_sensor(const BeamTable& table) {
@@ -145,10 +148,8 @@ const std::vector<SensorModel>& sensor_models() {
   static const std::vector<SensorModel> models = {
       {rotating("vlp16", 16.0, 1800.0, 15.0, 0.02, 100.0), "16 rings, -15 to 15 deg, 1800 columns, 2 cm noise", 0.0,
        few_points("15.0", "0.015")},
-      {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0),
-       "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise",
-       0.0,
-       {{"ground_inlier_min", "400"}, {"range_bias_max", kBiasMost_m}, {"range_noise", "0.015"}}},
+      {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0), "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise",
+       0.0, more_points()},
       {rotating("os0-128", 128.0, 1024.0, 45.0, 0.015, 50.0),
        "128 rings, -45 to 45 deg, 1024 columns, 1.5 cm noise",
        0.0,

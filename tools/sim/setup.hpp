@@ -180,8 +180,8 @@ struct Mount {
 
 struct Sensor {
   std::string name = "os1-64";
-  const BeamTable* beams =
-      nullptr;          // of a real sensor: where its lasers point; none: even steps between the elevations
+  // Of a real sensor: where its lasers point. None: even steps between the elevations.
+  const BeamTable* beams = nullptr;
   double rings = 64.0;  // 0: non-repetitive pattern
   double columns = 1024.0;
   double pattern_points = 0.0;  // beams per frame of a non-repetitive pattern
