@@ -21,11 +21,11 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr std::int64_t kTurn_ns = 100'000'000;
+constexpr std::int64_t kRoundTrip_ns = 100'000'000;
 
-sim::SceneSetup road_of(const std::string& sensor) {
+sim::SceneSetup round_trip_road(const std::string& sensor) {
   sim::SceneSetup setup = sim::make_setup("rough", sensor, false, 1);
-  setup.sequence.scan_s = 1e-9 * static_cast<double>(kTurn_ns);
+  setup.sequence.scan_s = 1e-9 * static_cast<double>(kRoundTrip_ns);
   setup.machine.turned_left_deg = 7.0;
   setup.machine.lateral_m = 0.4;
   return setup;
@@ -40,10 +40,10 @@ Scan decoded(const sim::Sensor& sensor, const sim::Frame& frame) {
   const std::unique_ptr<ScanAssembler> decoder = make_assembler(choice);
   const RangeImage image = range_image(sensor, frame);
   for (std::int64_t turn = 0; turn < 3; ++turn) {
-    const std::vector<std::string> packets = encoder->packets(image, turn * kTurn_ns, kTurn_ns);
+    const std::vector<std::string> packets = encoder->packets(image, turn * kRoundTrip_ns, kRoundTrip_ns);
     for (std::size_t k = 0; k < packets.size(); ++k) {
       const auto share = static_cast<double>(k) / static_cast<double>(packets.size());
-      const auto sent_ns = turn * kTurn_ns + std::llround(share * static_cast<double>(kTurn_ns));
+      const auto sent_ns = turn * kRoundTrip_ns + std::llround(share * static_cast<double>(kRoundTrip_ns));
       const ByteView bytes{reinterpret_cast<const std::byte*>(packets[k].data()), packets[k].size()};
       EXPECT_TRUE(decoder->add({sent_ns, 1, bytes})) << sensor.name;
     }
@@ -66,7 +66,7 @@ double allowed_m(const sim::Sensor& sensor, double range_m) {
 class RoundTrip : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(RoundTrip, EachPointComesBackWithRingAndTime) {
-  const sim::SceneSetup setup = road_of(GetParam());
+  const sim::SceneSetup setup = round_trip_road(GetParam());
   const sim::Frame frame = sim::Simulator(setup, 1).render(0);
   const Scan scan = decoded(setup.sensor, frame);
   const auto columns = static_cast<std::size_t>(setup.sensor.columns);
@@ -88,7 +88,7 @@ TEST_P(RoundTrip, EachPointComesBackWithRingAndTime) {
   EXPECT_LE(latest_us, 10.0);
 }
 
-std::vector<std::string> real_ones() {
+std::vector<std::string> sensors_that_come_back() {
   std::vector<std::string> names = sensors_with_packets();
   names.erase(std::remove_if(names.begin(), names.end(),
                              [](const std::string& name) { return sim::find_sensor(name)->sensor.beams == nullptr; }),
@@ -96,17 +96,17 @@ std::vector<std::string> real_ones() {
   return names;
 }
 
-std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
+std::string round_trip_test_name(const ::testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Sensors, RoundTrip, ::testing::ValuesIn(real_ones()), test_name);
+INSTANTIATE_TEST_SUITE_P(Sensors, RoundTrip, ::testing::ValuesIn(sensors_that_come_back()), round_trip_test_name);
 
 // The comparison sees offsets: a sensor without any, read as one that has them.
 TEST(RoundTrip, ASensorWithoutOffsetsIsSeenToHaveNone) {
-  const sim::SceneSetup setup = road_of("vlp16");
+  const sim::SceneSetup setup = round_trip_road("vlp16");
   const sim::Frame frame = sim::Simulator(setup, 1).render(0);
   const Scan scan = decoded(setup.sensor, frame);
   const std::size_t lowest = 0;

@@ -13,7 +13,7 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kUnit_m = 0.004;
+constexpr double kHesaiUnit_m = 0.004;
 
 // Times since the block's; here from the first laser on.
 template <std::size_t N>
@@ -33,7 +33,7 @@ BeamTable xt32() {
                   50'000.0,
                   false,
                   {},
-                  {kUnit_m, 0.01, 0.05, 120.0, 0.0}};
+                  {kHesaiUnit_m, 0.01, 0.05, 120.0, 0.0}};
   for (int i = 0; i < 32; ++i) table.lasers.push_back({15.0 - i, 0.0, 0.0, 1'512.0 * i, 0});
   number_rings(&table.lasers);
   return table;
@@ -55,7 +55,7 @@ BeamTable pandar40p() {
                   55'560.0,
                   false,
                   {},
-                  {kUnit_m, 0.01, 0.3, 200.0, 0.0}};
+                  {kHesaiUnit_m, 0.01, 0.3, 200.0, 0.0}};
   for (const double top_deg : {15.0, 11.0, 8.0, 5.0, 3.0, 2.0}) table.lasers.push_back({top_deg, -1.042, 0.0, 0.0, 0});
   // A third of a degree apart, three columns of lasers in turn.
   constexpr std::array<double, 3> kColumns_deg = {3.125, -5.208, -1.042};
@@ -102,7 +102,7 @@ BeamTable qt64() {
                   500'000.0 / 3.0,
                   false,
                   {},
-                  {kUnit_m, 0.015, 0.1, 60.0, 0.0}};
+                  {kHesaiUnit_m, 0.015, 0.1, 60.0, 0.0}};
   for (const auto& [elevation_deg, azimuth_deg] : kQt64_deg) {
     table.lasers.push_back({elevation_deg, azimuth_deg, 0.0, 0.0, 0});
   }

@@ -10,8 +10,8 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kFiring_ns = 50'000.0, kLaser_ns = kFiring_ns / 16.0;
-constexpr double kNearest_m = 0.3, kFarthest_m = 150.0;  // judgement, 2026-11-28: no sheet was at hand
+constexpr double kC16Firing_ns = 50'000.0, kC16Laser_ns = kC16Firing_ns / 16.0;
+constexpr double kC16Nearest_m = 0.3, kC16Farthest_m = 150.0;  // judgement, 2026-11-28: no sheet was at hand
 
 // Lasers of the lower and of the upper half in turn, two degrees apart in each.
 BeamTable c16(const char* word, const char* title, double lowest_deg, const Lens& lens, double unit_m) {
@@ -21,12 +21,12 @@ BeamTable c16(const char* word, const char* title, double lowest_deg, const Lens
                   "Lslidar_ROS1_driver f29e947a",
                   {},
                   2000,
-                  kFiring_ns,
+                  kC16Firing_ns,
                   true,
                   lens,
-                  {unit_m, 0.015, kNearest_m, kFarthest_m, 0.0}};
+                  {unit_m, 0.015, kC16Nearest_m, kC16Farthest_m, 0.0}};
   for (int k = 0; k < 16; ++k) {
-    table.lasers.push_back({lowest_deg + (k / 2) * 2.0 + (k % 2) * 16.0, 0.0, 0.0, kLaser_ns * k, 0});
+    table.lasers.push_back({lowest_deg + (k / 2) * 2.0 + (k % 2) * 16.0, 0.0, 0.0, kC16Laser_ns * k, 0});
   }
   number_rings(&table.lasers);
   return table;

@@ -14,9 +14,9 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kUnit_m = 0.001;
-constexpr double kTurn_ns = 1e8;
-constexpr std::uint32_t kColumns = 1024;  // as it leaves the factory
+constexpr double kOusterUnit_m = 0.001;
+constexpr double kOusterTurn_ns = 1e8;
+constexpr std::uint32_t kOusterColumns = 1024;  // as it leaves the factory
 
 // Elevation and azimuth of the upper half; the lower is its mirror image in both.
 // OS0-128, part 840-102144-A (metadata/1_14_6cccd_os-882002000138-128_legacy.json).
@@ -101,8 +101,9 @@ std::vector<Row> of_first_generation() {
 // All lasers of a column fire at once. A range holds the way from the axis to the lens, too.
 BeamTable ouster(const char* word, const char* title, const char* source, const std::vector<Row>& rows, double out_m,
                  const Ranges& ranges) {
-  BeamTable table{SensorMaker::kOuster, word,  title, source, {}, kColumns, kTurn_ns / kColumns, false,
-                  {out_m, 0.0, true},   ranges};
+  BeamTable table{
+      SensorMaker::kOuster, word,  title, source, {}, kOusterColumns, kOusterTurn_ns / kOusterColumns, false,
+      {out_m, 0.0, true},   ranges};
   for (const auto& [elevation_deg, azimuth_deg] : rows) {
     table.lasers.push_back({elevation_deg, azimuth_deg, 0.0, 0.0, 0});
   }
@@ -111,9 +112,9 @@ BeamTable ouster(const char* word, const char* title, const char* source, const 
 }
 
 // Precision, nearest and farthest range, width of a beam: the data sheets of OS0, OS1 and OS2. REV7 begins at 0.5 m.
-constexpr Ranges kOs0 = {kUnit_m, 0.015, 0.3, 50.0, 0.35}, kOs0Rev7 = {kUnit_m, 0.015, 0.5, 75.0, 0.35};
-constexpr Ranges kOs1 = {kUnit_m, 0.012, 0.3, 120.0, 0.18}, kOs1Rev7 = {kUnit_m, 0.012, 0.5, 170.0, 0.18};
-constexpr Ranges kOs2 = {kUnit_m, 0.025, 1.0, 240.0, 0.09};
+constexpr Ranges kOs0 = {kOusterUnit_m, 0.015, 0.3, 50.0, 0.35}, kOs0Rev7 = {kOusterUnit_m, 0.015, 0.5, 75.0, 0.35};
+constexpr Ranges kOs1 = {kOusterUnit_m, 0.012, 0.3, 120.0, 0.18}, kOs1Rev7 = {kOusterUnit_m, 0.012, 0.5, 170.0, 0.18};
+constexpr Ranges kOs2 = {kOusterUnit_m, 0.025, 1.0, 240.0, 0.09};
 
 }  // namespace
 

@@ -9,7 +9,7 @@ namespace pose_wall::tools {
 namespace {
 
 // Nearest and farthest range of all: launch files of ros-drivers/velodyne, which has them from the maker.
-constexpr double kNearest_m = 0.4, kFarthest_m = 130.0, kFarthestOf32c_m = 200.0;
+constexpr double kVelodyneNearest_m = 0.4, kVelodyneFarthest_m = 130.0, kVlp32cFarthest_m = 200.0;
 
 // Elevation and height of each laser: VLP-16 user manual, 63-9243.
 constexpr std::array<std::array<double, 2>, 16> kPuck = {{{-15, 0.0112},
@@ -57,7 +57,7 @@ BeamTable puck(bool hi_res) {
                   55'296.0,
                   true,
                   {},
-                  {0.002, 0.015, kNearest_m, kFarthest_m, 0.18}};
+                  {0.002, 0.015, kVelodyneNearest_m, kVelodyneFarthest_m, 0.18}};
   for (std::size_t i = 0; i < kPuck.size(); ++i) {
     table.lasers.push_back({kPuck[i][0] * (hi_res ? kHiResStep : 1.0), 0.0, hi_res ? 0.0 : kPuck[i][1],
                             static_cast<double>(i) * 2'304.0, 0});
@@ -77,7 +77,7 @@ BeamTable hdl32e() {
                   46'080.0,
                   true,
                   {},
-                  {0.002, 0.01, kNearest_m, kFarthest_m, 0.0}};
+                  {0.002, 0.01, kVelodyneNearest_m, kVelodyneFarthest_m, 0.0}};
   for (std::size_t i = 0; i < kHdl32e_deg.size(); ++i) {
     table.lasers.push_back({kHdl32e_deg[i], 0.0, 0.0, static_cast<double>(i) * 1'152.0, 0});
   }
@@ -96,7 +96,7 @@ BeamTable vlp32c() {
                   55'296.0,
                   true,
                   {},
-                  {0.004, 0.015, kNearest_m, kFarthestOf32c_m, 0.17}};
+                  {0.004, 0.015, kVelodyneNearest_m, kVlp32cFarthest_m, 0.17}};
   for (std::size_t i = 0; i < kVlp32c.size(); ++i) {
     table.lasers.push_back({kVlp32c[i][0], kVlp32c[i][1], 0.0, static_cast<double>(i / 2) * 2'304.0, 0});
   }
