@@ -66,7 +66,7 @@ RangeImage image_of(std::uint32_t rings, std::uint32_t columns, std::uint32_t tu
 
 std::vector<std::string> vlp16_turns(std::uint32_t turns, std::uint32_t first = 0) {
   std::vector<std::string> packets;
-  Vlp16Encoder encoder;
+  VelodyneEncoder encoder(VelodyneModel::kVlp16);
   for (std::uint32_t turn = first; turn < first + turns; ++turn) {
     for (std::string& packet : encoder.packets(image_of(16, 1800, turn), turn * kTurn_ns, kTurn_ns)) {
       packets.push_back(std::move(packet));

@@ -166,11 +166,13 @@ std::string angles_from(const Comparison& c, const tools::HesaiTraits& traits) {
   std::map<std::uint32_t, Comparison> rings;
   for (const Pair& pair : c.pairs) rings[pair.row].pairs.push_back(pair);
   std::string table = "Laser id,Elevation,Azimuth\n";
-  for (std::size_t i = 0; i < traits.lasers; ++i) {
-    const tools::HesaiLaser& laser = traits.design_angles[i];
-    const auto ring = static_cast<std::uint32_t>(
-        std::count_if(traits.design_angles.begin(), traits.design_angles.end(),
-                      [&](const tools::HesaiLaser& other) { return other.elevation_deg < laser.elevation_deg; }));
+  const std::vector<tools::Laser>& design = traits.beams.lasers;
+  for (std::size_t i = 0; i < design.size(); ++i) {
+    const tools::Laser& laser = design[i];
+    const auto ring =
+        static_cast<std::uint32_t>(std::count_if(design.begin(), design.end(), [&](const tools::Laser& other) {
+          return other.elevation_deg < laser.elevation_deg;
+        }));
     double elevation_deg = laser.elevation_deg, azimuth_deg = laser.azimuth_deg;
     if (!rings[ring].pairs.empty()) {
       elevation_deg += at(rings[ring].differences(elevation_apart_deg), 0.5);

@@ -70,9 +70,8 @@ std::vector<Run> pending_runs(const std::filesystem::path& folder, const std::ve
 }
 
 std::size_t sensor_rank(const std::string& name) {
-  const auto& all = sim::sensor_models();
-  return static_cast<std::size_t>(
-      std::find_if(all.begin(), all.end(), [&](const auto& model) { return model.sensor.name == name; }) - all.begin());
+  static const std::vector<std::string> all = sim::sensor_names();
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin());
 }
 
 bool has_records(const std::filesystem::path& folder) {

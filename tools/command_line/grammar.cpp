@@ -206,11 +206,8 @@ std::vector<std::string> value_words(const OptionGrammar& option) {
       return joined({"each"}, names_of(explain::gate_list()));
     case ValueKind::kScene:
       return names_of(sim::scenes());
-    case ValueKind::kSensor: {
-      std::vector<std::string> names;
-      for (const sim::SensorModel& model : sim::sensor_models()) names.push_back(model.sensor.name);
-      return names;
-    }
+    case ValueKind::kSensor:
+      return sim::sensor_names();
     default:
       return {};
   }

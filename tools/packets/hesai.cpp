@@ -3,7 +3,6 @@
 
 #include "packets/hesai.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,8 +10,6 @@
 
 namespace pose_wall::tools {
 namespace {
-
-constexpr double kHesaiUnit_m = 0.004;
 
 double azimuth_of(const HesaiTraits& traits, ByteView payload, std::size_t block) {
   const std::size_t start = traits.head_bytes + block * traits.block_bytes();
@@ -27,23 +24,22 @@ HesaiAssembler::HesaiAssembler(std::optional<HesaiModel> stated, std::string ang
 
 void HesaiAssembler::set_model(HesaiModel model) {
   const HesaiTraits& traits = hesai_traits(model);
-  const std::vector<HesaiLaser> lasers =
-      angles_.empty() ? traits.design_angles : parse_hesai_angles(angles_, traits.lasers);
-  const std::int32_t first_ns = *std::min_element(traits.firing_ns.begin(), traits.firing_ns.end());
-  first_laser_ns_ = first_ns;
-  for (std::size_t i = 0; i < lasers.size(); ++i) {
-    const double elevation_rad = lasers[i].elevation_deg * kRadPerDeg;
-    // Lasers at one elevation keep the order of their numbers, so that each has a ring of its own.
-    const auto lower = std::count_if(lasers.begin(), lasers.end(), [&](const HesaiLaser& other) {
-      return other.elevation_deg < lasers[i].elevation_deg ||
-             (other.elevation_deg == lasers[i].elevation_deg && &other < &lasers[i]);
-    });
-    beams_.push_back({std::cos(elevation_rad), std::sin(elevation_rad), lasers[i].azimuth_deg,
-                      static_cast<std::uint32_t>(traits.firing_ns[i] - first_ns), static_cast<std::uint16_t>(lower)});
+  std::vector<Laser> lasers = traits.beams.lasers;
+  if (!angles_.empty()) {
+    const std::vector<HesaiLaser> own = parse_hesai_angles(angles_, traits.lasers());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      lasers[i].elevation_deg = own[i].elevation_deg;
+      lasers[i].azimuth_deg = own[i].azimuth_deg;
+    }
+    number_rings(&lasers);
+  }
+  for (const Laser& laser : lasers) {
+    const double elevation_rad = laser.elevation_deg * kRadPerDeg;
+    beams_.push_back({laser, std::cos(elevation_rad), std::sin(elevation_rad)});
   }
   traits_ = &traits;
-  kind_ = std::string("packets of a ") + traits.title;
-  firing_.points.resize(traits.lasers);
+  kind_ = "packets of a " + traits.title();
+  firing_.points.resize(traits.lasers());
 }
 
 bool HesaiAssembler::add(const Datagram& datagram) {
@@ -67,14 +63,14 @@ void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, bool is_du
   firing_.azimuth_deg = azimuth_of(*traits_, payload, block);
   const std::size_t step = is_dual ? 2 : 1;
   const double start_ns = traits_->firing_start_ns(block / step, traits_->blocks / step);
-  firing_.time_ns = captured_ns + std::llround(start_ns + first_laser_ns_);
+  firing_.time_ns = captured_ns + std::llround(start_ns + traits_->first_laser_ns);
   const std::size_t start = traits_->head_bytes + block * traits_->block_bytes() + traits_->block_head_bytes;
-  for (std::size_t i = 0; i < traits_->lasers; ++i) {
-    const Beam& beam = beams_[i];
-    ScanPoint& point = firing_.points[beam.ring];
+  for (std::size_t i = 0; i < traits_->lasers(); ++i) {
+    const auto& [laser, cos_elevation, sin_elevation] = beams_[i];
+    ScanPoint& point = firing_.points[laser.ring];
     point = ScanPoint{};
-    point.ring = beam.ring;
-    point.t_ns = beam.after_ns;
+    point.ring = laser.ring;
+    point.t_ns = static_cast<std::uint32_t>(laser.after_ns);
     // Whatever the order of a pair, the farther return is the later one: dust before a wall would be taken for the
     // wall.
     std::size_t at = start + i * traits_->return_bytes;
@@ -82,13 +78,13 @@ void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, bool is_du
       const std::size_t other = at + traits_->block_bytes();
       if (little_endian_at(payload, other, 2) > little_endian_at(payload, at, 2)) at = other;
     }
-    const double range_m = kHesaiUnit_m * little_endian_at(payload, at, 2);
+    const double range_m = traits_->beams.ranges.unit_m * little_endian_at(payload, at, 2);
     if (range_m == 0.0) continue;
-    const double azimuth_rad = (firing_.azimuth_deg + beam.azimuth_deg) * kRadPerDeg;
-    const double flat_m = range_m * beam.cos_elevation;
+    const double azimuth_rad = (firing_.azimuth_deg + laser.azimuth_deg) * kRadPerDeg;
+    const double flat_m = range_m * cos_elevation;
     point.x_m = static_cast<float>(flat_m * std::cos(azimuth_rad));
     point.y_m = static_cast<float>(-flat_m * std::sin(azimuth_rad));
-    point.z_m = static_cast<float>(range_m * beam.sin_elevation);
+    point.z_m = static_cast<float>(range_m * sin_elevation);
     point.intensity = std::to_integer<std::uint8_t>(payload.data[at + 2]);
   }
 }

@@ -30,9 +30,8 @@ class HesaiAssembler : public TurnAssembler {
 
  private:
   struct Beam {
-    double cos_elevation, sin_elevation, azimuth_deg;
-    std::uint32_t after_ns;  // since the first laser fired
-    std::uint16_t ring;      // from the lowest
+    Laser laser;
+    double cos_elevation, sin_elevation;
   };
 
   void set_model(HesaiModel model);
@@ -41,7 +40,6 @@ class HesaiAssembler : public TurnAssembler {
   std::string angles_;
   const HesaiTraits* traits_ = nullptr;  // none: not yet known
   std::vector<Beam> beams_;
-  double first_laser_ns_ = 0.0;
   double last_step_deg_ = 0.2;  // from firing to firing: 600 turns a minute until two were seen
   std::string kind_ = "packets of a Hesai";
   Firing firing_;

@@ -23,76 +23,6 @@ constexpr std::uint8_t kDistanceUnit_mm = 4;
 constexpr std::size_t kSequenceBytes = 4;
 constexpr double kElevationMax_deg = 90.0, kAzimuthMax_deg = 180.0;
 
-// PandarXT-32 user manual: appendix I (design values) and II (times).
-HesaiTraits xt32() {
-  HesaiTraits traits{
-      HesaiModel::kXt32, "Hesai PandarXT-32", 32, 8, kHesaiHeadBytes, 2, 4, 24, 10, 50'000.0, 5'632.0, true, {}, {}};
-  for (int i = 0; i < 32; ++i) {
-    traits.firing_ns.push_back(368 + 1'512 * i);
-    traits.design_angles.push_back({15.0 - i, 0.0});
-  }
-  return traits;
-}
-
-// Pandar40P user manual: appendix I (design values; the same table as of the Pandar40) and II (times).
-HesaiTraits pandar40p() {
-  HesaiTraits traits{
-      HesaiModel::kPandar40p, "Hesai Pandar40P", 40, 10, 0, 4, 3, 22, 14, 55'560.0, -28'580.0, true, {}, {}};
-  traits.firing_ns = {-42220, -28470, -16040, -3620,  -45490, -31740, -47460, -54670, -20620, -33710,
-                      -40910, -8190,  -20620, -27160, -50730, -8190,  -14740, -36980, -45490, -52700,
-                      -23890, -31740, -38950, -11470, -18650, -25190, -48760, -6230,  -12770, -35010,
-                      -21920, -9500,  -43520, -29770, -17350, -4920,  -42220, -28470, -16040, -3620};
-  for (const double top_deg : {15.0, 11.0, 8.0, 5.0, 3.0, 2.0}) traits.design_angles.push_back({top_deg, -1.042});
-  // A third of a degree apart, three columns of lasers in turn.
-  constexpr std::array<double, 3> kColumns_deg = {3.125, -5.208, -1.042};
-  for (int i = 0; i < 24; ++i) {
-    const double elevation_deg = std::round(100.0 * (5 - i) / 3.0) / 100.0;
-    traits.design_angles.push_back({elevation_deg, kColumns_deg[static_cast<std::size_t>(i % 3)]});
-  }
-  for (const double low_deg : {-7.0, -8.0, -9.0, -10.0, -11.0, -12.0, -13.0, -14.0, -19.0, -25.0}) {
-    traits.design_angles.push_back({low_deg, -1.042});
-  }
-  return traits;
-}
-
-// PandarQT user manual: appendix I (design values) and II (times). The maker's table of angles is also PandarQT64.csv
-// of tier4/nebula.
-HesaiTraits qt64() {
-  HesaiTraits traits{HesaiModel::kQt64,
-                     "Hesai PandarQT",
-                     64,
-                     4,
-                     kHesaiHeadBytes,
-                     2,
-                     4,
-                     24,
-                     16,
-                     500'000.0 / 3.0,
-                     25'710.0,
-                     false,
-                     {},
-                     {}};
-  traits.firing_ns = {12310,  14370,  16430,  18490,  20540,  22600,  24660,  26710,  29160,  31220,  33280,
-                      35340,  37390,  39450,  41500,  43560,  46610,  48670,  50730,  52780,  54840,  56900,
-                      58950,  61010,  63450,  65520,  67580,  69630,  71690,  73740,  75800,  77860,  80900,
-                      82970,  85020,  87080,  89140,  91190,  93250,  95300,  97750,  99820,  101870, 103930,
-                      105980, 108040, 110100, 112150, 115200, 117260, 119320, 121380, 123430, 125490, 127540,
-                      129600, 132050, 134110, 136170, 138220, 140280, 142340, 144390, 146450};
-  traits.design_angles = {
-      {-52.121, 8.736},  {-49.785, 8.314},  {-47.577, 7.964},  {-45.477, 7.669},  {-43.465, 7.417},  {-41.528, 7.198},
-      {-39.653, 7.007},  {-37.831, 6.838},  {-36.055, 6.688},  {-34.320, 6.554},  {-32.619, 6.434},  {-30.950, 6.326},
-      {-29.308, 6.228},  {-27.690, 6.140},  {-26.094, 6.059},  {-24.517, 5.987},  {-22.964, -5.270}, {-21.420, -5.216},
-      {-19.889, -5.167}, {-18.372, -5.123}, {-16.865, -5.083}, {-15.368, -5.047}, {-13.880, -5.016}, {-12.399, -4.988},
-      {-10.925, -4.963}, {-9.457, -4.942},  {-7.994, -4.924},  {-6.535, -4.910},  {-5.079, -4.898},  {-3.626, -4.889},
-      {-2.175, -4.884},  {-0.725, -4.881},  {0.725, 5.493},    {2.175, 5.496},    {3.626, 5.502},    {5.079, 5.512},
-      {6.534, 5.525},    {7.993, 5.541},    {9.456, 5.561},    {10.923, 5.584},   {12.397, 5.611},   {13.877, 5.642},
-      {15.365, 5.676},   {16.861, 5.716},   {18.368, 5.759},   {19.885, 5.808},   {21.415, 5.862},   {22.959, 5.921},
-      {24.524, -5.330},  {26.101, -5.396},  {27.697, -5.469},  {29.315, -5.550},  {30.957, -5.640},  {32.627, -5.740},
-      {34.328, -5.850},  {36.064, -5.974},  {37.840, -6.113},  {39.662, -6.269},  {41.537, -6.447},  {43.475, -6.651},
-      {45.487, -6.887},  {47.587, -7.163},  {49.795, -7.493},  {52.133, -7.892}};
-  return traits;
-}
-
 std::uint8_t byte_at(ByteView payload, std::size_t offset) {
   return std::to_integer<std::uint8_t>(payload.data[offset]);
 }
@@ -118,7 +48,7 @@ bool has_head(ByteView payload) {
 bool fits_head(const HesaiTraits& traits, ByteView payload) {
   if (!has_head(payload)) return false;
   const bool has_sequence = (byte_at(payload, 11) & 1U) != 0;
-  return byte_at(payload, 6) == traits.lasers && byte_at(payload, 7) == traits.blocks &&
+  return byte_at(payload, 6) == traits.lasers() && byte_at(payload, 7) == traits.blocks &&
          byte_at(payload, 9) == kDistanceUnit_mm &&
          payload.size >= traits.bytes() + (has_sequence ? kSequenceBytes : 0U);
 }
@@ -141,11 +71,15 @@ bool fits(const HesaiTraits& traits, ByteView payload) {
 
 double HesaiTraits::firing_start_ns(std::size_t firing, std::size_t firings) const {
   const double from_known = static_cast<double>(firing) - (last_is_known ? static_cast<double>(firings - 1) : 0.0);
-  return known_block_ns + from_known * block_ns;
+  return known_firing_ns + from_known * beams.cycle_ns;
 }
 
 const HesaiTraits& hesai_traits(HesaiModel model) {
-  static const std::array<HesaiTraits, 3> traits = {xt32(), pandar40p(), qt64()};
+  // Appendix II of each manual has the times: of a packet, and the first one of a laser.
+  static const std::array<HesaiTraits, 3> traits = {
+      {{HesaiModel::kXt32, hesai_xt32(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 368.0, 5'632.0, true},
+       {HesaiModel::kPandar40p, hesai_pandar40p(), 10, 0, 4, 3, 22, 14, -54'670.0, -28'580.0, true},
+       {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 12'310.0, 25'710.0, false}}};
   return traits[static_cast<std::size_t>(model)];
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The Hesai sensors whose packets are read: how these lie in memory, when lasers fire and where they point.
+// The Hesai sensors whose packets are read: how these lie in memory.
 
 #pragma once
 
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bags/byte_cursor.hpp"
+#include "beams/beam_table.hpp"
 
 namespace pose_wall::tools {
 
@@ -24,20 +25,20 @@ struct HesaiLaser {
 
 struct HesaiTraits {
   HesaiModel model;
-  const char* title;  // "Hesai PandarXT-32"
-  std::size_t lasers, blocks;
+  const BeamTable& beams;  // as designed: each sensor is a little off
+  std::size_t blocks;
   std::size_t head_bytes;        // before the first block
   std::size_t block_head_bytes;  // flag and azimuth before a block's returns
   std::size_t return_bytes;
   std::size_t tail_bytes;
   std::size_t mode_offset;  // of the return mode, within the tail
-  double block_ns;          // from firing to firing
-  double known_block_ns;    // from a packet's time to its first firing, or to the last
+  double first_laser_ns;    // from a firing's time to the first laser's
+  double known_firing_ns;   // from a packet's time to its first firing, or to the last
   bool last_is_known;
-  std::vector<std::int32_t> firing_ns;    // of each laser, since its block's time
-  std::vector<HesaiLaser> design_angles;  // what the manual says; each sensor is a little off
 
-  std::size_t block_bytes() const { return block_head_bytes + lasers * return_bytes; }
+  const std::string& title() const { return beams.title; }
+  std::size_t lasers() const { return beams.lasers.size(); }
+  std::size_t block_bytes() const { return block_head_bytes + lasers() * return_bytes; }
   std::size_t bytes() const { return head_bytes + blocks * block_bytes() + tail_bytes; }
 
   // From a packet's time to that of one of its `firings`, counted from 0.

@@ -103,7 +103,7 @@ void check_angles(const std::string& text) {
   std::string why;
   for (const HesaiModel model : {HesaiModel::kXt32, HesaiModel::kPandar40p, HesaiModel::kQt64}) {
     try {
-      parse_hesai_angles(text, hesai_traits(model).lasers);
+      parse_hesai_angles(text, hesai_traits(model).lasers());
       return;
     } catch (const FrameError& fault) {
       why = fault.what();

@@ -41,8 +41,8 @@ void VelodyneAssembler::identify() {
   packets.reserve(held.size());
   for (const Held& packet : held) packets.push_back({packet.payload.data(), packet.payload.size()});
   traits_ = &velodyne_traits(identify_velodyne(packets, stated_));
-  kind_ = std::string("packets of a ") + traits_->title;
-  firing_.points.resize(traits_->lasers);
+  kind_ = "packets of a " + traits_->title();
+  firing_.points.resize(traits_->lasers());
   for (std::size_t i = 0; i < held.size(); ++i) add_blocks(packets[i], held[i].captured_ns);
 }
 
@@ -50,15 +50,15 @@ void VelodyneAssembler::add_blocks(ByteView payload, std::int64_t captured_ns) {
   // Of a pair of blocks the first holds the last return. The second holds the strongest, or the second strongest where
   // the last is the strongest: dust before a wall would be taken for the wall.
   const std::size_t step = is_velodyne_dual(payload) ? 2 : 1;
-  const std::size_t firings = traits_->firings_per_block(), firing_bytes = 3 * traits_->lasers;
+  const std::size_t firings = traits_->firings_per_block(), firing_bytes = 3 * traits_->lasers();
   for (std::size_t block = 0; block < kVelodyneBlocks; block += step) {
     const double azimuth_deg = azimuth_of(payload, block);
     if (block + step < kVelodyneBlocks) last_turn_deg_ = turned_deg(azimuth_deg, azimuth_of(payload, block + step));
     const std::byte* const lasers = payload.data + block * kVelodyneBlockBytes + 4;
-    const double block_ns = static_cast<double>(block / step * firings) * traits_->cycle_ns;
+    const double block_ns = static_cast<double>(block / step * firings) * traits_->beams.cycle_ns;
     for (std::size_t i = 0; i < firings; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(firings);
-      const double firing_ns = static_cast<double>(i) * traits_->cycle_ns;
+      const double firing_ns = static_cast<double>(i) * traits_->beams.cycle_ns;
       const auto time_ns = captured_ns + std::llround(block_ns + firing_ns);
       fill_firing({lasers + i * firing_bytes, firing_bytes}, azimuth_deg + part * last_turn_deg_, last_turn_deg_,
                   time_ns);
@@ -70,14 +70,14 @@ void VelodyneAssembler::add_blocks(ByteView payload, std::int64_t captured_ns) {
 void VelodyneAssembler::fill_firing(ByteView lasers, double azimuth_deg, double turn_deg, std::int64_t time_ns) {
   firing_.azimuth_deg = azimuth_deg < 360.0 ? azimuth_deg : azimuth_deg - 360.0;
   firing_.time_ns = time_ns;
-  const double block_ns = static_cast<double>(traits_->firings_per_block()) * traits_->cycle_ns;
-  for (std::size_t i = 0; i < traits_->lasers; ++i) {
-    const VelodyneLaser& laser = traits_->laser[i];
+  const double block_ns = static_cast<double>(traits_->firings_per_block()) * traits_->beams.cycle_ns;
+  for (std::size_t i = 0; i < traits_->lasers(); ++i) {
+    const Laser& laser = traits_->beams.lasers[i];
     ScanPoint& point = firing_.points[laser.ring];
     point = ScanPoint{};
     point.ring = laser.ring;
     point.t_ns = static_cast<std::uint32_t>(laser.after_ns);
-    const double range_m = traits_->unit_m * little_endian_at(lasers, 3 * i, 2);
+    const double range_m = traits_->beams.ranges.unit_m * little_endian_at(lasers, 3 * i, 2);
     if (range_m == 0.0) continue;
     const double elevation_rad = laser.elevation_deg * kRadPerDeg;
     const double turned_by_deg = turn_deg * laser.after_ns / block_ns;

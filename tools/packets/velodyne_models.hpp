@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The Velodyne sensors whose packets are read: where their lasers point, and when they fire.
+// The Velodyne sensors whose packets are read, and how these tell which one it is.
 
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bags/byte_cursor.hpp"
+#include "beams/beam_table.hpp"
 
 namespace pose_wall::tools {
 
@@ -22,25 +23,16 @@ constexpr std::size_t kVelodyneLasersMax = 32;
 
 enum class VelodyneModel { kVlp16, kVlp16HiRes, kHdl32e, kVlp32c };
 
-struct VelodyneLaser {
-  double elevation_deg = 0.0;
-  double azimuth_deg = 0.0;  // beside the head's
-  double up_m = 0.0;         // where the beam leaves, above the origin
-  double after_ns = 0.0;     // since the first laser fired
-  std::uint16_t ring = 0;    // from the lowest
-};
-
 struct VelodyneTraits {
   VelodyneModel model;
-  const char* word;      // as options name it
-  const char* title;     // "Velodyne VLP-16"
-  std::uint8_t product;  // byte of its packets
-  std::size_t lasers;    // a block of 32 returns holds one firing of 32 or two of 16
-  double cycle_ns;       // from one firing of all lasers to the next
-  double unit_m;         // of ranges
-  std::array<VelodyneLaser, kVelodyneLasersMax> laser{};
+  const char* word;        // as options name it
+  std::uint8_t product;    // byte of its packets
+  const BeamTable& beams;  // where its lasers point, and when they fire
 
-  std::size_t firings_per_block() const { return kVelodyneLasersMax / lasers; }
+  const std::string& title() const { return beams.title; }
+  // A block of 32 returns holds one firing of 32 or two of 16.
+  std::size_t lasers() const { return beams.lasers.size(); }
+  std::size_t firings_per_block() const { return kVelodyneLasersMax / lasers(); }
   double packet_us(bool is_dual) const;
 };
 

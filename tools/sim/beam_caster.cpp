@@ -7,11 +7,14 @@
 #include <cmath>
 
 #include "sim/machine_body.hpp"
+#include "sim/sector.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {
 
 constexpr double kEdgeStep_m = 0.05;  // ranges nearer to each other than this are one surface
+constexpr double kTangentMost = 5.0;  // of 79 degrees: beyond, a pulse is too flat to be found. Judgement, 2026-11-28
+constexpr double kRockIntensity = 255.0 * 0.45;  // square on plain rock: as much light as noise is stated for
 
 std::vector<Primitive> things_of(const Setup& setup, const World& world, const Moment& moment) {
   std::vector<Primitive> things = world.objects_at(moment.pose.time_s);
@@ -22,11 +25,6 @@ std::vector<Primitive> things_of(const Setup& setup, const World& world, const M
 
 bool within(double time_s, double from_s, double to_s) {
   return time_s >= from_s && time_s < to_s;
-}
-
-bool in_sector(double azimuth_deg, double from_deg, double to_deg) {
-  const auto turn = [from_deg](double angle_deg) { return std::fmod(angle_deg - from_deg + 720.0, 360.0); };
-  return from_deg != to_deg && turn(azimuth_deg) <= turn(to_deg);
 }
 
 double dust_at(const Faults& f, double time_s) {
@@ -46,6 +44,11 @@ Matrix R_machine_base(const Machine& machine) {
 
 }  // namespace
 
+float intensity(const Return& r) {
+  const double albedo = r.label == Label::kDust ? 0.1 : (r.label == Label::kSteel || r.side == 0 ? 0.6 : 0.45);
+  return static_cast<float>(std::min(255.0, std::round(255.0 * albedo * r.brightness * (0.2 + 0.8 * r.cosine))));
+}
+
 BeamCaster::BeamCaster(const Setup& setup, const World& world, const Moment& moment, std::uint64_t frame_seed)
     : setup_(setup),
       world_(world),
@@ -53,6 +56,10 @@ BeamCaster::BeamCaster(const Setup& setup, const World& world, const Moment& mom
       R_machine_lidar_(R_machine_base(setup.machine) * R_base_lidar(setup.mount)),
       water_below_(normal_quantile(setup.floor.puddle_coverage)),
       grazing_cosine_(std::sin(setup.sensor.grazing_limit_deg * kRadPerDeg)) {
+  if (const BeamTable* const table = setup.sensor.beams) {
+    lens_reach_m_ = table->reach_m();
+    range_ahead_m_ = table->ahead_m();
+  }
   move_to(moment);
 }
 
@@ -62,18 +69,18 @@ void BeamCaster::move_to(const Moment& moment) {
   origin_ = at.R_road_base * lidar_origin_base(setup_.mount) + at.origin_road;
   left_road_ = at.R_road_base * left_axis(setup_.machine);
   things_ = things_of(setup_, world_, moment);
-  index_ = SectorIndex(things_, origin_);
+  index_ = SectorIndex(things_, origin_, lens_reach_m_);
   dust_ = dust_at(setup_.faults, pose.time_s);
   wall_lost_ = within(pose.time_s, setup_.faults.lost_from_s, setup_.faults.lost_to_s);
   partial_ = within(pose.time_s, setup_.sequence.partial_from_s, setup_.sequence.partial_to_s);
   needs_azimuth_ = partial_ || has_sectors(setup_.faults);
 }
 
-BeamCaster::Returns BeamCaster::cast(const Vector& direction_lidar) {
+BeamCaster::Returns BeamCaster::cast(const Beam& beam) {
   const Faults& f = setup_.faults;
   double azimuth_deg = 0.0;
   if (needs_azimuth_) {
-    const Vector d = R_machine_lidar_ * direction_lidar;
+    const Vector d = R_machine_lidar_ * beam.direction;
     azimuth_deg = std::atan2(d.y(), d.x()) / kRadPerDeg;
     if (in_sector(azimuth_deg, f.blocked_from_deg, f.blocked_to_deg) ||
         in_sector(azimuth_deg, f.blocked_2_from_deg, f.blocked_2_to_deg) ||
@@ -81,11 +88,18 @@ BeamCaster::Returns BeamCaster::cast(const Vector& direction_lidar) {
       return {};
     }
   }
-  const Ray ray{origin_, R_road_lidar_ * direction_lidar};
+  const Ray ray{origin_ + R_road_lidar_ * beam.origin, R_road_lidar_ * beam.direction};
   Returns returns{meet(ray), {}};
   if (setup_.sensor.divergence_deg > 0.0) mix_edge(ray, &returns);
-  disturb(azimuth_deg, &returns.first);
-  if (returns.second.label != Label::kNone) disturb(azimuth_deg, &returns.second);
+  const Return behind_dust = through_air(&returns.first);
+  measure(azimuth_deg, &returns.first);
+  Return& second = returns.second;
+  if (second.label != Label::kNone) {
+    through_air(&second);
+  } else if (setup_.sensor.dual_returns != 0.0) {
+    second = behind_dust;
+  }
+  measure(azimuth_deg, &second);
   return returns;
 }
 
@@ -150,20 +164,46 @@ bool BeamCaster::lost(const Return& r) {
          (wall_lost_ && has_side(f.lost_side, r.side));
 }
 
-void BeamCaster::disturb(double azimuth_deg, Return* r) {
+// Dust, drops and lost returns. What was behind the dust is returned.
+Return BeamCaster::through_air(Return* r) {
   const Faults& f = setup_.faults;
-  const Sensor& s = setup_.sensor;
+  Return behind;
   if (r->label != Label::kNone && lost(*r)) *r = {};
   for (const auto& [share, reach_m] : {std::pair{dust_, f.dust_range_m}, std::pair{f.drops, f.drops_range_m}}) {
     if (!random_.chance(share)) continue;
     const double range_m = -reach_m * std::log(1.0 - random_.uniform());
-    if (range_m < r->range_m) *r = {range_m, 0.1, 1.0, Label::kDust, 0};
+    if (range_m >= r->range_m) continue;
+    if (r->label != Label::kDust) behind = *r;
+    *r = {range_m, 0.1, 1.0, Label::kDust, 0};
   }
+  return behind;
+}
+
+double BeamCaster::noise_m(const Return& r, bool shimmer) const {
+  const Sensor& s = setup_.sensor;
+  double noise_m = s.range_noise_m * (shimmer ? setup_.faults.shimmer_factor : 1.0);
+  if (s.noise_dark_most > 1.0) {
+    const double light = std::max(1.0, static_cast<double>(intensity(r))) / kRockIntensity;
+    noise_m *= std::clamp(1.0 / std::sqrt(light), 1.0, s.noise_dark_most);
+  }
+  if (s.noise_incidence_m > 0.0 && r.label != Label::kDust) {
+    const double tangent = std::sqrt(std::max(0.0, 1.0 - r.cosine * r.cosine)) / r.cosine;
+    noise_m = std::hypot(noise_m, s.noise_incidence_m * std::min(tangent, kTangentMost));
+  }
+  return noise_m;
+}
+
+// What the sensor makes of a return: its range holds the way to the lens where it counts from the axis.
+void BeamCaster::measure(double azimuth_deg, Return* r) {
   if (r->label == Label::kNone) return;
+  const Faults& f = setup_.faults;
+  const Sensor& s = setup_.sensor;
   const bool shimmer = needs_azimuth_ && in_sector(azimuth_deg, f.shimmer_from_deg, f.shimmer_to_deg);
-  r->range_m += s.range_bias_m + s.range_noise_m * (shimmer ? f.shimmer_factor : 1.0) * random_.gaussian();
-  if (s.range_quantum_m > 0.0) r->range_m = s.range_quantum_m * std::round(r->range_m / s.range_quantum_m);
-  if (!(r->range_m >= s.range_floor_m && r->range_m <= s.range_ceiling_m)) *r = {};
+  r->range_m += s.range_bias_m + noise_m(*r, shimmer) * random_.gaussian();
+  const double steps_m = s.range_quantum_m;
+  if (steps_m > 0.0) r->range_m = steps_m * std::round((r->range_m + range_ahead_m_) / steps_m) - range_ahead_m_;
+  const double told_m = r->range_m + range_ahead_m_;
+  if (!(told_m >= s.range_floor_m && told_m <= s.range_ceiling_m)) *r = {};
 }
 
 }  // namespace pose_wall::tools::sim

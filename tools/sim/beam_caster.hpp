@@ -9,6 +9,7 @@
 
 #include "sim/pose.hpp"
 #include "sim/random.hpp"
+#include "sim/sensors.hpp"
 #include "sim/world.hpp"
 
 namespace pose_wall::tools::sim {
@@ -21,6 +22,9 @@ struct Return {
   int side = 0;
 };
 
+// How much of the light that a return needs comes back, 0 to 255, as a sensor tells it.
+float intensity(const Return& r);
+
 class BeamCaster {
  public:
   BeamCaster(const Setup& setup, const World& world, const Moment& moment, std::uint64_t frame_seed);
@@ -28,12 +32,12 @@ class BeamCaster {
   // The machine stands elsewhere, and it is another time.
   void move_to(const Moment& moment);
 
-  // One return, or two with dual_returns; label kNone for none. Directions in the lidar frame.
+  // One return, or two with dual_returns; label kNone for none.
   struct Returns {
     Return first;
     Return second;
   };
-  Returns cast(const Vector& direction_lidar);
+  Returns cast(const Beam& beam);
 
  private:
   Return meet(const Ray& ray);
@@ -41,7 +45,9 @@ class BeamCaster {
   Return mirrored(const Ray& ray, double range_m) const;
   void mix_edge(const Ray& ray, Returns* returns);
   bool lost(const Return& r);
-  void disturb(double azimuth_deg, Return* r);
+  Return through_air(Return* r);
+  double noise_m(const Return& r, bool shimmer) const;
+  void measure(double azimuth_deg, Return* r);
 
   const Setup& setup_;
   const World& world_;
@@ -49,6 +55,8 @@ class BeamCaster {
   Matrix R_machine_lidar_;  // x forward, y left
   double water_below_;
   double grazing_cosine_;
+  double lens_reach_m_ = 0.0;   // how far from the sensor's origin beams begin
+  double range_ahead_m_ = 0.0;  // what the sensor's ranges hold besides the way of the light
   // Of the moment:
   Matrix R_road_lidar_;
   Vector origin_, left_road_;

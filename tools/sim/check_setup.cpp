@@ -60,6 +60,15 @@ void demand_sensor_in_the_road(const Setup& setup) {
          "the sensor is in the rock above or below the road (mount_z_m, base_height_m, height_m)");
 }
 
+void demand_the_sensors_own_beams(const Sensor& sensor) {
+  demand(sensor.elevation_min_deg < sensor.elevation_max_deg, "elevation_min_deg must be below elevation_max_deg");
+  if (sensor.beams == nullptr) return;
+  demand(sensor.rings == static_cast<double>(sensor.beams->lasers.size()) &&
+             sensor.elevation_min_deg == sensor.beams->lowest_deg() &&
+             sensor.elevation_max_deg == sensor.beams->highest_deg(),
+         "a real sensor has its own rings and elevations (rings, elevation_min_deg, elevation_max_deg)");
+}
+
 const Setup& checked(const Setup& setup) {
   const Road& r = setup.road;
   const Machine& m = setup.machine;
@@ -85,8 +94,7 @@ const Setup& checked(const Setup& setup) {
   demand_room_for_the_machine(setup);
   demand_sensor_in_the_road(setup);
   demand(setup.sequence.scan_s <= 1.0 / setup.sequence.rate_hz, "scan_s must not exceed 1 / rate_hz");
-  demand(setup.sensor.elevation_min_deg < setup.sensor.elevation_max_deg,
-         "elevation_min_deg must be below elevation_max_deg");
+  demand_the_sensors_own_beams(setup.sensor);
   return setup;
 }
 

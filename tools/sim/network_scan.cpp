@@ -38,9 +38,9 @@ class CloudCaster {
     Label label = Label::kNone;
   };
 
-  Met meet(const Vector& direction_lidar) const {
-    const Ray ray{origin_, R_world_lidar_ * direction_lidar};
-    const Met met = meet_road(ray, direction_lidar.y());
+  Met meet(const Beam& beam) const {
+    const Ray ray{origin_ + R_world_lidar_ * beam.origin, R_world_lidar_ * beam.direction};
+    const Met met = meet_road(ray, beam.direction.y());
     const double pillar_m = scene_.pillars.empty() ? kNever : meet_pillars(ray, met.range_m);
     return pillar_m < met.range_m ? Met{pillar_m, 1.0, Label::kObject} : met;
   }
@@ -141,17 +141,18 @@ Frame network_cloud(const Network& network, const Sensor& sensor, const Standing
   const double grazing = std::sin(sensor.grazing_limit_deg * kRadPerDeg);
   Frame frame;
   for (const Beam& beam : beams_of(sensor, frame_index)) {
-    const CloudCaster::Met met = caster.meet(beam.direction);
+    const CloudCaster::Met met = caster.meet(beam);
     const double range_m = met.range_m + sensor.range_bias_m + sensor.range_noise_m * random.gaussian();
     if (met.label == Label::kNone || met.cosine < grazing) continue;
     if (scene.dropout > 0.0 && lost.chance(scene.dropout)) continue;
     if (!(range_m >= sensor.range_floor_m && range_m <= sensor.range_ceiling_m)) continue;
-    const Vector p = range_m * beam.direction;
+    const Vector p = point_of(beam, range_m);
     for (int axis = 0; axis < 3; ++axis) frame.xyz_intensity.push_back(static_cast<float>(p[axis]));
     frame.xyz_intensity.push_back(light_of(met));
     frame.labels.push_back(met.label);
     frame.time_ns.push_back(0);
     frame.ring.push_back(beam.ring);
+    frame.column.push_back(beam.step);
   }
   return frame;
 }

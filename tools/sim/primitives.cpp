@@ -82,11 +82,13 @@ std::size_t SectorIndex::sector(double x, double y) {
   return static_cast<std::size_t>(turn * (kSectors / 4.0)) % kSectors;
 }
 
-SectorIndex::SectorIndex(const std::vector<Primitive>& primitives, const Vector& origin) : empty_(primitives.empty()) {
+// A ray that begins beside the origin meets what one from the origin does, for things that are larger by as much.
+SectorIndex::SectorIndex(const std::vector<Primitive>& primitives, const Vector& origin, double reach_m)
+    : empty_(primitives.empty()) {
   for (std::size_t i = 0; i < primitives.size(); ++i) {
     const Vector offset = primitives[i].centre - origin;
     const double distance = std::hypot(offset.x(), offset.y());
-    const double bound = primitives[i].bound_m();
+    const double bound = primitives[i].bound_m() + reach_m;
     std::size_t first = 0;
     std::size_t count = kSectors;
     if (distance > bound) {

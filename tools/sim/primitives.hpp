@@ -29,11 +29,11 @@ struct Primitive {
   double hit(const Ray& ray, double* cosine) const;
 };
 
-// Which primitives a ray can meet, by the sector of its direction seen from one point.
+// Which primitives a ray can meet that begins within `reach_m` of one point, by the sector of its direction.
 class SectorIndex {
  public:
   SectorIndex() = default;
-  SectorIndex(const std::vector<Primitive>& primitives, const Vector& origin);
+  SectorIndex(const std::vector<Primitive>& primitives, const Vector& origin, double reach_m = 0.0);
   bool empty() const { return empty_; }
   const std::vector<std::uint16_t>& candidates(const Vector& direction) const {
     return sectors_[sector(direction.x(), direction.y())];

@@ -110,11 +110,7 @@ void apply_scene_at_random(Setup& setup, const SceneChoice& scene, std::uint64_t
 
 Setup make_setup(const SceneChoice& scene, std::string_view sensor, bool random, std::uint64_t seed) {
   const SensorModel* const model = find_sensor(sensor);
-  if (model == nullptr) {
-    std::vector<std::string> names;
-    for (const SensorModel& m : sensor_models()) names.push_back(m.sensor.name);
-    unknown("sensor", sensor, names);
-  }
+  if (model == nullptr) unknown("sensor", sensor, sensor_names());
   Setup setup;
   setup.sensor = model->sensor;
   setup.mount.mount_roll_deg = model->mount_roll_deg;

@@ -3,7 +3,11 @@
 
 #include "sim/sensors.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
+
+#include "sim/sector.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {
@@ -42,9 +46,64 @@ std::vector<EngineSetting> few_points(const char* ground_roi_radius_max, const c
       {"range_noise", range_noise}};
 }
 
+std::vector<EngineSetting> more_points() {
+  return {{"ground_inlier_min", "400"}, {"range_bias_max", kBiasMost_m}, {"range_noise", "0.015"}};
+}
+
 Vector direction(double azimuth_rad, double elevation_rad) {
   return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
           std::sin(elevation_rad)};
+}
+
+// As of the class that has as many rings. The lowest laser of a Puck Hi-Res meets the floor only at 5.7 times the
+// sensor's height: of a sensor 2 m high, three of its rings lie within 20 m, and two within 15 m.
+std::vector<EngineSetting> engine_of(const BeamTable& table) {
+  constexpr double kLooksFar_deg = -12.0;  // between the lowest lasers of a Puck and of a Hi-Res
+  const std::size_t rings = table.lasers.size();
+  if (rings <= 16) return few_points(table.lowest_deg() > kLooksFar_deg ? "20.0" : "15.0", "0.015");
+  return rings <= 64 ? more_points() : std::vector<EngineSetting>{{"range_bias_max", kBiasMost_m}};
+}
+
+Sensor real_sensor(const BeamTable& table) {
+  Sensor sensor;
+  sensor.name = table.word;
+  sensor.beams = &table;
+  sensor.rings = static_cast<double>(table.lasers.size());
+  sensor.columns = table.columns;
+  sensor.elevation_min_deg = table.lowest_deg();
+  sensor.elevation_max_deg = table.highest_deg();
+  sensor.range_noise_m = table.ranges.noise_m;
+  sensor.range_quantum_m = table.ranges.unit_m;
+  sensor.range_floor_m = table.ranges.min_m;
+  sensor.range_ceiling_m = table.ranges.max_m;
+  sensor.divergence_deg = table.ranges.beam_deg;
+  return sensor;
+}
+
+std::string help_of(const BeamTable& table) {
+  std::ostringstream help;
+  help << table.title << ": " << table.lasers.size() << " lasers, " << table.lowest_deg() << " to "
+       << table.highest_deg() << " deg, " << table.columns << " columns, noise " << 100.0 * table.ranges.noise_m
+       << " cm, steps of " << 1000.0 * table.ranges.unit_m << " mm, light from "
+       << std::round(1e6 * table.reach_m()) / 1e3 << " mm off the origin";
+  return help.str();
+}
+
+std::vector<Beam> table_beams(const Sensor& sensor) {
+  const BeamTable& table = *sensor.beams;
+  std::vector<Laser> by_ring = table.lasers;
+  std::sort(by_ring.begin(), by_ring.end(), [](const Laser& a, const Laser& b) { return a.ring < b.ring; });
+  const auto columns = static_cast<std::uint32_t>(sensor.columns);
+  std::vector<Beam> beams;
+  beams.reserve(by_ring.size() * columns);
+  for (const Laser& laser : by_ring) {
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const auto [origin_m, direction] = laser_ray(table, laser, column, columns);
+      beams.push_back({Vector(direction.data()), laser.ring, static_cast<std::uint16_t>(column),
+                       laser.after_ns / table.cycle_ns, Vector(origin_m.data())});
+    }
+  }
+  return beams;
 }
 
 std::vector<Beam> ring_beams(const Sensor& sensor) {
@@ -58,7 +117,7 @@ std::vector<Beam> ring_beams(const Sensor& sensor) {
         sensor.elevation_min_deg + (rings > 1 ? span_deg * ring / (rings - 1) : 0.5 * span_deg);
     for (int column = 0; column < columns; ++column) {
       beams.push_back({direction(-2.0 * M_PI * column / columns, elevation_deg * kRadPerDeg),
-                       static_cast<std::uint16_t>(ring), static_cast<std::uint16_t>(column)});
+                       static_cast<std::uint16_t>(ring), static_cast<std::uint16_t>(column), 0.0, Vector::Zero()});
     }
   }
   return beams;
@@ -77,8 +136,8 @@ std::vector<Beam> pattern_beams(const Sensor& sensor, std::uint32_t frame_index)
     double whole = 0.0;
     const double azimuth = 2.0 * M_PI * std::modf(n * kStepAzimuth, &whole);
     const double elevation_deg = sensor.elevation_min_deg + span_deg * std::modf(n * kStepElevation, &whole);
-    beams.push_back(
-        {direction(azimuth, elevation_deg * kRadPerDeg), 0, static_cast<std::uint16_t>(i * kPatternSteps / count)});
+    beams.push_back({direction(azimuth, elevation_deg * kRadPerDeg), 0,
+                     static_cast<std::uint16_t>(i * kPatternSteps / count), 0.0, Vector::Zero()});
   }
   return beams;
 }
@@ -89,10 +148,8 @@ const std::vector<SensorModel>& sensor_models() {
   static const std::vector<SensorModel> models = {
       {rotating("vlp16", 16.0, 1800.0, 15.0, 0.02, 100.0), "16 rings, -15 to 15 deg, 1800 columns, 2 cm noise", 0.0,
        few_points("15.0", "0.015")},
-      {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0),
-       "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise",
-       0.0,
-       {{"ground_inlier_min", "400"}, {"range_bias_max", kBiasMost_m}, {"range_noise", "0.015"}}},
+      {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0), "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise",
+       0.0, more_points()},
       {rotating("os0-128", 128.0, 1024.0, 45.0, 0.015, 50.0),
        "128 rings, -45 to 45 deg, 1024 columns, 1.5 cm noise",
        0.0,
@@ -104,15 +161,51 @@ const std::vector<SensorModel>& sensor_models() {
   return models;
 }
 
+const std::vector<SensorModel>& real_sensor_models() {
+  static const std::vector<SensorModel> models = [] {
+    std::vector<SensorModel> all;
+    for (const BeamTable* const table : beam_tables()) {
+      all.push_back({real_sensor(*table), help_of(*table), 0.0, engine_of(*table)});
+    }
+    return all;
+  }();
+  return models;
+}
+
 const SensorModel* find_sensor(std::string_view name) {
-  for (const SensorModel& model : sensor_models()) {
-    if (model.sensor.name == name) return &model;
+  for (const auto* const models : {&sensor_models(), &real_sensor_models()}) {
+    for (const SensorModel& model : *models) {
+      if (model.sensor.name == name) return &model;
+    }
   }
   return nullptr;
 }
 
+std::vector<std::string> sensor_names() {
+  std::vector<std::string> names;
+  for (const auto* const models : {&sensor_models(), &real_sensor_models()}) {
+    for (const SensorModel& model : *models) names.push_back(model.sensor.name);
+  }
+  return names;
+}
+
+Vector point_of(const Beam& beam, double range_m, double unit_scale) {
+  const Vector way = range_m * unit_scale * beam.direction;
+  // Zeros would be added to minus zeros, and change their bits.
+  return beam.origin.isZero(0.0) ? way : Vector(way + unit_scale * beam.origin);
+}
+
 std::vector<Beam> beams_of(const Sensor& sensor, std::uint32_t frame_index) {
-  return sensor.rings > 0.0 ? ring_beams(sensor) : pattern_beams(sensor, frame_index);
+  std::vector<Beam> beams = sensor.beams != nullptr ? table_beams(sensor)
+                            : sensor.rings > 0.0    ? ring_beams(sensor)
+                                                    : pattern_beams(sensor, frame_index);
+  if (sensor.window_from_deg == sensor.window_to_deg) return beams;
+  const auto is_outside = [&sensor](const Beam& beam) {
+    const double azimuth_deg = std::atan2(beam.direction.y(), beam.direction.x()) / kRadPerDeg;
+    return !in_sector(azimuth_deg, sensor.window_from_deg, sensor.window_to_deg);
+  };
+  beams.erase(std::remove_if(beams.begin(), beams.end(), is_outside), beams.end());
+  return beams;
 }
 
 std::uint32_t scan_steps(const Sensor& sensor) {

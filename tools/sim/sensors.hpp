@@ -26,15 +26,25 @@ struct SensorModel {
   std::vector<EngineSetting> engine;  // in which an engine for this sensor differs from the defaults
 };
 
+// One of each class: even rings whose light all leaves the origin. Campaigns judge these.
 const std::vector<SensorModel>& sensor_models();
-// nullptr if there is none of this name.
+// As they are built, by the tables of beams/.
+const std::vector<SensorModel>& real_sensor_models();
+// Of either; nullptr if there is none of this name.
 const SensorModel* find_sensor(std::string_view name);
+// Of both, in this order.
+std::vector<std::string> sensor_names();
 
 struct Beam {
   Vector direction;  // unit, lidar frame
   std::uint16_t ring = 0;
-  std::uint16_t step = 0;  // beams of one step fire at once, and the steps evenly over the scan
+  std::uint16_t step = 0;          // the steps of a scan fire evenly over it: a firing of all lasers, or beams at once
+  double share = 0.0;              // of its step, after which this beam fires
+  Vector origin = Vector::Zero();  // where its light leaves, lidar frame
 };
+
+// Where a beam ends, as the sensor's driver works it out, in units of 1 / unit_scale m.
+Vector point_of(const Beam& beam, double range_m, double unit_scale = 1.0);
 
 // Of a frame, ring by ring for rotating sensors, where every frame has the same; a non-repetitive pattern goes on where
 // the last frame ended.

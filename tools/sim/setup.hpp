@@ -12,6 +12,7 @@
 #include <string>
 
 #include "angles.hpp"
+#include "beams/beam_table.hpp"
 
 namespace pose_wall::tools::sim {
 
@@ -191,6 +192,8 @@ struct Mount {
 
 struct Sensor {
   std::string name = "os1-64";
+  // Of a real sensor: where its lasers point. None: even steps between the elevations.
+  const BeamTable* beams = nullptr;
   double rings = 64.0;  // 0: non-repetitive pattern
   double columns = 1024.0;
   double pattern_points = 0.0;  // beams per frame of a non-repetitive pattern
@@ -202,9 +205,13 @@ struct Sensor {
   double range_floor_m = 0.1;  // the sensor itself sees nothing nearer
   double range_ceiling_m = 90.0;
   double divergence_deg = 0.0;     // 0: no mixing of ranges at edges
-  double dual_returns = 0.0;       // edges give two points instead of a mixed one
+  double dual_returns = 0.0;       // edges give two points instead of a mixed one, and dust keeps what is behind
   double grazing_limit_deg = 1.0;  // flatter hits give no return
-  double unit_scale = 1.0;         // 1000: a driver that delivers millimetres
+  double noise_incidence_m = 0.0;  // flat hits smear the pulse: more noise, by the tangent of the incidence
+  double noise_dark_most = 1.0;    // noise grows with the root of the light that is missing, this often at most
+  double window_from_deg = 0.0;    // it measures only between these of its own azimuths, + left; from == to: all around
+  double window_to_deg = 0.0;
+  double unit_scale = 1.0;  // 1000: a driver that delivers millimetres
 };
 
 struct Faults {

@@ -17,24 +17,21 @@ namespace {
 
 constexpr double kFirstStamp_s = 1000.0;
 
-float intensity(const Return& r) {
-  const double albedo = r.label == Label::kDust ? 0.1 : (r.label == Label::kSteel || r.side == 0 ? 0.6 : 0.45);
-  return static_cast<float>(std::min(255.0, std::round(255.0 * albedo * r.brightness * (0.2 + 0.8 * r.cosine))));
-}
-
 void append(const Return& r, const Beam& beam, std::uint32_t time_ns, double unit_scale, Frame* frame) {
   if (r.label == Label::kNone) return;
-  const Vector p = r.range_m * unit_scale * beam.direction;
+  const Vector p = point_of(beam, r.range_m, unit_scale);
   for (int axis = 0; axis < 3; ++axis) frame->xyz_intensity.push_back(static_cast<float>(p[axis]));
   frame->xyz_intensity.push_back(intensity(r));
   frame->labels.push_back(r.label);
   frame->time_ns.push_back(time_ns);
   frame->ring.push_back(beam.ring);
+  frame->column.push_back(beam.step);
 }
 
 // As they fire. Those that fire at one instant stay as they are.
-void sort_by_step(std::vector<Beam>* beams) {
-  std::stable_sort(beams->begin(), beams->end(), [](const Beam& a, const Beam& b) { return a.step < b.step; });
+void sort_as_they_fire(std::vector<Beam>* beams) {
+  std::stable_sort(beams->begin(), beams->end(),
+                   [](const Beam& a, const Beam& b) { return a.step + a.share < b.step + b.share; });
 }
 
 // Which of the sensor's frames is delivered at this place, after what was dropped and sent twice in the scene. While
@@ -66,7 +63,7 @@ Simulator::Simulator(const Setup& setup, std::uint64_t seed)
       world_(setup, mix(seed)),
       mean_rock_(World::mean(setup)),
       beams_(beams_of(setup.sensor, 0)) {
-  if (setup.sequence.scan_s > 0.0) sort_by_step(&beams_);
+  if (setup.sequence.scan_s > 0.0) sort_as_they_fire(&beams_);
 }
 
 Simulator::Simulator(const Setup& setup, std::uint64_t seed, Survey survey)
@@ -76,7 +73,7 @@ Simulator::Simulator(const Setup& setup, std::uint64_t seed, Survey survey)
       world_(survey_.rock),
       mean_rock_(survey_.rock),
       beams_(beams_of(setup.sensor, 0)) {
-  if (setup.sequence.scan_s > 0.0) sort_by_step(&beams_);
+  if (setup.sequence.scan_s > 0.0) sort_as_they_fire(&beams_);
 }
 
 Moment Simulator::moment_at(double time_s) const {
@@ -111,8 +108,8 @@ Frame Simulator::render(std::uint32_t frame_index) const {
   for (const Beam& beam : beams) {
     if (step_s > 0.0 && beam.step != step) caster.move_to(moment_at(begin_s + beam.step * step_s));
     step = beam.step;
-    const auto time_ns = static_cast<std::uint32_t>(std::lround(beam.step * step_s * 1e9));
-    const BeamCaster::Returns returns = caster.cast(beam.direction);
+    const auto time_ns = static_cast<std::uint32_t>(std::lround((beam.step + beam.share) * step_s * 1e9));
+    const BeamCaster::Returns returns = caster.cast(beam);
     append(returns.first, beam, time_ns, setup_.sensor.unit_scale, &frame);
     append(returns.second, beam, time_ns, setup_.sensor.unit_scale, &frame);
   }

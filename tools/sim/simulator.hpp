@@ -18,6 +18,7 @@ struct Frame {
   std::vector<Label> labels;           // one per point
   std::vector<std::uint32_t> time_ns;  // likewise: when its beam fired, from the stamp on; all 0 without scan_s
   std::vector<std::uint16_t> ring;     // likewise: counted from the lowest; all 0 for a pattern
+  std::vector<std::uint16_t> column;   // likewise: which firing of the turn; of a pattern, which part
   std::int64_t stamp_ns = 0;
   std::size_t count() const { return labels.size(); }
 };

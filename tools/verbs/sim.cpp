@@ -60,7 +60,7 @@ void print_list() {
     scenes.add_row({s.name, sim::scene_kind_name(s.kind), s.help, s.expected});
   }
   TextTable sensors({"sensor", "description"});
-  for (const sim::SensorModel& m : sim::sensor_models()) sensors.add_row({m.sensor.name, m.help});
+  for (const std::string& name : sim::sensor_names()) sensors.add_row({name, sim::find_sensor(name)->help});
   TextTable keys({"key", "default", "unit", "allowed", "meaning"});
   sim::Setup defaults;
   for (const sim::Parameter& p : sim::parameters()) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// pose_wall_sensor: a LiDAR that is not there. It drives through a simulated road and sends the packets of a VLP-16 or
-// an Ouster by UDP, at their pace; for trying pose_walld without a machine, and for its tests.
+// pose_wall_sensor: a LiDAR that is not there. It drives through a simulated road and sends its packets by UDP, at
+// their pace; for trying pose_walld without a machine, and for its tests.
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -92,11 +92,6 @@ RangeImage image_of(const std::vector<RangeImage>& images, std::uint64_t turn) {
   return image;
 }
 
-std::unique_ptr<PacketEncoder> encoder_of(const sim::Sensor& sensor) {
-  if (sensor.rings == 16.0) return std::make_unique<Vlp16Encoder>();
-  return std::make_unique<OusterEncoder>(sensor);
-}
-
 bool is_absent(const Words& words, double time_s) {
   return words.present_s > 0.0 && std::fmod(time_s, words.present_s + words.absent_s) >= words.present_s;
 }
@@ -131,11 +126,11 @@ void run(const Words& words) {
     file << sim::engine_settings(setup, "For the machine that pose_wall_sensor simulates.");
     if (!file.flush()) throw std::runtime_error(words.config_to + ": cannot be written: " + std::strerror(errno));
   }
-  const std::unique_ptr<PacketEncoder> encoder = encoder_of(setup.sensor);
+  const std::unique_ptr<PacketEncoder> encoder = make_encoder(setup.sensor);
   std::unique_ptr<MetadataServer> server;
   if (!words.http.empty()) {
     const auto* ouster = dynamic_cast<const OusterEncoder*>(encoder.get());
-    if (ouster == nullptr) throw std::invalid_argument("--http: a VLP-16 has no metadata; an Ouster has");
+    if (ouster == nullptr) throw std::invalid_argument("--http: only an Ouster has metadata");
     server = std::make_unique<MetadataServer>(words.http, ouster->metadata());
   }
   fmt::print("renders {} turns\n", words.frames);
@@ -150,8 +145,8 @@ void run(const Words& words) {
 int main_of(int argc, char** argv) {
   CLI::App app("Sends the packets of a simulated LiDAR, there and back along a road.", "pose_wall_sensor");
   Words words;
-  app.add_option("--sensor", words.scene.sensor, "vlp16, os1-64 or os0-128; default: os1-64")
-      ->check(CLI::IsMember({"vlp16", "os1-64", "os0-128"}));
+  app.add_option("--sensor", words.scene.sensor, "As `pose_wall sim --list` describes it; default: os1-64")
+      ->check(CLI::IsMember(sensors_with_packets()));
   app.add_option("--scene", words.scene.scene, "As `pose_wall sim --list` shows them; default: a heading at work");
   app.add_option("--set", words.scene.simulation, "NAME=VALUE of the simulation")->allow_extra_args(false);
   app.add_option("--seed", words.scene.seed, "Of the road");

@@ -3,19 +3,18 @@
 
 #include "live/sensor_sim/packet_encoder.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-
-#include "angles.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
 
 constexpr double kTurn_deg = 360.0;
 
-// Both sensors write little-endian.
+// All of them write little-endian.
 template <typename Number>
 void put(std::string* bytes, Number number) {
   for (std::size_t i = 0; i < sizeof number; ++i) {
@@ -27,6 +26,25 @@ std::uint8_t reflectivity(float intensity) {
   return static_cast<std::uint8_t>(std::lround(std::min(255.0F, std::max(0.0F, intensity))));
 }
 
+// A laser's range and light, as Velodyne and Hesai write them.
+void put_return(std::string* bytes, const RangeImage& image, std::size_t at, double unit_m) {
+  put(bytes, static_cast<std::uint16_t>(std::lround(image.range_m[at] / unit_m)));
+  put(bytes, reflectivity(image.intensity[at]));
+}
+
+void put_azimuth(std::string* bytes, const RangeImage& image, std::uint32_t column) {
+  put(bytes, static_cast<std::uint16_t>(std::lround(100.0 * kTurn_deg * column / image.columns)));
+}
+
+void demand_rings(const RangeImage& image, const BeamTable& beams) {
+  if (image.rings == beams.lasers.size()) return;
+  throw std::invalid_argument("a " + beams.title + " has " + std::to_string(beams.lasers.size()) + " rings");
+}
+
+constexpr std::array<VelodyneModel, 4> kVelodynes = {VelodyneModel::kVlp16, VelodyneModel::kVlp16HiRes,
+                                                     VelodyneModel::kHdl32e, VelodyneModel::kVlp32c};
+constexpr std::array<HesaiModel, 3> kHesais = {HesaiModel::kXt32, HesaiModel::kPandar40p, HesaiModel::kQt64};
+
 }  // namespace
 
 RangeImage range_image(const sim::Sensor& sensor, const sim::Frame& frame) {
@@ -36,49 +54,66 @@ RangeImage range_image(const sim::Sensor& sensor, const sim::Frame& frame) {
   if (image.rings < 2 || image.columns < 1) throw std::invalid_argument("only a rotating sensor has rings to encode");
   image.range_m.assign(std::size_t{image.rings} * image.columns, 0.0);
   image.intensity.assign(image.range_m.size(), 0.0F);
-  const double step_deg = (sensor.elevation_max_deg - sensor.elevation_min_deg) / (image.rings - 1);
+  std::vector<sim::Vector> origins(image.range_m.size(), sim::Vector::Zero());
+  for (const sim::Beam& beam : sim::beams_of(sensor, 0)) origins[image.at(beam.ring, beam.step)] = beam.origin;
+  const double ahead_m = sensor.beams != nullptr ? sensor.beams->ahead_m() : 0.0;
   for (std::size_t i = 0; i < frame.count(); ++i) {
     const float* p = &frame.xyz_intensity[4 * i];
-    const double flat_m = std::hypot(static_cast<double>(p[0]), static_cast<double>(p[1]));
-    const double range_m = std::hypot(flat_m, static_cast<double>(p[2]));
-    const double elevation_deg = std::atan2(static_cast<double>(p[2]), flat_m) * kDegPerRad;
-    const double clockwise_deg = -std::atan2(static_cast<double>(p[1]), static_cast<double>(p[0])) * kDegPerRad;
-    const long ring = std::lround((elevation_deg - sensor.elevation_min_deg) / step_deg);
-    const long column = std::lround((clockwise_deg + kTurn_deg) / kTurn_deg * image.columns) % image.columns;
-    if (ring < 0 || ring >= static_cast<long>(image.rings)) continue;
-    const std::size_t at = image.at(static_cast<std::uint32_t>(ring), static_cast<std::uint32_t>(column));
-    image.range_m[at] = range_m;
+    const std::size_t at = image.at(frame.ring[i], frame.column[i]);
+    image.range_m[at] = (sim::Vector(p[0], p[1], p[2]) - origins[at]).norm() + ahead_m;
     image.intensity[at] = p[3];
   }
   return image;
 }
 
-std::vector<std::string> Vlp16Encoder::packets(const RangeImage& image, std::int64_t began_ns, std::int64_t turn_ns) {
-  // Of a data packet, each block with two firings (VLP-16 user manual, 63-9243).
-  constexpr std::uint32_t kBlocks = 12, kRings = 16;
-  constexpr double kUnit_m = 0.002;
-  // Packets tell the microseconds since the full hour.
-  constexpr std::int64_t kHour_ns = 3'600'000'000'000;
-  if (image.rings != kRings) throw std::invalid_argument("a VLP-16 has 16 rings");
+std::vector<std::string> VelodyneEncoder::packets(const RangeImage& image, std::int64_t began_ns,
+                                                  std::int64_t turn_ns) {
+  constexpr std::int64_t kHour_ns = 3'600'000'000'000;  // packets tell the microseconds since the full one
+  demand_rings(image, traits_.beams);
+  const auto of_block = static_cast<std::uint32_t>(traits_.firings_per_block());
+  const auto of_packet = static_cast<std::uint32_t>(kVelodyneBlocks) * of_block;
   std::vector<std::string> packets;
-  for (std::uint32_t first = 0; first + 2 * kBlocks <= image.columns; first += 2 * kBlocks) {
+  for (std::uint32_t first = 0; first + of_packet <= image.columns; first += of_packet) {
     std::string packet;
-    for (std::uint32_t firing = first; firing < first + 2 * kBlocks; ++firing) {
-      if ((firing - first) % 2 == 0) {
+    for (std::uint32_t firing = first; firing < first + of_packet; ++firing) {
+      if ((firing - first) % of_block == 0) {
         put(&packet, std::uint16_t{0xEEFF});
-        put(&packet, static_cast<std::uint16_t>(std::lround(100.0 * kTurn_deg * firing / image.columns)));
+        put_azimuth(&packet, image, firing);
       }
-      // Lasers alternate between the lower and the upper half: -15, 1, -13, 3, ... degrees.
-      for (std::uint32_t laser = 0; laser < kRings; ++laser) {
-        const std::size_t at = image.at(laser % 2 == 0 ? laser / 2 : 8 + laser / 2, firing);
-        put(&packet, static_cast<std::uint16_t>(std::lround(image.range_m[at] / kUnit_m)));
-        put(&packet, reflectivity(image.intensity[at]));
+      for (const Laser& laser : traits_.beams.lasers) {
+        put_return(&packet, image, image.at(laser.ring, firing), traits_.beams.ranges.unit_m);
       }
     }
     const std::int64_t time_ns = began_ns + turn_ns * first / image.columns;
     put(&packet, static_cast<std::uint32_t>(time_ns % kHour_ns / 1000));
-    packet += "\x37\x22";  // strongest return, VLP-16
+    put(&packet, std::uint8_t{0x37});  // the strongest return
+    put(&packet, traits_.product);
     packets.push_back(std::move(packet));
+  }
+  return packets;
+}
+
+std::vector<std::string> HesaiEncoder::packets(const RangeImage& image, std::int64_t, std::int64_t) {
+  demand_rings(image, traits_.beams);
+  const auto of_packet = static_cast<std::uint32_t>(traits_.blocks);
+  std::vector<std::string> packets;
+  for (std::uint32_t first = 0; first + of_packet <= image.columns; first += of_packet) {
+    std::string packet;
+    if (traits_.head_bytes > 0) {
+      packet = std::string("\xEE\xFF\x06\x01", 4) + std::string(2, '\0') + static_cast<char>(traits_.lasers()) +
+               static_cast<char>(traits_.blocks) + std::string("\0\x04\x01\0", 4);
+    }
+    for (std::uint32_t firing = first; firing < first + of_packet; ++firing) {
+      if (traits_.block_head_bytes > 2) put(&packet, std::uint16_t{0xEEFF});
+      put_azimuth(&packet, image, firing);
+      for (const Laser& laser : traits_.beams.lasers) {
+        put_return(&packet, image, image.at(laser.ring, firing), traits_.beams.ranges.unit_m);
+        packet.append(traits_.return_bytes - 3, '\0');
+      }
+    }
+    std::string tail(traits_.tail_bytes, '\0');
+    tail[traits_.mode_offset] = '\x37';  // the strongest return
+    packets.push_back(packet + tail);
   }
   return packets;
 }
@@ -115,16 +150,26 @@ std::vector<std::string> OusterEncoder::packets(const RangeImage& image, std::in
 std::string OusterEncoder::metadata() const {
   using Json = nlohmann::ordered_json;
   const auto rings = static_cast<std::uint32_t>(sensor_.rings);
-  std::vector<double> altitude_deg, azimuth_deg(rings, 0.0);
+  std::vector<double> altitude_deg(rings), azimuth_deg(rings, 0.0);
   for (std::uint32_t ring = 0; ring < rings; ++ring) {
-    altitude_deg.push_back(sensor_.elevation_max_deg -
-                           (sensor_.elevation_max_deg - sensor_.elevation_min_deg) * ring / (rings - 1));
+    altitude_deg[ring] =
+        sensor_.elevation_max_deg - (sensor_.elevation_max_deg - sensor_.elevation_min_deg) * ring / (rings - 1);
+  }
+  double out_mm = 0.0;
+  if (sensor_.beams != nullptr) {
+    out_mm = 1e3 * sensor_.beams->lens.out_m;
+    for (const Laser& laser : sensor_.beams->lasers) {
+      altitude_deg[rings - 1 - laser.ring] = laser.elevation_deg;
+      azimuth_deg[rings - 1 - laser.ring] = laser.azimuth_deg;
+    }
   }
   const std::vector<int> unmoved = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  const std::vector<double> of_beam = {1, 0, 0, out_mm, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   const Json page = {{"prod_line", "simulated " + sensor_.name},
                      {"beam_altitude_angles", altitude_deg},
                      {"beam_azimuth_angles", azimuth_deg},
-                     {"beam_to_lidar_transform", unmoved},
+                     {"lidar_origin_to_beam_origin_mm", out_mm},
+                     {"beam_to_lidar_transform", of_beam},
                      {"lidar_to_sensor_transform", unmoved},
                      {"data_format",
                       {{"pixels_per_column", rings},
@@ -132,6 +177,28 @@ std::string OusterEncoder::metadata() const {
                        {"columns_per_packet", kColumnsPerPacket},
                        {"udp_profile_lidar", "LEGACY"}}}};
   return page.dump(2);
+}
+
+std::vector<std::string> sensors_with_packets() {
+  std::vector<std::string> names = {"vlp16", "os1-64", "os0-128"};
+  for (const BeamTable* const table : beam_tables()) {
+    if (table->maker != SensorMaker::kRoboSense && table->maker != SensorMaker::kLslidar) names.push_back(table->word);
+  }
+  return names;
+}
+
+std::unique_ptr<PacketEncoder> make_encoder(const sim::Sensor& sensor) {
+  const bool is_ouster = sensor.beams != nullptr ? sensor.beams->maker == SensorMaker::kOuster
+                                                 : sensor.name == "os1-64" || sensor.name == "os0-128";
+  if (is_ouster) return std::make_unique<OusterEncoder>(sensor);
+  if (sensor.name == "vlp16") return std::make_unique<VelodyneEncoder>(VelodyneModel::kVlp16);
+  for (const VelodyneModel model : kVelodynes) {
+    if (&velodyne_traits(model).beams == sensor.beams) return std::make_unique<VelodyneEncoder>(model);
+  }
+  for (const HesaiModel model : kHesais) {
+    if (&hesai_traits(model).beams == sensor.beams) return std::make_unique<HesaiEncoder>(model);
+  }
+  throw std::invalid_argument(sensor.name + ": no packets of such a sensor are known");
 }
 
 }  // namespace pose_wall::tools::live

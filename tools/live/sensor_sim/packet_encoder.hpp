@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Simulated turns as the packets that a sensor would send of them: a VLP-16, or an Ouster of any number of rings.
+// Simulated turns as the packets that a sensor would send of them. Lasers and layouts are those of the decoders'
+// tables; how they are written is worked out here anew, so that each is a check of the other.
 
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "packets/hesai_models.hpp"
+#include "packets/velodyne_models.hpp"
 #include "sim/simulator.hpp"
 
 namespace pose_wall::tools::live {
 
-// Ranges of a turn, ring by ring from the lowest, in columns clockwise from x; 0: no return.
+// Ranges of a turn as the sensor counts them, ring by ring from the lowest, in columns clockwise from x; 0: no return.
 struct RangeImage {
   std::uint32_t rings = 0, columns = 0;
   std::vector<double> range_m;
@@ -21,10 +25,11 @@ struct RangeImage {
   std::size_t at(std::uint32_t ring, std::uint32_t column) const { return std::size_t{ring} * columns + column; }
 };
 
-// Of a rotating sensor's frame. Throws std::invalid_argument for another one.
+// Of a rotating sensor's frame; of two returns the second. Throws std::invalid_argument for another sensor.
 RangeImage range_image(const sim::Sensor& sensor, const sim::Frame& frame);
 
-// The packets of one turn in the order and, by their number, at the times at which the sensor sends them.
+// The packets of one turn in the order and, by their number, at the times at which the sensor sends them. What a turn
+// holds beyond whole packets is not sent.
 class PacketEncoder {
  public:
   PacketEncoder() = default;
@@ -36,13 +41,29 @@ class PacketEncoder {
   virtual std::vector<std::string> packets(const RangeImage& image, std::int64_t began_ns, std::int64_t turn_ns) = 0;
 };
 
-// 16 rings of 2 degrees, as a VLP-16 in single return mode: 1206 bytes, 24 firings a packet.
-class Vlp16Encoder final : public PacketEncoder {
+// In single return mode: 1206 bytes, 24 firings of 16 lasers a packet, or 12 of 32.
+class VelodyneEncoder final : public PacketEncoder {
  public:
+  explicit VelodyneEncoder(VelodyneModel model) : traits_(velodyne_traits(model)) {}
+
   std::vector<std::string> packets(const RangeImage& image, std::int64_t began_ns, std::int64_t turn_ns) override;
+
+ private:
+  const VelodyneTraits& traits_;
 };
 
-// The legacy profile of 16 columns a packet, for beams that start in the middle.
+// In single return mode, with as much of head and tail as tells what packets they are.
+class HesaiEncoder final : public PacketEncoder {
+ public:
+  explicit HesaiEncoder(HesaiModel model) : traits_(hesai_traits(model)) {}
+
+  std::vector<std::string> packets(const RangeImage& image, std::int64_t began_ns, std::int64_t turn_ns) override;
+
+ private:
+  const HesaiTraits& traits_;
+};
+
+// The legacy profile of 16 columns a packet.
 class OusterEncoder final : public PacketEncoder {
  public:
   explicit OusterEncoder(const sim::Sensor& sensor) : sensor_(sensor) {}
@@ -59,5 +80,11 @@ class OusterEncoder final : public PacketEncoder {
   sim::Sensor sensor_;
   std::uint16_t frame_ = 0;
 };
+
+// Those that make_encoder knows.
+std::vector<std::string> sensors_with_packets();
+// Throws std::invalid_argument for a sensor whose packets are not known. A vlp16, whose light all leaves the origin,
+// sends the packets of a real one: their decoder adds its heights, up to 1.1 cm.
+std::unique_ptr<PacketEncoder> make_encoder(const sim::Sensor& sensor);
 
 }  // namespace pose_wall::tools::live
