@@ -22,7 +22,7 @@ shift 3
 pose_wall=${POSE_WALL:-build/release/pose_wall}
 along=(--path "$path")
 [ "$path" != - ] || along=()
-[ $# -gt 0 ] || set -- vlp16 os1-64 os0-128 mid360
+[ $# -gt 0 ] || set -- velodyne-vlp16 ouster-os1-64 ouster-os0-128 mid360 hesai-xt32
 
 # Of one sensor: values and valid ones, those of them that are wrong, |error| and level of all that were measured (the
 # median of angles in degrees, of distances in mm), million steps of work a frame (median, most; an OS1-64 on an ordinary
