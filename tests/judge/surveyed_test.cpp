@@ -81,8 +81,9 @@ TEST(SurveyedTruth, IsThatOfTheSimulatorsSurveyor) {
                     other.value[q]);
       apart += is_apart ? 1 : 0;
     }
-    const bool has_yaw = std::isfinite(own.low[POSE_WALL_YAW]) && std::isfinite(other.value[POSE_WALL_YAW]);
-    if (has_yaw && own.error(POSE_WALL_YAW, other.value[POSE_WALL_YAW]) > 0.0035) ++apart;
+    if (!std::isfinite(own.low[POSE_WALL_YAW]) || !std::isfinite(other.value[POSE_WALL_YAW])) continue;
+    ++places;
+    apart += std::abs(own.error(POSE_WALL_YAW, other.value[POSE_WALL_YAW])) > 0.0035 ? 1 : 0;
   }
   EXPECT_GT(places, 100);
   EXPECT_LT(apart, places / 20);

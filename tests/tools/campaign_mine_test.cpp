@@ -37,6 +37,13 @@ TEST(MineTruths, WhatLiesBetweenIsNotWrong) {
   EXPECT_EQ(told(2.1, 2.4, 2.5).judged_truth(), 2.4);
 }
 
+// What the machine acts on is judged, held values too, and not what its frame measured.
+TEST(MineTruths, AHeldValueIsJudgedByItself) {
+  QuantityRecord held = told(2.9, 2.4, 2.5);
+  held.measured.value = 2.45;
+  EXPECT_EQ(held.judged_truth(), 2.45);
+}
+
 TEST(MineTruths, OneAloneCounts) {
   EXPECT_EQ(told(2.45, 2.4, kNone).judged_truth(), 2.4);
   EXPECT_EQ(told(2.45, kNone, 2.5).judged_truth(), 2.5);
@@ -111,7 +118,9 @@ TEST(CampaignSurface, ARoadThatCannotBeReadIsNamed) {
   const Ran motion = command({"campaign", "--motion", "--surface", "a.ply", "--output", folder.file("out")});
   EXPECT_TRUE(contains(motion.errors, "--surface")) << motion.errors;
   const Ran sim = command({"sim", "--scene", "surveyed", "--output", folder.file("sim")});
-  EXPECT_TRUE(contains(sim.errors, "--surface FILE")) << sim.errors;
+  EXPECT_TRUE(contains(sim.errors, "unknown scene 'surveyed'")) << sim.errors;
+  const Ran named = command({"campaign", "--scenes", "surveyed", "--output", folder.file("named")});
+  EXPECT_TRUE(contains(named.errors, "unknown scene 'surveyed'")) << named.errors;
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ ClassCard& class_of(Card& card, const RunRecord& record) {
     if (last.scene->name == record.run.scene && last.sensor == record.run.sensor) return last;
   }
   ClassCard& one = card.classes.emplace_back();
-  one.scene = sim::find_scene(record.run.scene);
+  one.scene = scene_of(record.run.scene);
   one.sensor = record.run.sensor;
   one.quantities = empty_statistics(card.manifest.limits);
   one.straight = one.by_road = one.by_survey = one.quantities;
@@ -181,7 +181,7 @@ std::vector<FramesCard> frames_cards(const std::vector<const RunRecord*>& told, 
       of_kind.push_back({kind, name, 0, 0, empty_statistics(limits)});
     }
     for (const RunRecord* const record : told) {
-      if (sim::find_scene(record->run.scene)->kind != kind) continue;
+      if (scene_of(record->run.scene)->kind != kind) continue;
       add_frames(of_kind[0], *record, is_first);
       add_frames(of_kind[stands(record->run.settings) ? 1 : 2], *record, is_in_shares);
       add_frames(of_kind[3], *record, is_scenes);

@@ -63,7 +63,7 @@ struct ClassCard {
   FrameCounts frames;
   SevenStatistics quantities;  // of the scene, without the way in and the first frame
   std::size_t straight_runs = 0;
-  SevenStatistics straight;  // the same, of runs in whose scans no motion is
+  SevenStatistics straight;            // the same, of runs in whose scans no motion is
   SevenStatistics by_road, by_survey;  // of mine classes, likewise, by each truth alone
   EventTimes times;
   std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons{};  // values with a truth that were not valid, by reason

@@ -77,7 +77,7 @@ Cells curve_cells(const Card& card, std::size_t i) {
 
 std::string valid_text(const ErrorStatistics& statistics, const ValidCount& count) {
   std::string valid = percent(state_shares(statistics).valid);
-  if (count.values() == 0) return valid;
+  if (count.values() != statistics.frames()) return valid;  // some of them have no floor
   return fmt::format("{} {} {:.1f}", valid, count.holds() ? "≥" : "<", 100.0 * count.floor());
 }
 

@@ -47,7 +47,7 @@ void demand_work_left(Faults& faults, const std::string& name, const FrameCounts
 // class may be lost, as for its floors.
 void demand_budget(Faults& faults, const Card& card) {
   const auto share_of = [](const FrameCounts& frames) { return kWorkLimitedMax * static_cast<double>(frames.frames); };
-  for (const Totals* totals : {&card.nominal, &card.adversarial, &card.judged}) {
+  for (const Totals* totals : {&card.mine, &card.nominal, &card.adversarial, &card.judged}) {
     const std::string name = totals == &card.judged ? "all classes" : fmt::format("{} classes", totals->name);
     if (totals->classes > 0) demand_work_left(faults, name, totals->frames, share_of(totals->frames));
   }

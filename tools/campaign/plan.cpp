@@ -89,7 +89,7 @@ Run make_run(const PlanRequest& request, const Size& size, const std::string& sc
 // Its places are far apart: each frame stands alone, 10 s from the next.
 Run surveyed_run(const PlanRequest& request, const std::string& file, const std::string& sensor, std::uint32_t draw) {
   const auto places = static_cast<std::uint32_t>(survey_of(file).path.size());
-  return {sim::kSurveyedScene,
+  return {sim::surveyed_scene().name,
           sensor,
           draw,
           run_seed(request.seed, file, sensor, draw),
@@ -116,9 +116,14 @@ std::uint32_t draws_of(const PlanRequest& request, const Size& size, const std::
 
 }  // namespace
 
+const sim::SceneChoice* scene_of(const std::string& name) {
+  return name == sim::surveyed_scene().name ? &sim::surveyed_scene() : sim::find_scene(name);
+}
+
 // Rock that repeats could look the same at two places of the way.
 sim::Setup setup_of(const Run& run) {
-  sim::Setup setup = sim::make_setup(run.scene, run.sensor, run.surface.empty(), run.seed);
+  sim::Setup setup = run.surface.empty() ? sim::make_setup(run.scene, run.sensor, true, run.seed)
+                                         : sim::make_setup(sim::surveyed_scene(), run.sensor, false, run.seed);
   for (const std::string& setting : run.settings) sim::set_parameter(setup, setting);
   if (run.drive_in_m > 0.0) {
     setup.machine.drive_in_m = run.drive_in_m;

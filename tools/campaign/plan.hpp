@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "campaign/movement.hpp"
+#include "sim/scenes.hpp"
 #include "sim/setup.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -27,6 +28,9 @@ struct Run {
   std::string surface{};                // file of a real road, in place of the scene
   std::vector<std::string> settings{};  // KEY=VALUE of the simulator over what the scene draws: see movement_of
 };
+
+// Of the table, or that which stands for real roads. nullptr if there is none of this name.
+const sim::SceneChoice* scene_of(const std::string& name);
 
 // The scene as this run draws it, with the run's settings and its way in.
 sim::Setup setup_of(const Run& run);

@@ -96,7 +96,7 @@ double QuantityRecord::judged_truth() const {
   if (!std::isfinite(surveyed)) return truth;
   if (!std::isfinite(truth)) return surveyed;
   const double low = std::min(truth, surveyed), high = std::max(truth, surveyed);
-  const double told = std::isfinite(measured.raw) ? measured.raw : measured.value;
+  const double told = std::isfinite(measured.value) ? measured.value : measured.raw;
   return std::isfinite(told) ? std::clamp(told, low, high) : truth;
 }
 

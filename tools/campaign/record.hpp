@@ -29,8 +29,8 @@ struct QuantityRecord {
   std::uint32_t reasons;       // pose_wall_reason bits
   double surveyed = kNoTruth;  // of the rock that is really there; in mine classes alone
 
-  // What the measured value is judged by. Rock that bulges has two truths, and what lies between them is not wrong: the
-  // nearest of the two, or the value itself.
+  // What the value is judged by, and its raw one, which is never far. Rock that bulges has two truths, and what lies
+  // between them is not wrong: the nearest of the two, or the value itself.
   double judged_truth() const;
 };
 

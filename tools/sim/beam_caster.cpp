@@ -130,7 +130,7 @@ Return BeamCaster::meet_floor(const Ray& ray, const Return& floor) {
 Return BeamCaster::mirrored(const Ray& ray, double range_m) const {
   const Vector& up = world_.floor().n;
   const Ray onward{ray.at(range_m), ray.direction - 2.0 * up.dot(ray.direction) * up};
-  Hit hit = world_.trace(onward, setup_.sensor.range_ceiling_m - range_m);
+  Hit hit = world_.trace_ground(onward, setup_.sensor.range_ceiling_m - range_m);
   for (const Primitive& thing : things_) {
     double cosine = 1.0;
     const double t = thing.hit(onward, &cosine);

@@ -81,6 +81,10 @@ const Setup& checked(const Setup& setup) {
   demand(!arched || !splays, "an arch (arch_springing_m) cannot splay: splay_left_deg and splay_right_deg must be 0");
   demand(!arched || r.arch_springing_m < r.height_m, "arch_springing_m must be below height_m");
   demand(!curved || !(arched || splays), "a curve (curve_radius_m) has a flat roof and no splay");
+  demand(!curved || r.ramp_deg == 0.0, "a ramp (ramp_deg) leads along a straight road");
+  demand(setup.openings.niche_side == static_cast<double>(kSideNone) ||
+             setup.openings.niche_width_m < 0.5 * setup.openings.niche_pitch_m,
+         "niches (niche_width_m) must be narrower than half of niche_pitch_m");
   demand(!curved || std::abs(r.curve_radius_m) > r.width_m, "curve_radius_m must exceed width_m");
   demand(setup.floor.muck_side == static_cast<double>(kSideNone) || setup.floor.muck_width_m < 0.5 * r.width_m,
          "muck_width_m must be below half of width_m");

@@ -12,7 +12,8 @@
 
 namespace pose_wall::tools::sim {
 
-// A parabola across the surface: the middle stands back by depth_m, or out of it if that is negative. Mean zero.
+// A parabola across the surface: the middle stands back by depth_m against the edges, or out if that is negative. The
+// mean stays: the middle goes back by a third of it, the edges come in by two.
 struct Bow {
   double depth_m = 0.0;
   double middle_m = 0.0;  // of |v|
@@ -23,12 +24,22 @@ struct Bow {
   }
 };
 
-// The surface leads away from its mean over a stretch along the road, and goes on level behind it.
+// Floor and roof lead up or down over a stretch along the road, and go on level behind it. A vault goes with them as it
+// is: upright, not square to itself.
 struct Ramp {
   double tangent = 0.0;
   double at_m = 0.0;
   double length_m = 0.0;
-  double at(double u_m) const { return tangent * std::clamp(u_m - at_m, 0.0, length_m); }
+  double vault_half_m = 0.0, vault_rise_m = 0.0;  // of an elliptic roof; 0: flat
+
+  double at(double u_m, double v_m) const { return tangent * std::clamp(u_m - at_m, 0.0, length_m) * upright(v_m); }
+  // How much of a way up leads out of the surface. Of a vault v is the angle times its mean radius.
+  double upright(double v_m) const {
+    if (vault_half_m <= 0.0) return 1.0;
+    const double angle = v_m / (0.5 * (vault_half_m + vault_rise_m));
+    const double across = std::cos(angle) / vault_half_m, up = std::sin(angle) / vault_rise_m;
+    return up / std::hypot(across, up);
+  }
   double rise_m() const { return std::abs(tangent) * length_m; }
 };
 
@@ -84,7 +95,7 @@ struct Relief {
       if (std::abs(off) < 1.0) h -= rut_depth_m * (1.0 - off * off);
     }
     if (bow.depth_m != 0.0) h += bow.at(v_m);
-    if (ramp.tangent != 0.0) h += ramp.at(u_m);
+    if (ramp.tangent != 0.0) h += ramp.at(u_m, v_m);
     return std::clamp(h, -reach_m(), reach_m());
   }
 };

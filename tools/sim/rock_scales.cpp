@@ -11,7 +11,8 @@ namespace {
 
 // Of the layers: where their correlation has fallen to 1/e.
 constexpr std::array<double, 5> kLengths_m = {0.2, 0.5, 1.2, 3.0, 7.0};
-// A block's edge runs out over so much of the field that places it, whose standard deviation is 1: a tenth of a block.
+// A block's edge runs out over so much of the field that places it, whose standard deviation is 1. Judgement, 2026-11:
+// about a tenth of the block.
 constexpr double kBlockEdge = 0.3;
 
 struct FaceTable {
@@ -33,7 +34,8 @@ FaceTable scaled(FaceTable table, double layers, double blocks) {
 }
 
 // Judgement, 2026-11, beside the measured one. Shotcrete fills what broke out and follows the rest; a roadheader's
-// drum leaves the profile that its driver steered, without blocks; a lining is as true as its formwork.
+// drum leaves the profile that its driver steered, without blocks; a lining is as true as its formwork. All have the
+// gallery's floor: wheels make it.
 FaceTable table_of(RockKind kind, RockFace face) {
   const FaceTable blasted =
       face == RockFace::kWall ? kBlastedWall : (face == RockFace::kRoof ? kBlastedRoof : kHaulFloor);

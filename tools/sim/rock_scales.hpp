@@ -53,8 +53,10 @@ class RockScales {
   double at(const NoiseTile& tile, double u_m, double v_m) const;
   // Nearly all rock is within this distance of its mean.
   double reach_m() const { return 3.5 * sigma_m_ + block_depth_m_; }
-  double slope() const;    // about twice the root mean square of the layers' slopes
-  double step_m() const;   // shorter steps resolve every layer
+  double slope() const;   // about twice the root mean square of the layers' slopes
+  double step_m() const;  // shorter steps resolve every layer
+  // A ray in a hole must not step over the edge of the next block.
+  double stride_m() const { return block_depth_m_ > 0.0 ? 0.2 * blocks_.length_m() : 1e3; }
 
  private:
   static constexpr std::size_t kLayers = 5;

@@ -19,7 +19,6 @@ constexpr std::array<double, RockSpectra::kLengths> kLengths_m = {0.1, 0.15, 0.2
 constexpr int kSamples = 17;                // of a stretch: sixteen steps show all that is longer than an eighth of it
 constexpr std::size_t kFewestSamples = 13;  // a hole of a quarter
 constexpr double kBroken_m = 0.5;           // between two samples: an opening, no rock that bulges
-constexpr double kRoofHalf_m = 1.1;         // as the floor
 constexpr double kRough = 0.9;
 
 // What the straight line through the samples' ranges leaves, by least squares. Surveys have holes, which are no
@@ -57,8 +56,11 @@ struct RockSpectra::Face {
 std::vector<ReliefAtLength> RockSpectra::Reliefs::told() const {
   std::vector<ReliefAtLength> all;
   for (std::size_t k = 0; k < kLengths; ++k) {
-    if (of_m[k].empty()) continue;
     std::vector<double> sorted = of_m[k];
+    if (sorted.empty()) {
+      all.push_back({kLengths_m[k], kNoTruth, kNoTruth, 0, broken[k]});
+      continue;
+    }
     std::sort(sorted.begin(), sorted.end());
     const auto at = [&](double share) {
       return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
@@ -103,7 +105,7 @@ void RockSpectra::add(const RockSurface& rock, const std::vector<Placement>& pat
               &walls_);
     }
     measure(rock, {base.origin_road, -up, ahead, left, -kFloorAcross_m, kFloorAcross_m}, &floor_);
-    measure(rock, {base.origin_road, up, ahead, left, -kRoofHalf_m, kRoofHalf_m}, &roof_);
+    measure(rock, {base.origin_road, up, ahead, left, -kFloorAcross_m, kFloorAcross_m}, &roof_);
   }
 }
 

@@ -17,7 +17,7 @@ namespace pose_wall::tools::sim {
 // Root mean square distance from the straight line of a stretch.
 struct ReliefAtLength {
   double length_m = 0.0;
-  double median_m = 0.0;  // of all stretches
+  double median_m = 0.0;  // of all stretches; NaN where none is whole, or so long
   double rough_m = 0.0;   // a tenth of them are rougher
   std::size_t stretches = 0;
   std::size_t broken = 0;  // others, with an opening or a corner in them: these are not counted as relief

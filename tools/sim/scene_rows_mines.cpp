@@ -13,7 +13,7 @@ namespace {
 const std::vector<SceneValue> kOrdinary = {
     {"width_m", "4.9", 4.2, 6.0},      {"height_m", "4.7", 3.8, 5.0},      {"arch_springing_m", "2.5", 2.0, 2.8},
     {"camber_m", "-0.07", -0.1, 0.06}, {"cross_fall_deg", "0", -1.5, 1.5}, {"ramp_deg", "0", -3.0, 3.0},
-    {"ramp_at_m", "6", 4.0, 12.0},     {"rut_depth_m", "0", 0.0, 0.08}, {"rut_gauge_m", "1.8", 1.4, 2.0},
+    {"ramp_at_m", "6", 4.0, 12.0},     {"rut_depth_m", "0", 0.0, 0.08},    {"rut_gauge_m", "1.8", 1.4, 2.0},
     {"rock_repeats", "no", 0.0, 0.0},
 };
 
@@ -51,7 +51,8 @@ std::vector<SceneChoice> mines_scenes() {  // NOLINT(readability-function-size):
                  {"face_distance_m", "8", 5.0, 12.0},
                  {"conveyor_side", "none", 0.0, 2.0},
                  {"conveyor_width_m", "0.8", 0.7, 0.9},
-                 {"lateral_m", "0", -0.2, 0.2}})},
+                 {"lateral_m", "0", -0.2, 0.2},
+                 {"ramp_deg", "0", 0.0, 0.0}})},  // a conveyor is one straight box
       {"mine_lined", SceneKind::kMine, "lined with concrete, with pipes", "mostly valid",
        ordinary({{"rock", "smooth", 1.0, 1.0},
                  {"rock_scale", "1", 0.7, 1.1},

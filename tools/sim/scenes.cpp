@@ -82,11 +82,15 @@ const std::vector<SceneChoice>& scenes() {
 }
 
 const SceneChoice* find_scene(std::string_view name) {
-  static const SceneChoice surveyed{kSurveyedScene, SceneKind::kMine, "a real road", "as the road is", {}};
   for (const SceneChoice& scene : scenes()) {
     if (scene.name == name) return &scene;
   }
-  return name == kSurveyedScene ? &surveyed : nullptr;
+  return nullptr;
+}
+
+const SceneChoice& surveyed_scene() {
+  static const SceneChoice surveyed{"surveyed", SceneKind::kMine, "a real road", "as the road is", {}};
+  return surveyed;
 }
 
 void apply_scene(Setup& setup, const SceneChoice& scene) {

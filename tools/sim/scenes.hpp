@@ -27,9 +27,9 @@ struct NominalRange {
 };
 
 // A mine's scene is an ordinary road with rock as it was measured. It has two truths: that of the road as a whole, and
-// that of what is really there (survey_truth.hpp). In a nominal scene, short-waved rock on ideal planes, the estimator's
-// statistics must be exactly true. An adversarial one is made to mislead. In an unobservable one the data of a single
-// sensor cannot tell that anything is wrong: nothing is to be concluded from its errors.
+// that of what is really there (survey_truth.hpp). In a nominal scene, short-waved rock on ideal planes, the
+// estimator's statistics must be exactly true. An adversarial one is made to mislead. In an unobservable one the data
+// of a single sensor cannot tell that anything is wrong: nothing is to be concluded from its errors.
 enum class SceneKind { kMine, kNominal, kAdversarial, kUnobservable };
 const char* scene_kind_name(SceneKind kind);
 
@@ -42,8 +42,8 @@ struct SceneChoice {
 };
 
 const std::vector<SceneChoice>& scenes();
-// A real road is no scene of the table. It has a name all the same, under which it is found.
-inline constexpr const char* kSurveyedScene = "surveyed";
+// What stands for a real road, which is no scene of the table.
+const SceneChoice& surveyed_scene();
 // nullptr if there is none of this name.
 const SceneChoice* find_scene(std::string_view name);
 

@@ -100,6 +100,10 @@ void add_roof(const Setup& setup, const NoiseTile* tile, std::uint64_t seed, std
   if (tile != nullptr) {
     roof.relief.ramp = ramp_of(road);
     roof.relief.ramp.tangent *= -1.0;
+    if (road.arch_springing_m > 0.0) {
+      roof.relief.ramp.vault_half_m = 0.5 * road.width_m;
+      roof.relief.ramp.vault_rise_m = road.height_m - road.arch_springing_m;
+    }
   }
   if (road.arch_springing_m > 0.0) {
     roof.shape = Arch{0.5 * road.width_m, road.height_m - road.arch_springing_m, road.arch_springing_m};

@@ -25,7 +25,7 @@ struct Road {
   double lean_left_deg = 0.0;  // + leans away at the top
   double lean_right_deg = 0.0;
   double arch_springing_m = 0.0;  // 0: flat roof; else an elliptic arch from here to height_m
-  double bow_m = 0.0;             // the walls stand back in the middle of their height: a horseshoe
+  double bow_m = 0.0;             // the walls' middle stands back against their edges: a horseshoe
   double slope_deg = 0.0;         // seen only in what stands upright by gravity: faces, props, people
   double cross_fall_deg = 0.0;    // + floor rises to the left; the walls keep upright
   double curve_radius_m = 0.0;    // 0: straight; + bends left
@@ -66,7 +66,7 @@ struct Floor {
   double rut_depth_m = 0.0;
   double rut_gauge_m = 1.0;
   double rut_width_m = 0.4;
-  double camber_m = 0.0;  // the middle of the floor is higher than its sides
+  double camber_m = 0.0;  // the middle of the floor against its sides; the mean stays
   double bench_side = kSideNone;
   double bench_width_m = 0.8;
   double bench_height_m = 0.4;

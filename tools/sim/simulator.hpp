@@ -39,7 +39,7 @@ class Simulator {
   Frame render(std::uint32_t frame_index) const;
   // By the ideal road; of a real one, surveyed.
   TruthRow truth(std::uint32_t frame_index, StepRule rule = StepRule::kSquare) const;
-  // By planes of the rock that is really there (survey_truth.hpp), steel sets with it, objects and heaps without.
+  // By planes of the rock that is really there (survey_truth.hpp), steel sets with it, heaps and bodies without.
   TruthRow surveyed_truth(std::uint32_t frame_index) const;
 
  private:

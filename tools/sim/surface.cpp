@@ -40,6 +40,7 @@ double march(const Shape& shape, const Relief& relief, const Ray& ray, double t_
   const double span = std::min(t_end - t_start, 50.0);
   const double descent = std::min(1.0, 2.0 * reach / span);
   const double advance = 1.0 / (descent + relief.slope());
+  const double stride = relief.scales.stride_m();
   const int steps = relief.scales.flat() ? kMarchSteps : kMarchStepsManyScales;
   const double shortest = std::max(relief.step_m(), span / (0.5 * steps));
   double t = t_start;
@@ -47,7 +48,7 @@ double march(const Shape& shape, const Relief& relief, const Ray& ray, double t_
   // At the slab's top the ray can only touch a summit; a start below the relief is a start in the rock.
   if (g <= 0.0) return t_start > 0.0 ? t_start : kNever;
   for (int i = 0; i < steps && t < t_start + span; ++i) {
-    const double next = t + std::max(g * advance, shortest);
+    const double next = t + std::max(std::min(g * advance, stride), shortest);
     const double next_g = gap(shape, relief, ray, next);
     if (next_g <= 0.0) return refine(shape, relief, ray, t, g, next, next_g);
     t = next;

@@ -18,9 +18,9 @@ constexpr double kStep_m = 0.05;     // between probes: half the spacing of a co
 constexpr double kNearest_m = 0.02;  // a fit that is no better than that stays as it is
 constexpr double kHalf = 0.5;        // of the probes must lie near the plane
 constexpr int kRounds = 20;
-constexpr int kPicks = 300;           // of three probes: with half of them off, 1e-17 that none is of the plane
+constexpr int kPicks = 300;           // of three probes: with half of them off, an eighth is of the plane alone
 constexpr std::size_t kJudges = 300;  // probes that tell how near half of them are
-constexpr double kSpread_m2 = 0.5;    // three probes nearer to one line than that tell no plane
+constexpr double kSpread_m2 = 0.5;    // twice the triangle of three probes: smaller ones tell no plane
 constexpr double kTukey = 4.685, kSigmaOfMad = 1.4826;  // 95 % efficient under normal errors
 
 // One probe: where it ended, in coordinates (a, b) of the region and h square to it.

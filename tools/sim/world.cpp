@@ -102,18 +102,28 @@ std::vector<Primitive> World::objects_at(double time_s) const {
 }
 
 Hit World::trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& things, const SectorIndex& index) const {
-  Hit best = trace(ray, t_max_m);
+  Hit best = trace_ground(ray, t_max_m);
   if (!index.empty()) hit_things(ray, things, index, &best);
   return best;
 }
 
-// Surfaces in the order in which the ray comes into their reach; those it reaches after the best hit are not searched.
 Hit World::trace(const Ray& ray, double t_max_m) const {
+  return trace_surfaces(ray, t_max_m, false);
+}
+
+Hit World::trace_ground(const Ray& ray, double t_max_m) const {
+  return trace_surfaces(ray, t_max_m, true);
+}
+
+// Surfaces in the order in which the ray comes into their reach; those it reaches after the best hit are not searched.
+Hit World::trace_surfaces(const Ray& ray, double t_max_m, bool heaps) const {
   if (surveyed_) return surveyed_->trace(ray, t_max_m);
   std::array<double, kMostSurfaces> start{};
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const RoadSurface& s = surfaces_[i];
-    start[i] = s.surface.enter(ray, std::max(s.surface.relief.reach_m(), s.steel ? rock_.steel_depth_m : 0.0));
+    start[i] = s.label == Label::kMuck && !heaps
+                   ? kNever
+                   : s.surface.enter(ray, std::max(s.surface.relief.reach_m(), s.steel ? rock_.steel_depth_m : 0.0));
   }
   Hit best;
   best.t_m = t_max_m;

@@ -12,7 +12,8 @@
 
 namespace pose_wall::tools::sim {
 
-// The road, and what stands or walks in it. Its surface is the rock alone, with steel sets.
+// The road, and what stands or walks in it. Its surface is the rock alone, with steel sets; heaps and bodies, a narrow
+// place among them, are not.
 class World final : public RockSurface {
  public:
   World(const Setup& setup, std::uint64_t seed);
@@ -27,6 +28,8 @@ class World final : public RockSurface {
   std::vector<Primitive> objects_at(double time_s) const;
   Hit trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& things, const SectorIndex& index) const;
   Hit trace(const Ray& ray, double t_max_m) const override;
+  // With heaps.
+  Hit trace_ground(const Ray& ray, double t_max_m) const;
   bool is_surveyed() const { return surveyed_ != nullptr; }
   const Plane& floor() const { return floor_; }
   // Smooth field over the floor, normally distributed, that decides where water stands.
@@ -36,6 +39,7 @@ class World final : public RockSurface {
 
  private:
   World() = default;
+  Hit trace_surfaces(const Ray& ray, double t_max_m, bool heaps) const;
   void hit_wall_or_recess(const RoadSurface& wall, const Ray& ray, double t_start, Hit* best) const;
   double hit_steel(const RoadSurface& behind, const Ray& ray, double t_behind) const;
 

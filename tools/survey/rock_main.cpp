@@ -18,7 +18,6 @@
 #include "sim/random.hpp"
 #include "sim/rock_spectrum.hpp"
 #include "sim/scenes.hpp"
-#include "sim/survey_line.hpp"
 #include "sim/world.hpp"
 #include "survey/survey_file.hpp"
 #include "terminal/text_table.hpp"
@@ -43,8 +42,7 @@ struct Road {
 Road of_surface(const std::string& file, const std::string& path) {
   const SurveyRock survey = read_survey_rock(file, std::nullopt);
   sim::RockSpectra spectra;
-  spectra.add(*survey.rock, path.empty() ? sim::propose_path(*survey.rock, survey.low, survey.high, kStep_m, kHeight_m)
-                                         : read_survey_path(path));
+  spectra.add(*survey.rock, path.empty() ? propose_survey_path(survey, file) : read_survey_path(path));
   return {std::filesystem::path(file).stem().string(), spectra.told()};
 }
 
@@ -67,16 +65,14 @@ void print_table(const std::vector<Road>& roads) {
   TextTable table(head);
   for (std::size_t s = 0; s < roads.front().spectra.size(); ++s) {
     const sim::RockSpectrum& first = roads.front().spectra[s];
-    for (const sim::ReliefAtLength& row : first.at) {
-      std::vector<std::string> cells = {first.face, first.direction, fmt::format("{:g} m", row.length_m)};
+    for (std::size_t k = 0; k < first.at.size(); ++k) {
+      std::vector<std::string> cells = {first.face, first.direction, fmt::format("{:g} m", first.at[k].length_m)};
       for (const Road& road : roads) {
-        for (const sim::ReliefAtLength& at : road.spectra[s].at) {
-          if (at.length_m != row.length_m) continue;
-          const double all = static_cast<double>(at.stretches + at.broken);
-          cells.push_back(fmt::format("{:.1f}", 1e3 * at.median_m));
-          cells.push_back(fmt::format("{:.1f}", 1e3 * at.rough_m));
-          cells.push_back(fmt::format("{:.0f} %", 100.0 * static_cast<double>(at.broken) / all));
-        }
+        const sim::ReliefAtLength& at = road.spectra[s].at[k];
+        const std::size_t all = at.stretches + at.broken;
+        const auto mm = [&](double m) { return at.stretches > 0 ? fmt::format("{:.1f}", 1e3 * m) : "-"; };
+        const double broken = 100.0 * static_cast<double>(at.broken) / static_cast<double>(all);
+        cells.insert(cells.end(), {mm(at.median_m), mm(at.rough_m), all > 0 ? fmt::format("{:.0f} %", broken) : "-"});
       }
       table.add_row(cells);
     }
@@ -92,6 +88,7 @@ std::string picture_of(const std::vector<Road>& roads) {
     for (const Road& road : roads) {
       picture::SpectrumLine line{road.name, {}, {}, {}};
       for (const sim::ReliefAtLength& at : road.spectra[s].at) {
+        if (at.stretches == 0) continue;
         line.length_m.push_back(at.length_m);
         line.median_m.push_back(at.median_m);
         line.rough_m.push_back(at.rough_m);
@@ -127,9 +124,10 @@ int main(int argc, char** argv) {
       "How rough rock is at each length: what is left of a stretch of wall, floor or roof once its straight line is "
       "taken away. Median of all stretches and the roughest tenth; stretches with openings are told as broken.");
   pose_wall::tools::Words words;
-  app.add_option("--surface", words.surfaces,
-                 "A real road: mesh or cloud with normals, as of `pose_wall sim --surface`");
-  app.add_option("--path", words.path, "Poses along the surface (TUM); without, the tool proposes some");
+  auto* const surface = app.add_option("--surface", words.surfaces,
+                                       "A real road: mesh or cloud with normals, as of `pose_wall sim --surface`");
+  app.add_option("--path", words.path, "Poses along the surfaces (TUM); without, the tool proposes some")
+      ->needs(surface);
   app.add_option("--scene", words.scenes, "A simulated road; see `pose_wall sim --list`");
   app.add_option("--set", words.settings, "KEY=VALUE of the scenes");
   app.add_option("--roads", words.roads, "How many roads of each scene, together")

@@ -25,8 +25,8 @@ along=(--path "$path")
 [ $# -gt 0 ] || set -- velodyne-vlp16 ouster-os1-64 ouster-os0-128 mid360 hesai-xt32
 
 # Of one sensor: values and valid ones, those of them that are wrong, |error| and level of all that were measured (the
-# median of angles in degrees, of distances in mm), million steps of work a frame (median, most; an OS1-64 on an ordinary
-# road takes 6 to 7), and the reasons that most values give.
+# median of angles in degrees, of distances in mm), million steps of work a frame (median, most; an OS1-64 takes 6 to 7
+# on an ordinary road), and the reasons that most values give.
 row() { # sensor, folder
   awk -F, -v sensor="$1" '
     function median(of, n,   i, j, t) {

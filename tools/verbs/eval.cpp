@@ -241,13 +241,13 @@ int eval_both(EvalOptions options, const LoadedConfig& loaded, const CsvTable& r
   const std::pair<const char*, std::string> truths[] = {
       {"truth.csv", tr("the road as a whole")},
       {"surveyed_truth.csv", tr("planes of the rock that is really there, within 2.5 m")}};
+  const bool has_both = std::filesystem::exists(folder / truths[1].first);  // a real road has its rock's alone
   Json page;
   for (const auto& [file, about] : truths) {
     options.truth = (folder / file).string();
-    if (page.empty() || std::filesystem::exists(options.truth)) {
-      if (!options.json) fmt::print("{}{}: {}\n", page.empty() ? "" : "\n", file, about);
-      page[file] = eval_one(options, loaded, results, read_csv_file(options.truth));
-    }
+    if (!options.json && has_both) fmt::print("{}{}: {}\n", page.empty() ? "" : "\n", file, about);
+    page[file] = eval_one(options, loaded, results, read_csv_file(options.truth));
+    if (!has_both) break;
   }
   if (options.json) fmt::print("{}\n", json_text(page, 2));
   return kExitDone;

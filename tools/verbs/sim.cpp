@@ -76,9 +76,6 @@ void print_list() {
 }
 
 sim::Setup resolve_setup(const SimOptions& options) {
-  if (options.scene == sim::kSurveyedScene && options.surface.empty()) {
-    throw std::invalid_argument(fmt::format("--scene {}: it is a real road; --surface FILE has it", options.scene));
-  }
   sim::Setup setup = sim::make_setup(options.scene, options.sensor, options.random, options.seed);
   if (options.rate_hz) sim::set_parameter(setup, "rate_hz", fmt::format("{}", *options.rate_hz));
   for (const std::string& assignment : options.settings) sim::set_parameter(setup, assignment);
@@ -189,7 +186,11 @@ Written write_frames(const SimOptions& options, const sim::Simulator& simulator)
   const std::uint32_t removed = remove_later_frames(options, i);
   const std::filesystem::path folder(options.output);
   write_truth_csv(folder / "truth.csv", truth);
-  if (options.surface.empty()) write_truth_csv(folder / "surveyed_truth.csv", surveyed);
+  if (options.surface.empty()) {
+    write_truth_csv(folder / "surveyed_truth.csv", surveyed);
+  } else {
+    std::filesystem::remove(folder / "surveyed_truth.csv");  // of a scene that was here before
+  }
   return {i, removed};
 }
 

@@ -238,5 +238,15 @@ TEST(SimNetwork, ARealSensorsLightLeavesItsLens) {
   }
 }
 
+TEST(SimSensorWindow, AWholeTurnIsAllAround) {
+  SceneSetup whole;
+  const std::size_t beams = beams_of(whole.sensor, 0).size();
+  for (const auto& [from, to] : {std::pair{-180.0, 180.0}, std::pair{0.0, 360.0}, std::pair{-360.0, 360.0}}) {
+    whole.sensor.window_from_deg = from;
+    whole.sensor.window_to_deg = to;
+    EXPECT_EQ(beams_of(whole.sensor, 0).size(), beams) << from;
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall::tools::sim

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/check_setup.hpp"
 #include "sim/parameters.hpp"
 #include "sim/rock_spectrum.hpp"
 #include "sim/scenes.hpp"
@@ -70,7 +71,12 @@ TEST(RockSpectra, FlatWallsHaveNone) {
   ASSERT_EQ(told.size(), 6U);
   for (const RockSpectrum& spectrum : told) {
     ASSERT_FALSE(spectrum.at.empty());
-    for (const ReliefAtLength& row : spectrum.at) EXPECT_LT(row.rough_m, 1e-6) << spectrum.face << row.length_m;
+    for (const ReliefAtLength& row : spectrum.at) {
+      // Up a wall, and across floor and roof, there is no room for long stretches.
+      const bool has_room = spectrum.direction == "along" || row.length_m < 2.3;
+      EXPECT_EQ(row.stretches > 0, has_room) << spectrum.face << row.length_m;
+      EXPECT_FALSE(row.rough_m > 1e-6) << spectrum.face << row.length_m;
+    }
   }
 }
 
@@ -188,6 +194,45 @@ TEST(RoadForms, ARampRisesAndLevelsOut) {
   EXPECT_NEAR(roof_m, 3.5 + 10.0 * slope, 1e-3) << "the roof goes with the floor";
 }
 
+// A vault goes up with its floor as it is: at its sides it stays where the walls are.
+TEST(RoadForms, ARampLiftsAVaultUpright) {
+  SceneSetup setup;
+  setup.road.arch_springing_m = 2.0;
+  setup.road.ramp_deg = -4.0;
+  const World world(setup, 1);
+  const double fall_m = 10.0 * std::tan(4.0 * M_PI / 180.0);
+  const double crown_m = world.trace(Ray{{25.0, 0.0, 0.0}, Vector::UnitZ()}, 100.0).t_m;
+  EXPECT_NEAR(crown_m, 3.5 - fall_m, 1e-3);
+  EXPECT_NEAR(wall_at(world, 25.0, 1.3), 2.5, 0.05) << "a fallen vault leaves the wall";
+  SceneSetup curved;
+  curved.road.ramp_deg = 2.0;
+  curved.road.curve_radius_m = 50.0;
+  EXPECT_THROW(World(checked(curved), 1), std::invalid_argument);
+}
+
+// Rays that graze rough walls find the first rock, as small steps along them do.
+TEST(RoadForms, GrazingRaysStepOverNoBlock) {
+  SceneSetup setup;
+  set_parameter(setup, "rock", "blasted");
+  const NoiseTile tile(5);
+  Surface wall{Plane{Vector::UnitY(), 0.0, Vector::UnitX(), Vector::UnitZ()}, {}};
+  wall.relief.tile = &tile;
+  wall.relief.scales = RockScales(RockKind::kBlasted, RockFace::kWall, 1.0, true, 9);
+  int far = 0, rays = 0;
+  for (const double angle_deg : {5.0, 10.0, 20.0, 40.0, 90.0}) {
+    for (double z = 0.0; z < 20.0; z += 0.2, ++rays) {
+      const double angle = angle_deg * M_PI / 180.0;
+      const Ray ray{{0.0, 2.4, z}, Vector(std::cos(angle), -std::sin(angle), 0.0)};
+      const double start_m = wall.enter(ray, wall.relief.reach_m()), hit_m = wall.hit(ray, start_m);
+      double slow_m = start_m;
+      while (wall.clearance(ray.at(slow_m)) > wall.relief.height(ray.at(slow_m).x(), ray.at(slow_m).z()))
+        slow_m += 2e-3;
+      far += std::abs(hit_m - slow_m) * std::sin(angle) > 0.02 ? 1 : 0;  // square to the wall
+    }
+  }
+  EXPECT_LE(far, rays / 100);
+}
+
 TEST(RoadForms, NichesStandBackByTheirDepthUpToTheirRoof) {
   SceneSetup setup;
   setup.openings.niche_side = kSideLeft;
@@ -213,6 +258,18 @@ TEST(SurveyedTruth, OfAnIdealRoadIsTheIdealOne) {
   const TruthRow ideal = simulator.truth(0), surveyed = simulator.surveyed_truth(0);
   for (std::size_t q = 0; q < kTruthQuantities; ++q) EXPECT_NEAR(surveyed.value[q], ideal.value[q], 2e-3) << q;
   EXPECT_EQ(surveyed.stamp_ns, ideal.stamp_ns);
+}
+
+// Muck lies before the wall, and is none.
+TEST(SurveyedTruth, HeapsAreNoWall) {
+  SceneSetup setup;
+  setup.floor.muck_side = kSideLeft;
+  setup.floor.muck_height_m = 2.0;
+  setup.floor.muck_width_m = 1.0;
+  const Simulator simulator(setup, 1);
+  for (const std::size_t q : {2U, 3U, 4U}) {
+    EXPECT_NEAR(simulator.surveyed_truth(0).value[q], simulator.truth(0).value[q], 2e-3) << q;
+  }
 }
 
 // Rock that bulges by a decimetre beside the machine is nearer, whatever the road as a whole is.
