@@ -28,11 +28,8 @@ struct Finding {
 
   int frame = 0, quantity = 0;
   std::uint32_t state = 0, raw_state = 0, reasons = 0, cause = 0;
-  // By both truths: what lies between them, or within the limit of one, is not wrong.
-  bool misleading_by_both() const {
-    const bool is_between = error * surveyed_error < 0.0;
-    return misleading() && !is_between && !(surveyed_error_abs() <= alert_limit);
-  }
+  // By both truths: what is within the limit of one is not wrong.
+  bool misleading_by_both() const { return misleading() && !(surveyed_error_abs() <= alert_limit); }
   bool misleading_surveyed() const { return state == POSE_WALL_VALID && surveyed_error_abs() > alert_limit; }
   double surveyed_error_abs() const { return surveyed_error < 0.0 ? -surveyed_error : surveyed_error; }
 

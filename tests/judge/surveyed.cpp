@@ -42,6 +42,12 @@ std::optional<Plane> fit(const Road& road, const Region& region, const Plane& id
       if (std::isfinite(at_m)) hits.emplace_back(a, b, at_m);
     }
   }
+  // The end of a crosscut is no wall of this road.
+  std::vector<double> depths;
+  for (const Vector3d& hit : hits) depths.push_back(hit.z());
+  const double deepest_m = quantile(depths, 0.1) + 3.0;
+  hits.erase(std::remove_if(hits.begin(), hits.end(), [&](const Vector3d& hit) { return hit.z() > deepest_m; }),
+             hits.end());
   if (2 * static_cast<int>(hits.size()) < sent) return std::nullopt;
   const double slant = -ideal.normal.dot(region.out);
   Vector3d plane(ideal.distance_m(region.middle_m), ideal.normal.dot(region.along), ideal.normal.dot(region.across));

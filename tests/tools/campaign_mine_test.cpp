@@ -31,24 +31,30 @@ QuantityRecord told(double raw, double road, double surveyed) {
 }
 
 TEST(MineTruths, WhatLiesBetweenIsNotWrong) {
-  EXPECT_EQ(told(2.45, 2.4, 2.5).judged_truth(), 2.45);
-  EXPECT_EQ(told(2.45, 2.5, 2.4).judged_truth(), 2.45);
-  EXPECT_EQ(told(2.7, 2.4, 2.5).judged_truth(), 2.5) << "beyond both, it is off the nearer one";
-  EXPECT_EQ(told(2.1, 2.4, 2.5).judged_truth(), 2.4);
+  EXPECT_EQ(told(2.45, 2.4, 2.5).judged_truth(0.1), 2.45);
+  EXPECT_EQ(told(2.45, 2.5, 2.4).judged_truth(0.1), 2.45);
+  EXPECT_EQ(told(2.7, 2.4, 2.5).judged_truth(0.1), 2.5) << "beyond both, it is off the nearer one";
+  EXPECT_EQ(told(2.1, 2.4, 2.5).judged_truth(0.1), 2.4);
+}
+
+// No crosscut makes everything right that lies between its mouth and its end.
+TEST(MineTruths, BetweenTruthsOfTwoThingsIsNothing) {
+  EXPECT_EQ(told(3.0, 2.4, 17.5).judged_truth(0.1), 2.4) << "the wall, and the end of a crosscut";
+  EXPECT_EQ(told(17.0, 2.4, 17.5).judged_truth(0.1), 17.5);
 }
 
 // What the machine acts on is judged, held values too, and not what its frame measured.
 TEST(MineTruths, AHeldValueIsJudgedByItself) {
   QuantityRecord held = told(2.9, 2.4, 2.5);
   held.measured.value = 2.45;
-  EXPECT_EQ(held.judged_truth(), 2.45);
+  EXPECT_EQ(held.judged_truth(0.1), 2.45);
 }
 
 TEST(MineTruths, OneAloneCounts) {
-  EXPECT_EQ(told(2.45, 2.4, kNone).judged_truth(), 2.4);
-  EXPECT_EQ(told(2.45, kNone, 2.5).judged_truth(), 2.5);
-  EXPECT_TRUE(std::isnan(told(2.45, kNone, kNone).judged_truth()));
-  EXPECT_EQ(told(kNone, 2.4, 2.5).judged_truth(), 2.4) << "a value that is not there still has a truth";
+  EXPECT_EQ(told(2.45, 2.4, kNone).judged_truth(0.1), 2.4);
+  EXPECT_EQ(told(2.45, kNone, 2.5).judged_truth(0.1), 2.5);
+  EXPECT_TRUE(std::isnan(told(2.45, kNone, kNone).judged_truth(0.1)));
+  EXPECT_EQ(told(kNone, 2.4, 2.5).judged_truth(0.1), 2.4) << "a value that is not there still has a truth";
 }
 
 RunRecord mine_run(double raw, double road, double surveyed) {

@@ -344,6 +344,9 @@ TEST_F(SurveyFiles, WhatIsNoSurfaceIsRefusedByName) {
     return why;
   };
   EXPECT_NE(refused("bare.ply", head + "end_header\n1 2 3\n").find("normal"), std::string::npos);
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_NE(refused("face.ply", head + faces + "0 0 0\n3 0 0 7\n").find("face.ply"), std::string::npos)
+      << "a face that names a vertex which is not there";
   EXPECT_NE(refused("noise.obj", "this is no mesh\n").find("noise.obj"), std::string::npos);
   EXPECT_NE(refused("far.obj", "v 500000 4000000 200\nv 500001 4000000 200\nv 500000 4000001 200\nf 1 2 3\n")
                 .find("Subtract an offset"),

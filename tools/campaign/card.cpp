@@ -26,7 +26,7 @@ void merge(SevenStatistics& into, const SevenStatistics& other) {
 }
 
 void count_reasons(ClassCard& card, const QuantityRecord& record) {
-  if (!std::isfinite(record.judged_truth()) || record.measured.state == POSE_WALL_VALID) return;
+  if (!std::isfinite(record.judged_truth(0.0)) || record.measured.state == POSE_WALL_VALID) return;
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
     if ((record.reasons >> bit & 1U) != 0) ++card.reasons[bit];
   }
@@ -41,8 +41,9 @@ void add_run(ClassCard& card, const RunRecord& record, const AlertLimits& limits
     card.frames.add(frame, limits);
     if (!is_in_shares(frame)) continue;  // what is wrong there is wrong all the same
     for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-      card.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].judged_truth());
-      if (is_straight) card.straight[q].add(frame.quantity[q].measured, frame.quantity[q].judged_truth());
+      const double truth = frame.quantity[q].judged_truth(limit_of(q, limits));
+      card.quantities[q].add(frame.quantity[q].measured, truth);
+      if (is_straight) card.straight[q].add(frame.quantity[q].measured, truth);
       if (card.scene->kind == sim::SceneKind::kMine) {
         card.by_road[q].add(frame.quantity[q].measured, frame.quantity[q].truth);
         card.by_survey[q].add(frame.quantity[q].measured, frame.quantity[q].surveyed);
@@ -166,7 +167,7 @@ void add_frames(FramesCard& row, const RunRecord& record, bool (*counts)(const F
     if (!counts(frame)) continue;
     ++added;
     for (std::size_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-      row.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].judged_truth());
+      row.quantities[q].add(frame.quantity[q].measured, frame.quantity[q].judged_truth(0.0));  // of states alone
     }
   }
   row.frames += added;

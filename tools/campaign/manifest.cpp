@@ -143,6 +143,9 @@ Manifest make_manifest(const PlanRequest& request, const std::vector<Run>& runs,
                        {"program", program_fingerprint()},
                        {"settings", settings_text(loaded)},
                        {"plan", runs_text(runs)}};
+  for (const std::string& file : request.surfaces) {
+    manifest.identity.emplace_back("surface " + file, fingerprint_text(campaign::fingerprint(read_whole_file(file))));
+  }
   manifest.limits = alert_limits_of(loaded.config);
   manifest.runs = runs.size();
   manifest.frames = frames_of(runs);

@@ -92,12 +92,14 @@ RunRecord record_of(const CsvTable& table) {
 
 }  // namespace
 
-double QuantityRecord::judged_truth() const {
+double QuantityRecord::judged_truth(double alert_limit) const {
   if (!std::isfinite(surveyed)) return truth;
   if (!std::isfinite(truth)) return surveyed;
   const double low = std::min(truth, surveyed), high = std::max(truth, surveyed);
   const double told = std::isfinite(measured.value) ? measured.value : measured.raw;
-  return std::isfinite(told) ? std::clamp(told, low, high) : truth;
+  if (!std::isfinite(told)) return truth;
+  if (high - low > 2.0 * alert_limit) return std::abs(told - low) < std::abs(told - high) ? low : high;
+  return std::clamp(told, low, high);
 }
 
 bool is_in_shares(const FrameRecord& frame) {
@@ -122,7 +124,8 @@ bool same_outcome(const FrameRecord& a, const FrameRecord& b) {
 
 Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& limits) {
   const QuantityRecord& v = frame.quantity[quantity];
-  return tools::judge(v.measured, v.judged_truth(), is_angle(quantity), limit_of(quantity, limits));
+  return tools::judge(v.measured, v.judged_truth(limit_of(quantity, limits)), is_angle(quantity),
+                      limit_of(quantity, limits));
 }
 
 std::vector<std::string> record_head() {

@@ -30,8 +30,9 @@ struct QuantityRecord {
   double surveyed = kNoTruth;  // of the rock that is really there; in mine classes alone
 
   // What the value is judged by, and its raw one, which is never far. Rock that bulges has two truths, and what lies
-  // between them is not wrong: the nearest of the two, or the value itself.
-  double judged_truth() const;
+  // between them is not wrong: the nearest of the two, or the value itself. Truths more than two alert limits apart are
+  // of two things, and nothing is between them.
+  double judged_truth(double alert_limit) const;
 };
 
 struct FrameRecord {

@@ -36,8 +36,8 @@ const std::vector<Parameter> kRoadRows = {
     ROAD(face_niche_m, "m", 0.1, 50.0, "see face_extra_width_m"),
     ROAD(rear_distance_m, "m", 0.0, 1000.0, "the road's end behind the start; 0: open"),
 
-    ROAD(ramp_deg, "deg", -15.0, 15.0, "+ floor and roof rise ahead from ramp_at_m on; the machine stays on its level"),
-    ROAD(ramp_at_m, "m", -100.0, 100.0, "ahead of the start"),
+    ROAD(ramp_deg, "deg", -6.0, 6.0, "+ floor and roof rise ahead from ramp_at_m on; the machine stays on its level"),
+    ROAD(ramp_at_m, "m", 1.0, 100.0, "ahead of the start; the machine is to stay before it"),
     ROAD(ramp_length_m, "m", 0.5, 20.0, "level again behind it"),
 
     POSE_WALL_SIM_WORDS(rock, Rock, rock, kRockWords, 4.0,

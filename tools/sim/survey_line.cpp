@@ -32,6 +32,8 @@ constexpr double kUpLeast = 0.87;        // cosine of 30 degrees: no road is ste
 constexpr std::size_t kStarts = 12;      // that are tried, at least kStartsApart_m apart
 constexpr double kStartsApart_m = 15.0;  // a crosscut and the road that it leaves are two
 constexpr std::size_t kStepsMost = 5000;
+constexpr double kEndTurn_deg = 10.0;
+constexpr std::size_t kEndSteps = 3;  // to kEnd_m from the end
 
 struct Standpoint {
   Vector at;  // in the sensor's height
@@ -157,6 +159,19 @@ bool came_back(const std::vector<Standpoint>& line, const std::vector<Standpoint
   return std::any_of(line.begin(), line.end(), is_near) || std::any_of(other.begin(), other.end(), is_near);
 }
 
+// Where a road ends, the way turns aside before it stops: that is no road any more.
+void leave_ends(std::vector<Standpoint>* line) {
+  const auto turns = [](const Standpoint& end, const Standpoint& next, const Standpoint& third) {
+    const Vector a = (next.at - end.at).normalized(), b = (third.at - next.at).normalized();
+    return a.dot(b) < std::cos(kEndTurn_deg * kRadPerDeg);
+  };
+  for (std::size_t k = 0; k < kEndSteps && line->size() > 3; ++k) {
+    if (turns((*line)[0], (*line)[1], (*line)[2])) line->erase(line->begin());
+    const std::size_t last = line->size() - 1;
+    if (turns((*line)[last], (*line)[last - 1], (*line)[last - 2])) line->pop_back();
+  }
+}
+
 struct Start {
   double likeness;
   Standpoint place;
@@ -215,6 +230,7 @@ std::vector<Placement> propose_path(const RockSurface& rock, const Vector& low, 
     std::vector<Standpoint> other = walk(walker, start, step_m);
     if (other.size() > line.size()) line = std::move(other);
   }
+  leave_ends(&line);
   if (line.size() < 2) return {};
 
   std::vector<Placement> path;

@@ -17,6 +17,7 @@ namespace {
 constexpr double kStep_m = 0.05;     // between probes: half the spacing of a coarse survey's points
 constexpr double kNearest_m = 0.02;  // a fit that is no better than that stays as it is
 constexpr double kHalf = 0.5;        // of the probes must lie near the plane
+constexpr double kOpening_m = 3.0;   // deeper than a niche, and than a wall seen askew by 30 degrees is
 constexpr int kRounds = 20;
 constexpr int kPicks = 300;           // of three probes: with half of them off, an eighth is of the plane alone
 constexpr std::size_t kJudges = 300;  // probes that tell how near half of them are
@@ -99,6 +100,18 @@ std::optional<Fit> fit_plane(const std::vector<Probe>& probes, std::size_t sent)
   return fit;
 }
 
+// What ends far behind the nearest tenth went through an opening: the end of a crosscut is no wall of this road.
+void leave_openings(std::vector<Probe>* probes) {
+  if (probes->empty()) return;
+  std::vector<double> far(probes->size());
+  std::transform(probes->begin(), probes->end(), far.begin(), [](const Probe& p) { return p.h; });
+  const auto tenth = far.begin() + static_cast<std::ptrdiff_t>(far.size() / 10);
+  std::nth_element(far.begin(), tenth, far.end());
+  const double farthest_m = *tenth + kOpening_m;
+  probes->erase(std::remove_if(probes->begin(), probes->end(), [&](const Probe& p) { return p.h > farthest_m; }),
+                probes->end());
+}
+
 // n . p + d = 0 in the survey's frame, n towards base.
 struct FoundPlane {
   Vector n;
@@ -117,6 +130,7 @@ std::optional<FoundPlane> probe(const RockSurface& rock, const Vector& middle, c
       if (hit.label != Label::kNone) probes.push_back({at_a, at_b, hit.t_m});
     }
   }
+  leave_openings(&probes);
   const std::optional<Fit> fit = fit_plane(probes, sent);
   if (!fit) return std::nullopt;
   const Vector on = middle + fit->at[0] * c;

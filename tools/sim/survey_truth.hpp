@@ -6,8 +6,8 @@
 // Floor: the plane, by area, of what lies below base within kFloorAlong_m along the road and kFloorAcross_m across it.
 // Wall: the plane, by area, of what lies to that side within kWallAlong_m along the road, kWallLow_m to kWallHigh_m
 // above the floor. An MM-estimate (Yohai 1987): openings and things weigh little, by Tukey's function of their
-// distance from the plane that half of the rock is nearest to. A wall of which less than half is near its plane has no
-// truth, nor has yaw without any wall.
+// distance from the plane that half of the rock is nearest to. What ends 3 m behind the nearest rock is an opening. A
+// wall of which less than half is near its plane has no truth, nor has yaw without any wall.
 #pragma once
 
 #include "sim/rock_surface.hpp"

@@ -14,6 +14,7 @@
 
 #include "frames/whole_file.hpp"
 #include "picture/spectra_diagram.hpp"
+#include "sim/check_setup.hpp"
 #include "sim/parameters.hpp"
 #include "sim/random.hpp"
 #include "sim/rock_spectrum.hpp"
@@ -21,6 +22,7 @@
 #include "sim/world.hpp"
 #include "survey/survey_file.hpp"
 #include "terminal/text_table.hpp"
+#include "verbs/output_folder.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -49,6 +51,7 @@ Road of_surface(const std::string& file, const std::string& path) {
 Road of_scene(const std::string& scene, const Words& words) {
   sim::Setup setup = sim::make_setup(scene, "vlp16", false, 1);
   for (const std::string& setting : words.settings) sim::set_parameter(setup, setting);
+  sim::checked(setup);
   const sim::CentreLine line(setup.road.curve_radius_m);
   std::vector<sim::Placement> path;
   for (double s = -kHalfRoad_m; s <= kHalfRoad_m; s += kStep_m) {
@@ -101,14 +104,15 @@ std::string picture_of(const std::vector<Road>& roads) {
 }
 
 int measure(const Words& words) {
+  if (words.surfaces.empty() && words.scenes.empty()) {
+    throw std::invalid_argument("--surface FILE or --scene NAME is needed; both may come several times");
+  }
+  if (!words.output.empty()) make_output_folder(words.output);
   std::vector<Road> roads;
   for (const std::string& file : words.surfaces) roads.push_back(of_surface(file, words.path));
   for (const std::string& scene : words.scenes) roads.push_back(of_scene(scene, words));
-  if (roads.empty())
-    throw std::invalid_argument("--surface FILE or --scene NAME is needed; both may come several times");
   print_table(roads);
   if (words.output.empty()) return 0;
-  std::filesystem::create_directories(words.output);
   std::string rows = sim::kSpectraHead;
   for (const Road& road : roads) rows += sim::spectra_rows(road.name, road.spectra);
   write_whole_file(std::filesystem::path(words.output) / "spectra.csv", rows);
@@ -134,7 +138,11 @@ int main(int argc, char** argv) {
       ->capture_default_str()
       ->check(CLI::Range(1U, 100U));
   app.add_option("--output", words.output, "Folder for spectra.csv and spectra.svg");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& fault) {
+    return app.exit(fault) == 0 ? 0 : 2;
+  }
   try {
     return pose_wall::tools::measure(words);
   } catch (const std::exception& error) {

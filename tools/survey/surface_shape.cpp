@@ -74,6 +74,9 @@ class Collector {
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       if (face.mNumIndices != 3) continue;
+      if (std::any_of(face.mIndices, face.mIndices + 3, [&](unsigned k) { return k >= mesh.mNumVertices; })) {
+        refuse(file_, fmt::format("face {} names a vertex that is not there; there are {}", i, mesh.mNumVertices));
+      }
       shape_.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
     }
   }
@@ -103,9 +106,11 @@ class Collector {
 }  // namespace
 
 SurfaceShape read_surface_shape(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) refuse(file, "there is no such file");
+  if (!std::filesystem::exists(file)) refuse(file, "there is no such file");
+  if (!std::filesystem::is_regular_file(file)) refuse(file, "it is no file");
   Assimp::Importer importer;
-  const aiScene* const scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+  const aiScene* const scene =
+      importer.ReadFile(file.string(), aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     refuse(file, fmt::format("it cannot be read as PLY, OBJ or glTF: {}", importer.GetErrorString()));
   }

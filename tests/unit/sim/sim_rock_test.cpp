@@ -260,6 +260,21 @@ TEST(SurveyedTruth, OfAnIdealRoadIsTheIdealOne) {
   EXPECT_EQ(surveyed.stamp_ns, ideal.stamp_ns);
 }
 
+// The end of a crosscut is no wall of this road, whatever the share of the wall that leads there.
+TEST(SurveyedTruth, ACrosscutIsNoWall) {
+  SceneSetup setup;
+  setup.openings.crosscut_side = kSideLeft;
+  for (const double at_m : {0.0, 1.0, -2.0, 3.5}) {
+    setup.openings.crosscut_at_m = at_m;
+    const TruthRow row = Simulator(setup, 1).surveyed_truth(0);
+    const bool is_mostly_open = std::abs(at_m) < 2.5;
+    EXPECT_EQ(std::isnan(row.value[3]), is_mostly_open) << at_m;
+    EXPECT_FALSE(std::abs(row.value[3] - 2.5) > 2e-3) << at_m;
+    EXPECT_NEAR(row.value[5], 2.5, 2e-3) << at_m;
+    EXPECT_NEAR(row.value[2], 0.0, 2e-3) << at_m;
+  }
+}
+
 // Muck lies before the wall, and is none.
 TEST(SurveyedTruth, HeapsAreNoWall) {
   SceneSetup setup;
