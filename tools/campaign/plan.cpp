@@ -122,8 +122,9 @@ const sim::SceneChoice* scene_of(const std::string& name) {
 
 // Rock that repeats could look the same at two places of the way.
 sim::Setup setup_of(const Run& run) {
-  sim::Setup setup = run.surface.empty() ? sim::make_setup(run.scene, run.sensor, true, run.seed)
-                                         : sim::make_setup(sim::surveyed_scene(), run.sensor, false, run.seed);
+  const bool is_surveyed = run.scene == sim::surveyed_scene().name;  // records do not hold the surface's file
+  sim::Setup setup = is_surveyed ? sim::make_setup(sim::surveyed_scene(), run.sensor, false, run.seed)
+                                 : sim::make_setup(run.scene, run.sensor, true, run.seed);
   for (const std::string& setting : run.settings) sim::set_parameter(setup, setting);
   if (run.drive_in_m > 0.0) {
     setup.machine.drive_in_m = run.drive_in_m;

@@ -77,7 +77,7 @@ bool ValidCount::holds() const {
 }
 
 bool is_cut(const Run& run) {
-  return run.frames < frames_to_watch(sim::make_setup(run.scene, run.sensor, true, run.seed));
+  return run.frames < frames_to_watch(sim::make_setup(*scene_of(run.scene), run.sensor, true, run.seed));
 }
 
 }  // namespace pose_wall::tools::campaign

@@ -74,9 +74,6 @@ class Collector {
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       if (face.mNumIndices != 3) continue;
-      if (std::any_of(face.mIndices, face.mIndices + 3, [&](unsigned k) { return k >= mesh.mNumVertices; })) {
-        refuse(file_, fmt::format("face {} names a vertex that is not there; there are {}", i, mesh.mNumVertices));
-      }
       shape_.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
     }
   }
@@ -103,17 +100,33 @@ class Collector {
   SurfaceShape shape_;
 };
 
+void refuse_wild_faces(const aiScene& scene, const std::filesystem::path& file) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+      const aiFace& face = mesh.mFaces[i];
+      const auto is_wild = [&](unsigned k) { return k >= mesh.mNumVertices; };
+      if (std::none_of(face.mIndices, face.mIndices + face.mNumIndices, is_wild)) continue;
+      refuse(file, fmt::format("face {} names a vertex that is not there; there are {}", i, mesh.mNumVertices));
+    }
+  }
+}
+
 }  // namespace
 
 SurfaceShape read_surface_shape(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) refuse(file, "there is no such file");
   if (!std::filesystem::is_regular_file(file)) refuse(file, "it is no file");
   Assimp::Importer importer;
-  const aiScene* const scene =
-      importer.ReadFile(file.string(), aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType);
-  if (scene == nullptr || scene->mRootNode == nullptr) {
+  const auto demand_read = [&](const aiScene* scene) {
+    if (scene != nullptr && scene->mRootNode != nullptr) return;
     refuse(file, fmt::format("it cannot be read as PLY, OBJ or glTF: {}", importer.GetErrorString()));
-  }
+  };
+  const aiScene* scene = importer.ReadFile(file.string(), 0);
+  demand_read(scene);
+  refuse_wild_faces(*scene, file);  // what cuts polygons into triangles trusts them
+  scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
+  demand_read(scene);
   SurfaceShape shape = Collector(*scene, file).collect();
   if (shape.points.empty() || (shape.is_cloud() && shape.normals.empty())) refuse(file, "it holds no surface");
   return shape;
