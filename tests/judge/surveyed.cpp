@@ -14,7 +14,9 @@
 namespace pose_wall::judge {
 namespace {
 
+// Coarser than the simulator's probes, as far: what both find must not hang on the grid.
 constexpr double kStep_m = 0.08, kFarthest_m = 30.0;
+// The definition's regions: surveyed.hpp.
 constexpr double kFloorAlong_m = 3.0, kFloorAcross_m = 1.1, kWallAlong_m = 2.5, kWallLow_m = 0.25, kWallHigh_m = 2.5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 

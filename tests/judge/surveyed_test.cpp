@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: on smooth rock the judge's two truths are one; on rock as rough as in a blasted gallery the simulator's
-// surveyor, who knows nothing of the road's planes, finds the same ones as the judge's; what the engine calls valid
+// Proves: on smooth rock the judge's two truths are one. On rock as rough as in a blasted gallery the simulator's
+// surveyor, who knows nothing of the road's planes, finds the same ones as the judge's. What the engine calls valid
 // there is not wrong by both truths.
 
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr std::int64_t kRoundTrip_ns = 100'000'000;
+constexpr std::int64_t kRoundTrip_ns = 100'000'000;  // a turn at 10 Hz, for which the tables count columns
 
 sim::SceneSetup round_trip_road(const std::string& sensor) {
   sim::SceneSetup setup = sim::make_setup("rough", sensor, false, 1);

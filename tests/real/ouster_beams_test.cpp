@@ -19,7 +19,7 @@
 namespace pose_wall::test {
 namespace {
 
-constexpr double kBeamsApart_deg = 1.0;
+constexpr double kBeamsApart_deg = 1.0;  // sensors of a kind differ by half a degree; rings in another order by more
 
 std::optional<tools::OusterMetadata> metadata_of(const std::string& name) {
   std::ifstream file(data_folder() / "packets" / name, std::ios::binary);

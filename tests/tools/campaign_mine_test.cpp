@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Mine classes have two truths. Proves: what lies between them is not wrong, what lies beyond both is; each is told by
-// its name; such classes have rows of their own, and a misleading value in them fails the gate; records keep both.
+// Mine classes have two truths. Proves: what lies between them is not wrong, what lies beyond both is. Each is told by
+// its name. Such classes have rows of their own, and a misleading value in them fails the gate. Records keep both.
 
 #include <gtest/gtest.h>
 

@@ -9,14 +9,19 @@
 #include "angles.hpp"
 
 namespace pose_wall::tools {
+namespace {
+
+bool is_lower(const Laser& a, const Laser& b) {
+  return a.elevation_deg < b.elevation_deg;
+}
+
+}  // namespace
 
 double BeamTable::lowest_deg() const {
-  const auto is_lower = [](const Laser& a, const Laser& b) { return a.elevation_deg < b.elevation_deg; };
   return std::min_element(lasers.begin(), lasers.end(), is_lower)->elevation_deg;
 }
 
 double BeamTable::highest_deg() const {
-  const auto is_lower = [](const Laser& a, const Laser& b) { return a.elevation_deg < b.elevation_deg; };
   return std::max_element(lasers.begin(), lasers.end(), is_lower)->elevation_deg;
 }
 

@@ -60,8 +60,8 @@ std::string totals_of(const Card& card) {
          "rate (Clopper-Pearson). Runs are independent; frames of one run are not. *Misleading*: valid, and the error "
          "exceeds the alert limit or there is nothing to measure. *Work limit*: the engine ran out of its budget "
          "(`work_max`). States are of later frames than a run's first. *Mine*: rock as it was measured; what lies "
-         "between "
-         "its two truths is not wrong (*Two truths*). The other classes are short-waved rock on ideal planes. In "
+         "between its two truths is not wrong (*Two truths*). The other classes are short-waved rock on ideal planes. "
+         "In "
          "*unobservable* classes the data of one "
          "sensor "
          "cannot show the fault. They are listed, and left out of everything else.\n\n" +

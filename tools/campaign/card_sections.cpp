@@ -146,8 +146,8 @@ std::string truths_section(const Card& card) {
   if (!is_any) return "";
   return "## Two truths\n\n"
          "Rock that bulges has two: planes of the *road* as a whole, and *surveyed* planes of what is really there "
-         "within "
-         "2.5 m of the machine. Valid values of mine classes, the error that 95 % of them are within, and how many are "
+         "within 2.5 m of the machine. Valid values of mine classes, the error that 95 % of them are within, and how "
+         "many are "
          "beyond the alert limit, by each. A value between both, or within the limit of one, is not misleading.\n\n" +
          table.text() + "\n";
 }

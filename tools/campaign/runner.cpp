@@ -48,6 +48,11 @@ FrameRecord record_of(const pose_wall_result& result, const TruthRow& truth, con
   return record;
 }
 
+sim::Simulator simulator_of(const Run& run) {
+  if (run.surface.empty()) return {setup_of(run), run.seed};
+  return {setup_of(run), run.seed, survey_of(run.surface)};
+}
+
 }  // namespace
 
 LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice) {
@@ -56,15 +61,6 @@ LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice) {
   settings.insert(settings.end(), choice.settings.begin(), choice.settings.end());
   return load_config(choice.config_file, settings);
 }
-
-namespace {
-
-sim::Simulator simulator_of(const Run& run) {
-  if (run.surface.empty()) return {setup_of(run), run.seed};
-  return {setup_of(run), run.seed, survey_of(run.surface)};
-}
-
-}  // namespace
 
 RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& instrument,
                   const std::function<void()>& on_frame) {

@@ -11,7 +11,7 @@
 
 namespace pose_wall::tools::campaign {
 
-// Read once, from whatever thread asks first. Throws SurveyError, and std::invalid_argument for what is no road.
+// Read once, by the thread that asks first. Throws SurveyError, for what is no road, too.
 const sim::Survey& survey_of(const std::string& file);
 
 }  // namespace pose_wall::tools::campaign

@@ -84,7 +84,8 @@ struct Relief {
     return step;
   }
 
-  double height(double u_m, double v_m) const {
+  // `reach_m` is reach_m(), which a march works out once.
+  double height(double u_m, double v_m, double reach_m) const {
     double h = 0.0;
     if (rough.sigma_m > 0.0) h += rough.at(*tile, u_m, v_m);
     if (hump.sigma_m > 0.0) h += hump.at(*tile, u_m, v_m);
@@ -96,8 +97,9 @@ struct Relief {
     }
     if (bow.depth_m != 0.0) h += bow.at(v_m);
     if (ramp.tangent != 0.0) h += ramp.at(u_m, v_m);
-    return std::clamp(h, -reach_m(), reach_m());
+    return std::clamp(h, -reach_m, reach_m);
   }
+  double height(double u_m, double v_m) const { return height(u_m, v_m, reach_m()); }
 };
 
 }  // namespace pose_wall::tools::sim

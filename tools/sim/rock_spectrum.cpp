@@ -13,7 +13,7 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-// Half an octave apart, from what a dense scan resolves to twice what a wall is fitted over.
+// About half an octave apart, from what a dense scan resolves to twice what a wall is fitted over.
 constexpr std::array<double, RockSpectra::kLengths> kLengths_m = {0.1, 0.15, 0.2, 0.3, 0.5, 0.8,
                                                                   1.2, 2.0,  3.0, 4.5, 6.0, 10.0};
 constexpr int kSamples = 17;                // of a stretch: sixteen steps show all that is longer than an eighth of it

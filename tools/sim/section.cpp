@@ -12,12 +12,15 @@ namespace {
 
 constexpr double kNichesWithin_m = 60.0;  // of the start
 
+RockScales scales_of(const Rock& rock, RockFace face, std::uint64_t identity) {
+  return {static_cast<RockKind>(rock.rock), face, rock.rock_scale, rock.rock_repeats != 0.0, mix(identity + 1u)};
+}
+
 Relief rock_relief(const Rock& rock, const NoiseTile* tile, std::uint64_t identity, RockFace face = RockFace::kWall) {
   Relief relief;
   if (tile == nullptr) return relief;
   relief.tile = tile;
-  relief.scales =
-      RockScales(static_cast<RockKind>(rock.rock), face, rock.rock_scale, rock.rock_repeats != 0.0, mix(identity + 1u));
+  relief.scales = scales_of(rock, face, identity);
   relief.rough = NoiseLayer::make(rock.roughness_m, rock.roughness_length_m, rock.rock_repeats != 0.0, identity);
   relief.wave_m = rock.wave_m;
   relief.wave_per_m = 2.0 * M_PI / rock.wave_length_m;
@@ -35,8 +38,7 @@ Relief floor_relief(const Setup& setup, const NoiseTile* tile, std::uint64_t ide
   Relief relief;
   if (tile == nullptr) return relief;
   relief.tile = tile;
-  relief.scales = RockScales(static_cast<RockKind>(setup.rock.rock), RockFace::kFloor, setup.rock.rock_scale, repeats,
-                             mix(identity + 1u));
+  relief.scales = scales_of(setup.rock, RockFace::kFloor, identity);
   relief.bow = {-floor.camber_m, 0.0, 0.5 * setup.road.width_m};
   relief.ramp = ramp_of(setup.road);
   relief.rough = NoiseLayer::make(floor.floor_roughness_m, floor.floor_roughness_length_m, repeats, identity);
@@ -97,17 +99,15 @@ void add_roof(const Setup& setup, const NoiseTile* tile, std::uint64_t seed, std
   const Road& road = setup.road;
   if (road.roof == 0.0) return;
   Surface roof{level_plane(road.height_m, -1.0), rock_relief(setup.rock, tile, mix(seed + 30u), RockFace::kRoof)};
-  if (tile != nullptr) {
-    roof.relief.ramp = ramp_of(road);
-    roof.relief.ramp.tangent *= -1.0;
-    if (road.arch_springing_m > 0.0) {
-      roof.relief.ramp.vault_half_m = 0.5 * road.width_m;
-      roof.relief.ramp.vault_rise_m = road.height_m - road.arch_springing_m;
-    }
-  }
+  Ramp ramp = ramp_of(road);
+  ramp.tangent *= -1.0;  // up is out of the road
   if (road.arch_springing_m > 0.0) {
-    roof.shape = Arch{0.5 * road.width_m, road.height_m - road.arch_springing_m, road.arch_springing_m};
+    const Arch arch{0.5 * road.width_m, road.height_m - road.arch_springing_m, road.arch_springing_m};
+    ramp.vault_half_m = arch.half_width_m;
+    ramp.vault_rise_m = arch.rise_m;
+    roof.shape = arch;
   }
+  if (tile != nullptr) roof.relief.ramp = ramp;
   out.push_back({roof, Label::kRoof, 0, setup.rock.steel_pitch_m > 0.0});
 }
 

@@ -14,19 +14,19 @@ constexpr int kRefineSteps = 2;
 
 // How far the ray stands above the relief.
 template <typename Shape>
-double gap(const Shape& shape, const Relief& relief, const Ray& ray, double t) {
+double gap(const Shape& shape, const Relief& relief, double reach_m, const Ray& ray, double t) {
   const Vector p = ray.at(t);
   const Eigen::Vector2d on = shape.coordinates(p);
-  return shape.clearance(p) - relief.height(on.x(), on.y());
+  return shape.clearance(p) - relief.height(on.x(), on.y(), reach_m);
 }
 
 // Regula falsi between a point above and one below the relief.
 template <typename Shape>
-double refine(const Shape& shape, const Relief& relief, const Ray& ray, double above, double gap_above, double below,
-              double gap_below) {
+double refine(const Shape& shape, const Relief& relief, double reach, const Ray& ray, double above, double gap_above,
+              double below, double gap_below) {
   for (int i = 0; i < kRefineSteps; ++i) {
     const double t = above + (below - above) * gap_above / (gap_above - gap_below);
-    const double g = gap(shape, relief, ray, t);
+    const double g = gap(shape, relief, reach, ray, t);
     (g > 0.0 ? above : below) = t;
     (g > 0.0 ? gap_above : gap_below) = g;
   }
@@ -44,13 +44,13 @@ double march(const Shape& shape, const Relief& relief, const Ray& ray, double t_
   const int steps = relief.scales.flat() ? kMarchSteps : kMarchStepsManyScales;
   const double shortest = std::max(relief.step_m(), span / (0.5 * steps));
   double t = t_start;
-  double g = gap(shape, relief, ray, t);
+  double g = gap(shape, relief, reach, ray, t);
   // At the slab's top the ray can only touch a summit; a start below the relief is a start in the rock.
   if (g <= 0.0) return t_start > 0.0 ? t_start : kNever;
   for (int i = 0; i < steps && t < t_start + span; ++i) {
     const double next = t + std::max(std::min(g * advance, stride), shortest);
-    const double next_g = gap(shape, relief, ray, next);
-    if (next_g <= 0.0) return refine(shape, relief, ray, t, g, next, next_g);
+    const double next_g = gap(shape, relief, reach, ray, next);
+    if (next_g <= 0.0) return refine(shape, relief, reach, ray, t, g, next, next_g);
     t = next;
     g = next_g;
   }

@@ -14,11 +14,12 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-constexpr double kStep_m = 0.05;     // between probes: half the spacing of a coarse survey's points
-constexpr double kNearest_m = 0.02;  // a fit that is no better than that stays as it is
-constexpr double kHalf = 0.5;        // of the probes must lie near the plane
-constexpr double kOpening_m = 3.0;   // deeper than a niche, and than a wall seen askew by 30 degrees is
-constexpr int kRounds = 20;
+constexpr double kStep_m = 0.05;      // between probes: half the spacing of a coarse survey's points
+constexpr double kNearest_m = 0.02;   // a fit that is no better than that stays as it is
+constexpr double kHalf = 0.5;         // of the probes must lie near the plane
+constexpr double kOpening_m = 3.0;    // deeper than a niche, and than a wall seen askew by 30 degrees is
+constexpr int kRounds = 20;           // at most; as a rule it settles sooner
+constexpr double kSettled_m = 1e-8;   // a round that moves a plane by less: far below what truth.csv is read to
 constexpr int kPicks = 300;           // of three probes: with half of them off, an eighth is of the plane alone
 constexpr std::size_t kJudges = 300;  // probes that tell how near half of them are
 constexpr double kSpread_m2 = 0.5;    // twice the triangle of three probes: smaller ones tell no plane
@@ -29,12 +30,7 @@ struct Probe {
   double a, b, h;
 };
 
-// h = at[0] + at[1] a + at[2] b.
-struct Fit {
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();
-  double near = 0.0;  // share of all probes, those that met nothing too, that weigh something
-};
-
+// h = [0] + [1] a + [2] b.
 using Plane3 = Eigen::Vector3d;
 
 double height_over(const Plane3& plane, const Probe& p) {
@@ -74,18 +70,19 @@ MiddlePlane middle_plane(const std::vector<Probe>& probes) {
 }
 
 // Least squares with Tukey's weights of that spread, from that plane on: an MM-estimate (Yohai 1987).
-std::optional<Fit> fit_plane(const std::vector<Probe>& probes, std::size_t sent) {
-  if (static_cast<double>(probes.size()) < kHalf * static_cast<double>(sent)) return std::nullopt;
+std::optional<Plane3> fit_plane(const std::vector<Probe>& probes, std::size_t sent) {
+  const double half = kHalf * static_cast<double>(sent);
+  if (static_cast<double>(probes.size()) < half) return std::nullopt;
   const MiddlePlane start = middle_plane(probes);
   const double width_m = kTukey * std::max(kSigmaOfMad * start.median_m, kNearest_m);
-  Fit fit;
-  fit.at = start.plane;
+  Plane3 plane = start.plane;
+  std::size_t near = 0;
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    std::size_t near = 0;
+    near = 0;
     for (const Probe& p : probes) {
-      const double u = height_over(fit.at, p) / width_m;
+      const double u = height_over(plane, p) / width_m;
       if (std::abs(u) >= 1.0) continue;
       ++near;
       const double weight = (1.0 - u * u) * (1.0 - u * u);
@@ -93,11 +90,12 @@ std::optional<Fit> fit_plane(const std::vector<Probe>& probes, std::size_t sent)
       A += weight * row * row.transpose();
       b += weight * p.h * row;
     }
-    fit.at = A.ldlt().solve(b);
-    fit.near = static_cast<double>(near) / static_cast<double>(sent);
+    const Plane3 before = plane;
+    plane = A.ldlt().solve(b);
+    if ((plane - before).norm() < kSettled_m) break;
   }
-  if (!fit.at.allFinite() || fit.near < kHalf) return std::nullopt;
-  return fit;
+  if (!plane.allFinite() || static_cast<double>(near) < half) return std::nullopt;
+  return plane;
 }
 
 // What ends far behind the nearest tenth went through an opening: the end of a crosscut is no wall of this road.
@@ -131,10 +129,10 @@ std::optional<FoundPlane> probe(const RockSurface& rock, const Vector& middle, c
     }
   }
   leave_openings(&probes);
-  const std::optional<Fit> fit = fit_plane(probes, sent);
-  if (!fit) return std::nullopt;
-  const Vector on = middle + fit->at[0] * c;
-  const Vector n = (fit->at[1] * a + fit->at[2] * b - c).normalized();
+  const std::optional<Plane3> plane = fit_plane(probes, sent);
+  if (!plane) return std::nullopt;
+  const Vector on = middle + (*plane)[0] * c;
+  const Vector n = ((*plane)[1] * a + (*plane)[2] * b - c).normalized();
   return FoundPlane{n, -n.dot(on)};
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: a real sensor's points lie on the rock although its light does not leave the origin; they come when its
-// lasers fire, in whole steps of its own ranges; noise by incidence and light, two returns in dust and a window of
-// azimuths do what their keys say, and draw no random number while they are off.
+// Proves: a real sensor's points lie on the rock although its light does not leave the origin. They come when its
+// lasers fire, in whole steps of its own ranges. Noise by incidence and light, two returns in dust and a window of
+// azimuths do what their keys say. While they are off they draw no random number.
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Rock of several lengths, and what tells how rough it is. Proves: figures of a wave are its own, openings are told and
-// not counted, holes do no harm; the blasted road is as rough as the gallery that it was fitted to; forms of the road
-// (bow, camber, ramp, niches) lie where their numbers say; the surveyed truth follows the rock, niches aside.
+// not counted, holes do no harm. The blasted road is as rough as the gallery that it was fitted to. Forms of the road
+// (bow, camber, ramp, niches) lie where their numbers say. The surveyed truth follows the rock, niches aside.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-constexpr double kHalf_m = 2.4, kHigh_m = 3.6;
+constexpr double kHalf_m = 2.4, kHigh_m = 3.6;  // an ordinary road
 
 // Walls that are so far from the middle at (x, z); a negative distance is a hole. Floor and roof are flat.
 class Walls final : public RockSurface {
@@ -83,7 +83,7 @@ TEST(RockSpectra, FlatWallsHaveNone) {
 // A stretch of a whole wave leaves its amplitude over the root of two; one of a tenth of it next to nothing; up the
 // wall there is none.
 TEST(RockSpectra, AWaveHasItsAmplitudeAtItsLength) {
-  constexpr double kAmplitude_m = 0.05, kWave_m = 2.0;
+  constexpr double kAmplitude_m = 0.05, kWave_m = 2.0;  // well within the lengths that are measured
   RockSpectra spectra;
   spectra.add(Walls([](double x, double) { return kHalf_m + kAmplitude_m * std::sin(2.0 * M_PI * x / kWave_m); }),
               along_the_middle());
