@@ -31,6 +31,10 @@
  *          roll > 0 is right side down, pitch > 0 is nose down. With -X both change sign for the driver. With +Y or -Y
  *          the driver's pitch is roll, and the driver's roll is pitch. Distances are >= 0. AXES.md of the package
  *          compares the axes and signs of all libraries.
+ * REGIONS  floor and walls are those beside the machine: the plane, by one formula, of what is really there within 3 m
+ *          along on the floor and 2.5 m along the walls. DEFINITIONS.md of the package has regions and formula. Where
+ *          too little of that is seen, a value is of all floor or wall in view (the extents of its plane tell), and
+ *          its level covers more.
  * UNITS    metres, radians, nanoseconds (stamps), seconds (ages). NaN where there is no number.
  * MEMORY   only the caller's block, and less than 32 kB of stack. No call allocates, blocks, prints, reads a clock or
  *          throws.
@@ -586,7 +590,7 @@ typedef struct pose_wall_engine pose_wall_engine;
 POSE_WALL_CHECKED int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes);
 /* Bytes that are enough for every config of this points_max, for static arrays: pose_wall_memory_needed asks for no
  * more. Of this version: a later one may need more, and then refuses the block. */
-#define POSE_WALL_BLOCK_MOST(points_max) (1310720 + 96 * (points_max))
+#define POSE_WALL_BLOCK_MOST(points_max) (1703936 + 96 * (points_max))
 
 /* Places an engine in block, which may hold anything and stays the caller's. The block must outlive the engine and not
  * move. The config is copied. Fails iff: NULL, config not initialised (POSE_WALL_E_STRUCT_SIZE),

@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0xE1FF36E146BA6BA3ULL;
+constexpr std::uint64_t kSelfTestDigest = 0xBE1361C29C6568AFULL;
 
 }  // namespace pose_wall

@@ -11,6 +11,7 @@
 #include "base/estimation/plane_halves.hpp"
 #include "base/estimation/tangent_frame.hpp"
 #include "base/estimation/tukey.hpp"
+#include "base/math/rotation.hpp"
 #include "gates/gate.hpp"
 
 namespace pose_wall {
@@ -74,18 +75,6 @@ Span<std::uint32_t> select(const FloorLook& look, const FloorGrid& grid, const P
   return out.first(count);
 }
 
-// Gradients of roll and pitch by the normal; see roll_pitch_of_up().
-struct Gradients {
-  Eigen::Vector3d roll, pitch;
-
-  explicit Gradients(const Eigen::Vector3d& n) {
-    const double s2 = n.y() * n.y() + n.z() * n.z();
-    const double s = std::sqrt(s2);
-    roll = Eigen::Vector3d(0.0, n.z(), -n.y()) / s2;
-    pitch = Eigen::Vector3d(-s, n.x() * n.y() / s, n.x() * n.z() / s);
-  }
-};
-
 // Response of an angle to the fit's correction (offset, slope u, slope v): the normal moves by -slope u - slope v.
 Eigen::Vector3d response(const Eigen::Vector3d& gradient, const TangentFrame& f) {
   return {0.0, -gradient.dot(f.u), -gradient.dot(f.v)};
@@ -145,7 +134,7 @@ void count_inliers(const PointSet& within_base, double thresh_m, PlaneFit* fit) 
 // bend: from PatchGrid, which tests the floor for a bend as a whole. The rest is from the plane through its waves.
 void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const SurfacePatch> patches,
                      const TangentFrame& f, const Plane& plane, const Settings& s, FloorResult* out) {
-  const Gradients gradients(plane.n);
+  const RollPitchGradients gradients(plane.n);
   const Eigen::Vector3d roll = response(gradients.roll, f), pitch = response(gradients.pitch, f);
   out->roll_sigma_rad = std::sqrt(roll.dot(uneven.covariance * roll));
   out->pitch_sigma_rad = std::sqrt(pitch.dot(uneven.covariance * pitch));

@@ -15,6 +15,7 @@
 #include "base/estimation/uneven_plane.hpp"
 #include "config.hpp"
 #include "floor/evidence.hpp"
+#include "region/region_plane.hpp"
 #include "types.hpp"
 
 namespace pose_wall {
@@ -46,6 +47,7 @@ struct FloorScratch {
   FloorGrid grid;
   PatchGrid patches;
   SurfacePatches surface;
+  RegionFit region;
   Work work;
 
   void lay_out(Arena& arena, std::uint32_t points_max) {
@@ -57,6 +59,7 @@ struct FloorScratch {
     grid.lay_out(arena);
     patches.lay_out(arena);
     surface.lay_out(arena);
+    region.lay_out(arena);
   }
 };
 

@@ -23,6 +23,7 @@ constexpr double kLikelyInSigmas = 2.0;
 constexpr double kSigmaMinAngle_rad = 1e-5;
 constexpr double kSigmaMinDistance_m = 1e-4;
 constexpr double kLayerFactor = 2.0;  // ribs move a wall to one side, within bounds (walls/fit: What rock shows)
+constexpr double kHalf = 0.5;         // of two walls
 constexpr double kDofMin = 4.0;       // judgement, 2026-11-21: dof / (dof - 2) stretches a variance by 2 at most
 
 double with_floor(double sigma, double least) {
@@ -119,7 +120,10 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
     variance[side] = sigma * sigma;
     information += 1.0 / variance[side];
   }
-  const double w[2] = {1.0 / (variance[0] * information), 1.0 / (variance[1] * information)};
+  // By the definition the road's direction is the mean of both walls' (include/DEFINITIONS.md), however rough they are.
+  const bool defined = walls[0].of_region && walls[1].of_region;
+  const double w[2] = {defined ? kHalf : 1.0 / (variance[0] * information),
+                       defined ? kHalf : 1.0 / (variance[1] * information)};
   const double raw = w[0] * walls[0].yaw_rad + w[1] * walls[1].yaw_rad;
   const double bias = w[0] * walls[0].yaw_bias_rad_per_m + w[1] * walls[1].yaw_bias_rad_per_m;
   ProtectionParts bound;
@@ -130,14 +134,16 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
   const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
   const double apart_in_sigmas = (difference - biased_apart) / std::sqrt(variance[0] + variance[1]);
-  const bool splayed = apart_in_sigmas > kSplayInSigmas;
+  const bool splayed = !defined && apart_in_sigmas > kSplayInSigmas;
   // The road's own direction lies between the walls', and the mean may lie at either.
   if (splayed) bound[POSE_WALL_PART_BEND] += larger(w[0], w[1]) * difference;
-  const double stretch = larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
+  const double stretch = defined ? 1.0 : larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
   // A wall that looks precise by chance must not lend the other its degrees of freedom.
   const double dof = 1.0 / (w[0] * w[0] / walls[0].yaw_dof + w[1] * w[1] / walls[1].yaw_dof);
   const double tilt_share = larger(tilt_to_yaw(walls[0], levelling), tilt_to_yaw(walls[1], levelling));
-  return yaw_measurement(raw, stretch * stretch / information, bound, dof, tilt_share, floor, s);
+  const double both_variance = w[0] * w[0] * variance[0] + w[1] * w[1] * variance[1];
+  return yaw_measurement(raw, stretch * stretch * (defined ? both_variance : 1.0 / information), bound, dof, tilt_share,
+                         floor, s);
 }
 
 // If one of two walls is none, the other one alone gives the direction (solution separation: Blanch et al. 2015). If
@@ -159,7 +165,11 @@ void reach_without_things(const FloorResult& floor, const Levelling& levelling, 
 
 Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
                         const Settings& s) {
-  const bool left = !walls[0].fit.refused, right = !walls[1].fit.refused;
+  // A side of which most is no wall tells no direction, where the other side shows its region's.
+  const auto counts = [&](int side) {
+    return !walls[side].fit.refused && !(walls[side].is_none && walls[1 - side].of_region);
+  };
+  const bool left = counts(0), right = counts(1);
   Measurement m;
   if (left && right) {
     m = yaw_by_both(walls, floor, levelling, s);

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include "region/region_plane.hpp"
 #include "walls/doubts/edges.hpp"
 #include "walls/doubts/sight.hpp"
 #include "walls/fit/surface.hpp"
@@ -18,6 +19,7 @@ struct WallsScratch {
   WallFitScratch fit;
   SightScratch sight;
   EdgeScratch edges;
+  RegionFit region;
   PatchErrors errors[2];  // of the fitted walls, left and right
 
   void lay_out(Arena& arena, std::uint32_t points_max) {
@@ -26,6 +28,7 @@ struct WallsScratch {
     fit.lay_out(arena, points_max);
     sight.lay_out(arena);
     edges.lay_out(arena);
+    region.lay_out(arena);
     propose.near = fit.near;
     propose.points = &fit.points.at;
     propose.grid = &grid;

@@ -55,6 +55,9 @@ struct Doubt : Verdict {
 struct JudgedWall : FittedWall {
   double yaw_to_rival_rad = 0.0;  // if its rival is the wall, or the road bends before it
   bool may_be_no_wall = false;    // but a curtain, a vehicle or pipes
+  // By the plane of the region beside the machine (walls/region):
+  bool of_region = false;
+  bool is_none = false;  // most of the region is no wall
 
   JudgedWall() = default;
   explicit JudgedWall(const FittedWall& fitted) : FittedWall(fitted) {}

@@ -17,7 +17,7 @@ namespace {
 // Coarser than the simulator's probes, as far: what both find must not hang on the grid.
 constexpr double kStep_m = 0.08, kFarthest_m = 30.0;
 // The definition's regions: surveyed.hpp.
-constexpr double kFloorAlong_m = 3.0, kFloorAcross_m = 1.1, kWallAlong_m = 2.5, kWallLow_m = 0.25, kWallHigh_m = 2.5;
+constexpr double kFloorAlong_m = 3.0, kFloorAcross_m = 1.125, kWallAlong_m = 2.5, kWallLow_m = 0.25, kWallHigh_m = 2.5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double rock_m(const Road& road, const Ray& ray) {
@@ -32,54 +32,81 @@ struct Region {
   double half_along_m, low_m, high_m;
 };
 
-// The plane that lies within a width of most of the hits: the width in which a half of them lies about the road's own
-// plane, which the judge knows; then Tukey's weights, whose influence ends at 4.685 of its standard deviations.
-std::optional<Plane> fit(const Road& road, const Region& region, const Plane& ideal) {
-  std::vector<Vector3d> hits;
+struct Hit {
+  double along_m, across_m, out_m;
+};
+
+// h = x + y along + z across, and the definition's sums over the hits.
+struct Surface {
+  Vector3d plane;
+  double weights = 0.0, loss = 0.0;
+};
+
+double share_off(const Hit& hit, const Vector3d& plane) {
+  return hit.out_m - plane.dot(Vector3d(1.0, hit.along_m, hit.across_m));
+}
+
+// Least squares through the hits that count, then Cauchy's weights of an ever smaller width down to the definition's.
+template <typename Counts>
+Surface settle(const std::vector<Hit>& hits, double width_m, const Counts& counts) {
+  constexpr double kWidth_m = 0.15, kBefore = 4.0;
+  constexpr int kRounds = 80;
+  Surface out;
+  for (int round = 0; round <= kRounds; ++round) {
+    Matrix3d squares = Matrix3d::Zero();
+    Vector3d sums = Vector3d::Zero();
+    out.weights = out.loss = 0.0;
+    for (const Hit& hit : hits) {
+      if (round == 0 && !counts(hit)) continue;
+      const double off = round == 0 ? 0.0 : share_off(hit, out.plane) / width_m;
+      const double parts = 1.0 + (off < 0.0 ? kBefore : 1.0) * off * off;
+      const Vector3d row(1.0, hit.along_m, hit.across_m);
+      squares += row * row.transpose() / parts;
+      sums += hit.out_m * row / parts;
+      out.weights += 1.0 / parts;
+      out.loss += std::log(parts);
+    }
+    if (round == kRounds) break;  // the sums are those of the plane as it is
+    out.plane = squares.ldlt().solve(sums);
+    if (round > 0) width_m = std::max(width_m / std::sqrt(2.0), kWidth_m);
+  }
+  return out;
+}
+
+// The plane of a region by include/DEFINITIONS.md.
+std::optional<Plane> fit(const Road& road, const Region& region) {
+  std::vector<Hit> hits;
   int sent = 0;
   for (double a = -region.half_along_m; a <= region.half_along_m; a += kStep_m) {
     for (double b = region.low_m; b <= region.high_m; b += kStep_m, ++sent) {
       const Ray ray = {region.middle_m + a * region.along + b * region.across, region.out};
       const double at_m = rock_m(road, ray);
-      if (std::isfinite(at_m)) hits.emplace_back(a, b, at_m);
+      if (std::isfinite(at_m)) hits.push_back({a, b, at_m});
     }
   }
-  // The end of a crosscut is no wall of this road.
-  std::vector<double> depths;
-  for (const Vector3d& hit : hits) depths.push_back(hit.z());
-  const double deepest_m = quantile(depths, 0.1) + 3.0;
-  hits.erase(std::remove_if(hits.begin(), hits.end(), [&](const Vector3d& hit) { return hit.z() > deepest_m; }),
+  // What ends 3 m behind the nearest tenth is seen through an opening.
+  std::vector<double> depths_m;
+  for (const Hit& hit : hits) depths_m.push_back(hit.out_m);
+  const double deepest_m = quantile(depths_m, 0.1) + 3.0;
+  hits.erase(std::remove_if(hits.begin(), hits.end(), [&](const Hit& hit) { return hit.out_m > deepest_m; }),
              hits.end());
   if (2 * static_cast<int>(hits.size()) < sent) return std::nullopt;
-  const double slant = -ideal.normal.dot(region.out);
-  Vector3d plane(ideal.distance_m(region.middle_m), ideal.normal.dot(region.along), ideal.normal.dot(region.across));
-  plane /= slant;
-  const auto off = [&](const Vector3d& hit) { return hit.z() - plane.dot(Vector3d(1.0, hit.x(), hit.y())); };
-  std::vector<double> offs;
-  for (const Vector3d& hit : hits) offs.push_back(off(hit));
-  plane.x() += quantile(offs, 0.5);
-  for (std::size_t k = 0; k < hits.size(); ++k) offs[k] = std::abs(off(hits[k]));
-  const double width_m = 4.685 * std::max(1.4826 * quantile(offs, 0.5), 0.02);
-  int near = 0;
-  for (int round = 0; round < 30; ++round) {
-    Matrix3d squares = Matrix3d::Zero();
-    Vector3d sums = Vector3d::Zero();
-    near = 0;
-    for (const Vector3d& hit : hits) {
-      const double share = off(hit) / width_m;
-      if (std::abs(share) >= 1.0) continue;
-      ++near;
-      const Vector3d row(1.0, hit.x(), hit.y());
-      const double weight = std::pow(1.0 - share * share, 2.0);
-      squares += weight * row * row.transpose();
-      sums += weight * hit.z() * row;
-    }
-    plane = squares.ldlt().solve(sums);
+  const double middle_m = 0.5 * (region.low_m + region.high_m);
+  const Surface surfaces[] = {
+      settle(hits, 2.0, [](const Hit&) { return true; }),
+      settle(hits, 0.15, [](const Hit& h) { return h.along_m < 0.0; }),
+      settle(hits, 0.15, [](const Hit& h) { return h.along_m > 0.0; }),
+      settle(hits, 0.15, [=](const Hit& h) { return h.across_m < middle_m; }),
+      settle(hits, 0.15, [=](const Hit& h) { return h.across_m > middle_m; }),
+      settle(hits, 0.15, [&](const Hit& h) { return std::abs(h.along_m) > 0.5 * region.half_along_m; })};
+  const Surface* best = nullptr;
+  for (const Surface& surface : surfaces) {
+    if (surface.plane.allFinite() && (best == nullptr || surface.loss < best->loss)) best = &surface;
   }
-  if (2 * near < sent || !plane.allFinite()) return std::nullopt;
+  if (best == nullptr || 2.0 * best->weights < sent) return std::nullopt;
   Plane found;
-  found.normal = (plane.y() * region.along + plane.z() * region.across - region.out).normalized();
-  found.offset_m = -found.normal.dot(region.middle_m + plane.x() * region.out);
+  found.normal = (best->plane.y() * region.along + best->plane.z() * region.across - region.out).normalized();
+  found.offset_m = -found.normal.dot(region.middle_m + best->plane.x() * region.out);
   return found;
 }
 
@@ -91,21 +118,19 @@ Truth surveyed_truth(const Road& road, const Machine& machine, const Pose& pose)
   const Vector3d up = Vector3d::UnitZ();
   const Vector3d forward = pose.turn * machine.base_from_machine.col(0);
   const Vector3d level = (forward - forward.z() * up).normalized();
-  const auto floor = fit(
-      road, {pose.position_m, level, up.cross(level), -up, kFloorAlong_m, -kFloorAcross_m, kFloorAcross_m}, road.floor);
+  const auto floor =
+      fit(road, {pose.position_m, level, up.cross(level), -up, kFloorAlong_m, -kFloorAcross_m, kFloorAcross_m});
   if (!floor) return truth;
   Road found = road;
   found.floor = *floor;
   const Vector3d ahead = (forward - forward.dot(floor->normal) * floor->normal).normalized();
   const Vector3d left = floor->normal.cross(ahead);
   const double height_m = floor->distance_m(pose.position_m);
-  const auto wall = [&](double side, const Plane& ideal) {
-    return fit(road,
-               {pose.position_m, ahead, floor->normal, side * left, kWallAlong_m, kWallLow_m - height_m,
-                kWallHigh_m - height_m},
-               ideal);
+  const auto wall = [&](double side) {
+    return fit(road, {pose.position_m, ahead, floor->normal, side * left, kWallAlong_m, kWallLow_m - height_m,
+                      kWallHigh_m - height_m});
   };
-  const auto left_wall = wall(1.0, road.left), right_wall = wall(-1.0, road.right);
+  const auto left_wall = wall(1.0), right_wall = wall(-1.0);
   if (left_wall) found.left = *left_wall;
   if (right_wall) found.right = *right_wall;
   if (!left_wall && right_wall) found.left = {-right_wall->normal, 0.0};  // for yaw: by the other wall alone

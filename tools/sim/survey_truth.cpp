@@ -14,16 +14,14 @@
 namespace pose_wall::tools::sim {
 namespace {
 
-constexpr double kStep_m = 0.05;      // between probes: half the spacing of a coarse survey's points
-constexpr double kNearest_m = 0.02;   // a fit that is no better than that stays as it is
-constexpr double kHalf = 0.5;         // of the probes must lie near the plane
-constexpr double kOpening_m = 3.0;    // deeper than a niche, and than a wall seen askew by 30 degrees is
-constexpr int kRounds = 20;           // at most; as a rule it settles sooner
-constexpr double kSettled_m = 1e-8;   // a round that moves a plane by less: far below what truth.csv is read to
-constexpr int kPicks = 300;           // of three probes: with half of them off, an eighth is of the plane alone
-constexpr std::size_t kJudges = 300;  // probes that tell how near half of them are
-constexpr double kSpread_m2 = 0.5;    // twice the triangle of three probes: smaller ones tell no plane
-constexpr double kTukey = 4.685, kSigmaOfMad = 1.4826;  // 95 % efficient under normal errors
+constexpr double kStep_m = 0.05;    // between probes: half the spacing of a coarse survey's points
+constexpr double kOpening_m = 3.0;  // deeper than a niche, and than a wall seen askew by 30 degrees is
+constexpr double kHalf = 0.5;       // of the region must be wall, by weight
+constexpr double kWidth_m = 0.15;   // c: rock of 7 cm weighs 0.8, a niche of half a metre a twelfth
+constexpr double kWidest_m = 2.0, kNarrower = 0.7071;  // where it starts, and what a round leaves of it
+constexpr double kBefore = 4.0;
+constexpr int kRounds = 100;         // at most; as a rule it settles sooner
+constexpr double kSettled_m = 1e-8;  // a round that moves a plane by less: far below what truth.csv is read to
 
 // One probe: where it ended, in coordinates (a, b) of the region and h square to it.
 struct Probe {
@@ -37,65 +35,67 @@ double height_over(const Plane3& plane, const Probe& p) {
   return p.h - plane.dot(Plane3(1.0, p.a, p.b));
 }
 
-// The plane through three probes that half of some of them are nearest to (Rousseeuw 1984): whatever the other half
-// does, niches and turned machines, it stays. The spread of that half goes with it.
-struct MiddlePlane {
-  Plane3 plane = Plane3::Zero();
-  double median_m = kProbe_m;
+// Weighted least squares through the probes of a half of the region, or all.
+struct Weighted {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  double weights = 0.0, loss = 0.0;
+
+  void add(const Probe& p, double weight) {
+    const Plane3 row(1.0, p.a, p.b);
+    A += weight * row * row.transpose();
+    b += weight * p.h * row;
+    weights += weight;
+  }
 };
 
-MiddlePlane middle_plane(const std::vector<Probe>& probes) {
-  Random random(kPicks, probes.size());
-  const auto pick = [&]() -> const Probe& {
-    return probes[static_cast<std::size_t>(random.uniform() * static_cast<double>(probes.size()))];
-  };
-  MiddlePlane best;
-  std::vector<double> off(kJudges);
-  for (int k = 0; k < kPicks; ++k) {
-    Eigen::Matrix3d A;
-    Eigen::Vector3d b;
-    for (int i = 0; i < 3; ++i) {
-      const Probe& p = pick();
-      A.row(i) << 1.0, p.a, p.b;
-      b[i] = p.h;
-    }
-    if (std::abs(A.determinant()) < kSpread_m2) continue;
-    const Plane3 plane = A.inverse() * b;
-    for (std::size_t i = 0; i < kJudges; ++i)
-      off[i] = std::abs(height_over(plane, probes[i * probes.size() / kJudges]));
-    const double median_m = middle_of(&off);
-    if (median_m < best.median_m) best = {plane, median_m};
-  }
-  return best;
-}
+struct Settled {
+  Plane3 plane = Plane3::Zero();
+  double near = 0.0, loss = 0.0;  // sums of weights and of log(1 + (h / c)²)
+};
 
-// Least squares with Tukey's weights of that spread, from that plane on: an MM-estimate (Yohai 1987).
-std::optional<Plane3> fit_plane(const std::vector<Probe>& probes, std::size_t sent) {
-  const double half = kHalf * static_cast<double>(sent);
-  if (static_cast<double>(probes.size()) < half) return std::nullopt;
-  const MiddlePlane start = middle_plane(probes);
-  const double width_m = kTukey * std::max(kSigmaOfMad * start.median_m, kNearest_m);
-  Plane3 plane = start.plane;
-  std::size_t near = 0;
+// Narrows c step by step, so that no start decides alone (graduated non-convexity: Blake and Zisserman 1987).
+std::optional<Settled> settle(const std::vector<Probe>& probes, Plane3 plane, double c_m) {
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    near = 0;
+    Weighted sums;
     for (const Probe& p : probes) {
-      const double u = height_over(plane, p) / width_m;
-      if (std::abs(u) >= 1.0) continue;
-      ++near;
-      const double weight = (1.0 - u * u) * (1.0 - u * u);
-      const Plane3 row(1.0, p.a, p.b);
-      A += weight * row * row.transpose();
-      b += weight * p.h * row;
+      const double t = height_over(plane, p) / c_m;
+      const double before = t < 0.0 ? kBefore : 1.0;
+      sums.add(p, 1.0 / (1.0 + before * t * t));
+      sums.loss += std::log1p(before * t * t);
     }
     const Plane3 before = plane;
-    plane = A.ldlt().solve(b);
-    if ((plane - before).norm() < kSettled_m) break;
+    plane = sums.A.ldlt().solve(sums.b);
+    if (!plane.allFinite()) return std::nullopt;
+    if (c_m == kWidth_m && ((plane - before).norm() < kSettled_m || round + 1 == kRounds))
+      return Settled{plane, sums.weights, sums.loss};
+    c_m = std::max(c_m * kNarrower, kWidth_m);
   }
-  if (!plane.allFinite() || static_cast<double>(near) < half) return std::nullopt;
-  return plane;
+  return std::nullopt;
+}
+
+// The plane that minimises the sum of log(1 + (h / c)²), Cauchy's robust estimate: from all probes, from those of
+// each half of the region, and from those of both its ends.
+std::optional<Plane3> fit_plane(const std::vector<Probe>& probes, std::size_t sent, double middle_b, double end_a) {
+  std::optional<Settled> best;
+  const auto start = [&](double wide_m, const auto& takes) {
+    Weighted sums;
+    for (const Probe& p : probes) {
+      if (takes(p)) sums.add(p, 1.0);
+    }
+    const Plane3 plane = sums.A.ldlt().solve(sums.b);
+    if (!plane.allFinite()) return;
+    const std::optional<Settled> settled = settle(probes, plane, wide_m);
+    if (settled && (!best || settled->loss < best->loss)) best = settled;
+  };
+  start(kWidest_m, [](const Probe&) { return true; });
+  start(kWidth_m, [](const Probe& p) { return p.a > 0.0; });
+  start(kWidth_m, [](const Probe& p) { return p.a < 0.0; });
+  start(kWidth_m, [middle_b](const Probe& p) { return p.b > middle_b; });
+  start(kWidth_m, [middle_b](const Probe& p) { return p.b < middle_b; });
+  start(kWidth_m, [end_a](const Probe& p) { return std::abs(p.a) > end_a; });
+  if (!best || best->near < kHalf * static_cast<double>(sent)) return std::nullopt;
+  return best->plane;
 }
 
 // What ends far behind the nearest tenth went through an opening: the end of a crosscut is no wall of this road.
@@ -129,7 +129,7 @@ std::optional<FoundPlane> probe(const RockSurface& rock, const Vector& middle, c
     }
   }
   leave_openings(&probes);
-  const std::optional<Plane3> plane = fit_plane(probes, sent);
+  const std::optional<Plane3> plane = fit_plane(probes, sent, 0.5 * (low_b_m + high_b_m), 0.5 * half_a_m);
   if (!plane) return std::nullopt;
   const Vector on = middle + (*plane)[0] * c;
   const Vector n = ((*plane)[1] * a + (*plane)[2] * b - c).normalized();

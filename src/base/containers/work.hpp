@@ -68,7 +68,7 @@ constexpr std::uint64_t kPointBent = 8;
 // Fits: a point in a round of least squares; a cell of patches, a patch with points, and one that is paired with those
 // around it; a patch of a surface that waves:
 constexpr std::uint64_t kPointRound = 1, kCell = 4, kPatch = 20, kPatchMeasured = 60, kPatchPaired = 150;
-constexpr std::uint64_t kPatchWaved = 500;
+constexpr std::uint64_t kPatchWaved = 500, kCellSettled = 600;
 
 }  // namespace steps
 }  // namespace pose_wall

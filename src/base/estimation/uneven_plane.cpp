@@ -126,14 +126,15 @@ bool UnevenPlane::any_of_four_is_nearer(std::uint32_t i, std::uint32_t first, fl
 
 // The nearest of the patches before each, by insertion; of equally near ones the first. From the last one back, since
 // patches come row by row and the near ones are found at once. The others are passed over four at a time.
-void UnevenPlane::find_neighbours(std::uint32_t patches) {
+void UnevenPlane::find_neighbours(std::uint32_t patches, std::uint32_t seen) {
   for (std::uint32_t i = 0; i < patches; ++i) {
     u_m_[i] = values_[i].of[1];
     v_m_[i] = values_[i].of[2];
     float nearest_m2[kNeighbours];
     std::uint16_t* const of = &neighbours_[i * kNeighbours];
     std::uint32_t found = 0;
-    const std::uint32_t first = i > kLookBack ? i - kLookBack : 0;
+    // What is not seen stands behind all that is.
+    const std::uint32_t first = i > kLookBack && i < seen ? i - kLookBack : 0;
     for (std::uint32_t j = i; j > first;) {
       const bool full = found == kNeighbours;
       if (full && j >= first + kFour && !any_of_four_is_nearer(i, j - kFour, nearest_m2[kNeighbours - 1])) {
@@ -268,7 +269,7 @@ void UnevenPlane::consider_independent(Span<const SurfacePatch> patches, Span<co
 // Predicts each of four patches from its neighbours by their covariance, and adds what is left of it.
 void UnevenPlane::predict(const Neighbourhood& at, const FourFloats (&to_own)[kNeighbours],
                           const FourFloats (&between)[kNeighbours][kNeighbours], float own_share, float tau2,
-                          FourFloats* predicts, FourFloats* left, Whitened* sums) {
+                          FourTruths seen, FourFloats* predicts, FourFloats* left, Whitened* sums) {
   const float shared = (1.0F - own_share) * tau2;
   FourFloats factor[kNeighbours][kNeighbours], inverse_pivot[kNeighbours], known[kNeighbours];
   FourFloats unknown = at.own.noise + tau2;
@@ -295,15 +296,19 @@ void UnevenPlane::predict(const Neighbourhood& at, const FourFloats (&to_own)[kN
     predicts[k] = known[k];
   }
   *left = unknown;
-  sums->add(row, unknown, at.own.counts);
+  sums->add(row, unknown, at.own.counts & seen);
 }
 
-void UnevenPlane::consider_waves(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
-                                 Models* models) {
-  const std::uint32_t lengths = responses.size() > 0 ? kLengthsOfErrors : kLengths;
-  Whitened sums[kWaves];
-  for (std::uint32_t first = 0; first < patches.size(); first += kFour) {
-    const Neighbourhood at = neighbourhood(first, patches.size());
+struct UnevenPlane::WaveSums {
+  Whitened of[kWaves];
+};
+
+// Predicts each patch from those before it, under every model of waves.
+void UnevenPlane::sum_waves(std::uint32_t patches, std::uint32_t seen, std::uint32_t lengths, double tau2,
+                            WaveSums* sums) {
+  for (std::uint32_t first = 0; first < patches; first += kFour) {
+    const Neighbourhood at = neighbourhood(first, patches);
+    const FourTruths of_seen = first_of_four(first < seen ? seen - first : 0);
     for (std::uint32_t length = 0; length < lengths; ++length) {
       const auto per_length = static_cast<float>(std::sqrt(3.0) / kLengths_m[length]);
       FourFloats to_own[kNeighbours], between[kNeighbours][kNeighbours];
@@ -313,14 +318,21 @@ void UnevenPlane::consider_waves(Span<const SurfacePatch> patches, Span<const Ei
       }
       for (std::uint32_t share = 0; share < kShares; ++share) {
         const std::uint32_t wave = length * kShares + share, four = wave * kFours + first / kFour;
-        predict(at, to_own, between, static_cast<float>(kOwnShares[share]), static_cast<float>(tau2),
-                &predicts_[four * kNeighbours], &left_[four], &sums[wave]);
+        predict(at, to_own, between, static_cast<float>(kOwnShares[share]), static_cast<float>(tau2), of_seen,
+                &predicts_[four * kNeighbours], &left_[four], &sums->of[wave]);
       }
     }
   }
+}
+
+void UnevenPlane::consider_waves(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
+                                 Models* models) {
+  const std::uint32_t lengths = responses.size() > 0 ? kLengthsOfErrors : kLengths;
+  WaveSums sums;
+  sum_waves(patches.size(), patches.size(), lengths, tau2, &sums);
   for (std::uint32_t wave = 0; wave < lengths * kShares; ++wave) {
     Model& model = models->of[1 + wave];
-    if (!sums[wave].solve(static_cast<double>(patches.size()), &model)) continue;
+    if (!sums.of[wave].solve(static_cast<double>(patches.size()), &model)) continue;
     models->count(1 + wave);
     if (responses.size() > 0) model.covariance = model.scale * passed_on(wave, responses);
   }
@@ -347,23 +359,145 @@ Eigen::Matrix3d UnevenPlane::passed_on(std::uint32_t wave, Span<const Eigen::Vec
   return out;
 }
 
-UnevenPlane::Models UnevenPlane::models_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses) {
-  Models models;
-  if (patches.size() < kPatchesMin) return models;
-  const double tau2 = unevenness(patches);
+void UnevenPlane::read(Span<const SurfacePatch> patches) {
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     const SurfacePatch& p = patches[i];
     values_[i] = {{1.0F, static_cast<float>(p.u), static_cast<float>(p.v), static_cast<float>(p.residual),
                    static_cast<float>(p.bias)},
                   static_cast<float>(p.noise_variance)};
   }
+}
+
+UnevenPlane::Models UnevenPlane::models_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses) {
+  Models models;
+  if (patches.size() < kPatchesMin) return models;
+  const double tau2 = unevenness(patches);
+  read(patches);
   consider_independent(patches, responses, tau2, &models);
   if (tau2 > 0.0) {
     if (!matern_filled_) fill_matern();
-    find_neighbours(patches.size());
+    find_neighbours(patches.size(), patches.size());
     consider_waves(patches, responses, tau2, &models);
   }
   return models;
+}
+
+// How much each height counts by what it tells of those not seen. wave: nullptr without waves, where it tells nothing.
+void UnevenPlane::pass_on_unseen(std::uint32_t seen, Span<const Eigen::Vector3d> responses, const std::uint32_t* wave) {
+  for (std::uint32_t i = 0; i < responses.size(); ++i) {
+    const Eigen::Vector3f to = i < seen ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : responses[i].cast<float>();
+    passed_[i] = FourFloats{to.x(), to.y(), to.z(), 0.0F};
+  }
+  for (std::uint32_t i = responses.size(); wave != nullptr && i-- > seen;) {
+    for (std::uint32_t k = 0; k < kNeighbours; ++k) {
+      const std::uint16_t at = neighbours_[i * kNeighbours + k];
+      if (at != kNone) passed_[at] += predicts_[(*wave * kFours + i / kFour) * kNeighbours + k][i % kFour] * passed_[i];
+    }
+  }
+}
+
+Eigen::Vector3d UnevenPlane::passed(std::uint32_t i) const {
+  return {static_cast<double>(passed_[i][0]), static_cast<double>(passed_[i][1]), static_cast<double>(passed_[i][2])};
+}
+
+// Turns a model's endless plane into the region's. What is not seen is what its neighbours predict, beside the plane.
+void UnevenPlane::complete(Span<const SurfacePatch> patches, std::uint32_t seen, Span<const Eigen::Vector3d> responses,
+                           const std::uint32_t* wave, double tau2, Model* model) {
+  pass_on_unseen(seen, responses, wave);
+  Eigen::Matrix3d unknown = Eigen::Matrix3d::Zero(), by_plane = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d value = Eigen::Vector3d::Zero(), bias = Eigen::Vector3d::Zero();
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    const SurfacePatch& p = patches[i];
+    const Eigen::Vector3d by_waves = passed(i);
+    const Eigen::RowVector3d row(1.0, p.u, p.v);
+    if (i >= seen) {
+      const double left = wave != nullptr ? static_cast<double>(left_[*wave * kFours + i / kFour][i % kFour]) : tau2;
+      unknown += left * by_waves * by_waves.transpose();
+      by_plane += responses[i] * row;
+      continue;
+    }
+    by_plane -= by_waves * row;
+    value += p.residual * (responses[i] + by_waves);
+    bias += p.bias * (responses[i] + by_waves);
+    unknown += p.noise_variance * responses[i] * responses[i].transpose();
+  }
+  model->correction = value + by_plane * model->correction;
+  model->bias_response = bias + by_plane * model->bias_response;
+  model->covariance = model->scale * unknown + by_plane * model->covariance * by_plane.transpose();
+}
+
+// The region's plane through such a surface, less what is predicted of it. After pass_on_unseen().
+Eigen::Matrix<double, 3, 2> UnevenPlane::missing_of_bend(Span<const SurfacePatch> patches, std::uint32_t seen,
+                                                         Span<const Eigen::Vector3d> responses,
+                                                         const std::uint32_t* wave) const {
+  using Row = Eigen::Matrix<double, 1, 5>;  // 1, u, v, u², v²
+  const auto row_of = [&](std::uint32_t i) {
+    const SurfacePatch& p = patches[i];
+    Row row;
+    row << 1.0, p.u, p.v, p.u * p.u, p.v * p.v;
+    return row;
+  };
+  Eigen::Matrix<double, 3, 5> squares = Eigen::Matrix<double, 3, 5>::Zero();
+  Eigen::Matrix<double, 3, 2> missing = Eigen::Matrix<double, 3, 2>::Zero();
+  Eigen::Matrix3d by_plane = Eigen::Matrix3d::Zero();
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    const Row row = row_of(i);
+    if (i >= seen) {
+      missing += responses[i] * row.tail<2>();
+      by_plane += responses[i] * row.head<3>();
+      continue;
+    }
+    missing -= passed(i) * row.tail<2>();
+    by_plane -= passed(i) * row.head<3>();
+    Row whitened = row;
+    double left = 1.0;
+    if (wave != nullptr) {
+      const std::uint32_t four = *wave * kFours + i / kFour, lane = i % kFour;
+      for (std::uint32_t k = 0; k < kNeighbours; ++k) {
+        const std::uint16_t at = neighbours_[i * kNeighbours + k];
+        if (at != kNone) whitened -= static_cast<double>(predicts_[four * kNeighbours + k][lane]) * row_of(at);
+      }
+      left = static_cast<double>(left_[four][lane]);
+    }
+    squares += whitened.head<3>().transpose() * whitened / left;
+  }
+  const Eigen::Matrix3d inverse = squares.leftCols<3>().inverse();
+  missing -= by_plane * (inverse * squares.rightCols<2>());
+  return missing;
+}
+
+PredictedPlane UnevenPlane::predict(Span<const SurfacePatch> patches, std::uint32_t seen,
+                                    Span<const Eigen::Vector3d> responses, double sigmas) {
+  PredictedPlane out;
+  Models models;
+  const Span<const SurfacePatch> of_seen(patches.data(), seen);
+  if (seen < kPatchesMin) return out;
+  const double tau2 = unevenness(of_seen), freedom = static_cast<double>(seen) - 3.0;
+  read(patches);
+  consider_independent(of_seen, {}, tau2, &models);
+  if (models.evidence.solved[0]) complete(patches, seen, responses, nullptr, tau2, &models.of[0]);
+  std::uint32_t likeliest = 0;
+  if (tau2 > 0.0) {
+    if (!matern_filled_) fill_matern();
+    find_neighbours(patches.size(), seen);
+    WaveSums sums;
+    sum_waves(patches.size(), seen, kLengths, tau2, &sums);
+    for (std::uint32_t wave = 0; wave < kWaves; ++wave) {
+      Model& model = models.of[1 + wave];
+      if (!sums.of[wave].solve(static_cast<double>(seen), &model)) continue;
+      models.count(1 + wave);
+      complete(patches, seen, responses, &wave, tau2, &model);
+      const bool likelier = !models.evidence.solved[likeliest] ||
+                            models.evidence.log_likelihood[1 + wave] > models.evidence.log_likelihood[likeliest];
+      if (likelier) likeliest = 1 + wave;
+    }
+  }
+  static_cast<UnevenFit&>(out) = models.average(freedom, sigmas);
+  if (!out.solved) return out;
+  const std::uint32_t wave = likeliest - 1;
+  pass_on_unseen(seen, responses, likeliest > 0 ? &wave : nullptr);
+  out.missing_of_bend = missing_of_bend(patches, seen, responses, likeliest > 0 ? &wave : nullptr);
+  return out;
 }
 
 UnevenFit UnevenPlane::fit(Span<const SurfacePatch> patches, double sigmas) {

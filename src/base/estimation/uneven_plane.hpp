@@ -30,11 +30,21 @@ struct UnevenFit {
   double dof = 0.0;  // the variance is known as well as from so many independent pieces
 };
 
+// The plane of a region.
+struct PredictedPlane : UnevenFit {
+  // What is missing of the correction where the surface bends by u² or v², in 1 / m: none where all is seen.
+  Eigen::Matrix<double, 3, 2> missing_of_bend = Eigen::Matrix<double, 3, 2>::Zero();
+};
+
 class UnevenPlane {
  public:
   void lay_out(Arena& arena);
   // The plane that the waves allow best. sigmas: as in spread_of_mixture().
   UnevenFit fit(Span<const SurfacePatch> patches, double sigmas);
+  // The plane of a region, which is linear in its heights: what is seen of them, and what the waves predict of the
+  // rest. The first patches are seen; of the others u and v count. responses: of offset and slopes to each height.
+  PredictedPlane predict(Span<const SurfacePatch> patches, std::uint32_t seen, Span<const Eigen::Vector3d> responses,
+                         double sigmas);
   // How an estimator errs that is linear in the patches' residuals, on the surface that they show. responses: of its
   // offset and slopes to each residual.
   LinearErrors errors_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);
@@ -70,17 +80,26 @@ class UnevenPlane {
   void fill_matern();
   FourFloats matern(FourFloats r) const;
 
-  void find_neighbours(std::uint32_t patches);
+  void find_neighbours(std::uint32_t patches, std::uint32_t seen);
   bool any_of_four_is_nearer(std::uint32_t i, std::uint32_t first, float m2) const;
   Neighbourhood neighbourhood(std::uint32_t first, std::uint32_t patches) const;
   Models models_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);
+  void read(Span<const SurfacePatch> patches);
   void consider_independent(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
                             Models* models) const;
+  struct WaveSums;
+  void sum_waves(std::uint32_t patches, std::uint32_t seen, std::uint32_t lengths, double tau2, WaveSums* sums);
   void consider_waves(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
                       Models* models);
+  void pass_on_unseen(std::uint32_t seen, Span<const Eigen::Vector3d> responses, const std::uint32_t* wave);
+  Eigen::Vector3d passed(std::uint32_t i) const;
+  Eigen::Matrix<double, 3, 2> missing_of_bend(Span<const SurfacePatch> patches, std::uint32_t seen,
+                                              Span<const Eigen::Vector3d> responses, const std::uint32_t* wave) const;
+  void complete(Span<const SurfacePatch> patches, std::uint32_t seen, Span<const Eigen::Vector3d> responses,
+                const std::uint32_t* wave, double tau2, Model* model);
   static void predict(const Neighbourhood& at, const FourFloats (&to_own)[kNeighbours],
                       const FourFloats (&between)[kNeighbours][kNeighbours], float own_share, float tau2,
-                      FourFloats* predicts, FourFloats* left, Whitened* sums);
+                      FourTruths seen, FourFloats* predicts, FourFloats* left, Whitened* sums);
   Eigen::Matrix3d passed_on(std::uint32_t wave, Span<const Eigen::Vector3d> responses);
 
   Span<Values> values_;

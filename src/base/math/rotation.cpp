@@ -42,4 +42,11 @@ Eigen::Matrix3d level_rotation(const Eigen::Vector3d& up_base) {
   return r;
 }
 
+RollPitchGradients::RollPitchGradients(const Eigen::Vector3d& n) {
+  const double s2 = n.y() * n.y() + n.z() * n.z();
+  const double s = std::sqrt(s2);
+  roll = Eigen::Vector3d(0.0, n.z(), -n.y()) / s2;
+  pitch = Eigen::Vector3d(-s, n.x() * n.y() / s, n.x() * n.z() / s);
+}
+
 }  // namespace pose_wall

@@ -26,4 +26,11 @@ double tilt_of_up(const Eigen::Vector3d& up_base);
 // Ry(pitch) Rx(roll) of the above: takes up to +Z and has no turn about Z of its own.
 Eigen::Matrix3d level_rotation(const Eigen::Vector3d& up_base);
 
+// Gradients of roll and pitch by the floor's normal; see roll_pitch_of_up().
+struct RollPitchGradients {
+  Eigen::Vector3d roll, pitch;
+
+  explicit RollPitchGradients(const Eigen::Vector3d& n);
+};
+
 }  // namespace pose_wall
