@@ -50,6 +50,7 @@ struct Settings {
   double protection_sigmas;  // by integrity_risk, before the stretch to Student's t (base/estimation/protection.hpp)
 };
 
+constexpr std::int32_t kRegionOn = 1;  // of the choices of the key `region`
 constexpr std::int32_t kMotionOn = 0;  // of the choices of the key `motion`
 
 // POSE_WALL_OK, or why this is no usable config (struct_size, or a broken rule over several keys).

@@ -261,7 +261,7 @@ void Engine::find_floor_if_any(Random* random, FrameFindings* found) {
   const Plane* const last = memory_.last.has_floor ? &memory_.last.floor_base : nullptr;
   const FloorScene scene{scratch_.cloud_base, settings_, axes_, extrinsic_.sensor_base_m, last};
   found->floor = find_floor(scene, random, &scratch_.floor);
-  measure_floor_region(scene, &scratch_.floor, &found->floor);
+  if (settings_.region == kRegionOn) measure_floor_region(scene, &scratch_.floor, &found->floor);
 }
 
 void Engine::level_and_cut(FrameFindings* found) {
@@ -288,7 +288,7 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   const Plane* const last[2] = {before.has_wall[0] ? &before.wall_level[0] : nullptr,
                                 before.has_wall[1] ? &before.wall_level[1] : nullptr};
   found->walls = find_walls(scene, last, random, &scratch_.walls);
-  measure_wall_regions(scene, &scratch_.walls, &found->walls.side);
+  if (settings_.region == kRegionOn) measure_wall_regions(scene, &scratch_.walls, &found->walls.side);
   found->floor = doubted_by_walls(found->floor, found->walls.tilt_level_rad, settings_, found->levelling);
 }
 

@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0xBE1361C29C6568AFULL;
+constexpr std::uint64_t kSelfTestDigest = 0x066A6F7C3DF51B5BULL;
 
 }  // namespace pose_wall

@@ -121,7 +121,7 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
     information += 1.0 / variance[side];
   }
   // By the definition the road's direction is the mean of both walls' (include/DEFINITIONS.md), however rough they are.
-  const bool defined = walls[0].of_region && walls[1].of_region;
+  const bool defined = walls[0].of_region || walls[1].of_region;
   const double w[2] = {defined ? kHalf : 1.0 / (variance[0] * information),
                        defined ? kHalf : 1.0 / (variance[1] * information)};
   const double raw = w[0] * walls[0].yaw_rad + w[1] * walls[1].yaw_rad;
@@ -142,8 +142,8 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
   const double dof = 1.0 / (w[0] * w[0] / walls[0].yaw_dof + w[1] * w[1] / walls[1].yaw_dof);
   const double tilt_share = larger(tilt_to_yaw(walls[0], levelling), tilt_to_yaw(walls[1], levelling));
   const double both_variance = w[0] * w[0] * variance[0] + w[1] * w[1] * variance[1];
-  return yaw_measurement(raw, stretch * stretch * (defined ? both_variance : 1.0 / information), bound, dof, tilt_share,
-                         floor, s);
+  return yaw_measurement(raw, defined ? both_variance : stretch * stretch / information, bound, dof, tilt_share, floor,
+                         s);
 }
 
 // If one of two walls is none, the other one alone gives the direction (solution separation: Blanch et al. 2015). If

@@ -47,7 +47,7 @@ void RegionCells::fill(const BoundedPoints& points, const Region& region) {
   begin(region);
   constexpr auto kPerBin = static_cast<float>(1.0 / kBin_m);
   const auto h_from = static_cast<float>(region.h_min_m);
-  for_each_in(points, region, [&](std::uint32_t i, FourFloats u, FourFloats v, FourFloats h, FourTruths counts) {
+  for_each_in(points, region, [&](std::uint32_t, FourFloats u, FourFloats v, FourFloats h, FourTruths counts) {
     const FourFloats depth = (h - h_from) * kPerBin, none{};
     const FourCells at = cells_of(u, v, counts & (depth >= none));
     if (!any_of(at.counts)) return;
@@ -56,7 +56,6 @@ void RegionCells::fill(const BoundedPoints& points, const Region& region) {
       if (at.counts[lane] == 0) continue;
       Bin& to = bins_[static_cast<std::uint32_t>(at.cell[lane]) * kBins + static_cast<std::uint32_t>(bin[lane])];
       to.count += 1.0F;
-      to.points += points.weight[i + lane];
       to.u += u[lane];
       to.v += v[lane];
       to.h += h[lane];
@@ -82,7 +81,6 @@ void RegionCells::find_layers() {
     cell.open = bin[kBins - 1].count > most;
     cell.seen = most > 0.0F || cell.open;
     if (cell.open || !cell.seen) continue;
-    cell.points = static_cast<double>(bin[best].points + bin[best + 1].points);
     cell.u = static_cast<double>((bin[best].u + bin[best + 1].u) / most);
     cell.v = static_cast<double>((bin[best].v + bin[best + 1].v) / most);
     cell.h = static_cast<double>((bin[best].h + bin[best + 1].h) / most);

@@ -28,7 +28,6 @@ struct Region {
 
 struct RegionCell {
   double u, v, h;  // mean of the layer; the cell's middle where nothing is seen
-  double points;   // measured, in the layer
   double weight;   // of the plane's: set by the fit
   bool seen;
   bool open;    // seen through an opening: it shows no surface of the region
@@ -58,10 +57,10 @@ class RegionCells {
 
  private:
   static constexpr double kBin_m = 0.25;      // of depth: two hold a surface that lies at the border of one
-  static constexpr std::uint32_t kBins = 32;  // 8 m: the width of a wide road; the last one holds all beyond
+  static constexpr std::uint32_t kBins = 29;  // 7 m: the width of a wide road; the last one holds all beyond
   static constexpr double kOpening_m = 3.0;   // of the definition
   struct Bin {
-    float count, points, u, v, h;  // voxels, measured points, and sums over the voxels
+    float count, u, v, h;  // voxels, and sums over them
   };
   struct FourCells {
     FourInts cell;

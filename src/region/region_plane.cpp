@@ -124,9 +124,8 @@ void RegionFit::describe(const Eigen::Vector3d& plane, RegionPlane* out) const {
     if (c.open) continue;
     const double t = off(c, plane), weight = weight_of(t);
     if (std::fabs(t) < 1.0) {
-      first_m = out->points > 0.0 ? -larger(-first_m, -c.u) : c.u;
-      last_m = out->points > 0.0 ? larger(last_m, c.u) : c.u;
-      out->points += c.points;
+      first_m = out->area_m2 > 0.0 ? -larger(-first_m, -c.u) : c.u;
+      last_m = out->area_m2 > 0.0 ? larger(last_m, c.u) : c.u;
       out->area_m2 += RegionCells::kCell_m * RegionCells::kCell_m;
     }
     out->near += weight;
@@ -244,6 +243,7 @@ bool RegionFit::predict(const BoundedPoints& points, const Region& region, const
     cell.weight = weight_of(off(cell, settled));
     if (cell.inside) A += cell.weight * row_of(cell) * row_of(cell).transpose();
     const PatchSums& c = sums[k];
+    if (cell.inside) out->points += c.w();
     if (!(cell.weight > kShown) || !c.has_weight() || c.count < 2) continue;
     const double points_of = static_cast<double>(c.count);
     const double own = (kPatchPriorPoints * noise2 + c.scatter_or_none()) / (kPatchPriorPoints - 1.0 + points_of);

@@ -26,7 +26,7 @@ struct RegionPlane {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
   double dof = 1.0;           // the variance is known as well as from so many independent pieces
   double rough_m = 0.0;       // spread of the cells about the plane
-  double points = 0.0;        // measured points near it
+  double points = 0.0;        // measured, near it, by their weights
   double area_m2 = 0.0;       // of the cells near it
   double length_m = 0.0;      // of the cells near it, along u
   double seen_at_ends = 0.0;  // of the cells ahead, and of those behind: the lesser share that is seen

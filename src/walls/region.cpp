@@ -71,6 +71,7 @@ JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPla
   const Settings& s = scene.settings;
   JudgedWall wall;
   wall.fit.found = wall.of_region = true;
+  wall.fit.reasons = before.fit.reasons & kDoubts;  // told, and answered by the level
   wall.fit.inliers = static_cast<std::uint32_t>(found.points);
   wall.fit.iterations = before.fit.iterations;
   wall.fit.rms_m = found.rough_m;
@@ -103,23 +104,38 @@ JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPla
 
 void measure_region(const WallScene& scene, int side, WallsScratch* scratch, JudgedWall* wall) {
   const Settings& s = scene.settings;
-  // What refuses a side whatever its plane, and pipes one above the other, refuses its region's plane as well.
-  constexpr std::uint32_t kOfTheSide = POSE_WALL_R_WALL_TOO_NEAR | POSE_WALL_R_CROSS_ROAD | POSE_WALL_R_WORK_LIMIT;
-  if ((wall->fit.reasons & kOfTheSide) != 0 || wall->grooved) return;
+  // The region's plane answers doubts about what lies elsewhere, and a plane that is looked past. A side without a
+  // wall, or with pipes one above the other, has none in its region either.
+  if (!wall->fit.found || wall->grooved || (wall->fit.refused && (wall->fit.reasons & ~kDoubts) != 0)) return;
   const Region region = region_of(scene, side);
   const RegionPlane found =
       scratch->region.fit(scene.band_level, region, s, &scratch->fit.patches.waves(), &scratch->fit.work);
   wall->is_none = found.is_none();
+  // By the definition the side may be none. Then the other one alone gives the road's direction.
+  wall->may_be_no_wall = wall->may_be_no_wall || (found.found && !found.is_there() && !found.is_none());
   if (!found.is_there()) return;
   const JudgedWall taken = wall_of(scene, region, found, side, *wall);
   const bool is_narrower = wall->fit.refused || level_of(taken, s) < level_of(*wall, s);
   if (is_narrower && is_wall(scene, found, taken, scratch)) *wall = taken;
 }
 
+// By the definition the road's direction is of both walls. Where the other one is not known, and not known to be none,
+// the endless wall's direction stays, which reaches to what is seen of the other side.
+void keep_direction(const JudgedWall& before, JudgedWall* wall) {
+  wall->yaw_rad = before.yaw_rad;
+  wall->yaw_sigma_rad = before.yaw_sigma_rad;
+  wall->yaw_bias_rad_per_m = before.yaw_bias_rad_per_m;
+  wall->yaw_bound_rad = before.yaw_bound_rad;
+  wall->yaw_dof = before.yaw_dof;
+  wall->yaw_to_rival_rad = before.yaw_to_rival_rad;
+  wall->may_be_no_wall = before.may_be_no_wall || before.fit.refused;
+}
+
 }  // namespace
 
 void measure_wall_regions(const WallScene& scene, WallsScratch* scratch, JudgedWall (*walls)[2]) {
   Work& work = scratch->fit.work;
+  const JudgedWall before[2] = {(*walls)[0], (*walls)[1]};
   for (int side = 0; side < 2; ++side) {
     POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
     if (work.stops()) {
@@ -127,6 +143,11 @@ void measure_wall_regions(const WallScene& scene, WallsScratch* scratch, JudgedW
       continue;
     }
     measure_region(scene, side, scratch, &(*walls)[side]);
+  }
+  for (int side = 0; side < 2; ++side) {
+    const JudgedWall& other = (*walls)[1 - side];
+    JudgedWall& wall = (*walls)[side];
+    if (wall.of_region && other.fit.refused && !other.is_none) keep_direction(before[side], &wall);
   }
 }
 

@@ -68,6 +68,7 @@ RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& 
   const std::optional<Event> event = event_of(simulator.setup());
   const LoadedConfig loaded = config_for(simulator.setup(), choice);
   demand_ok(instrument.open(loaded), run);
+  const bool by_survey = scene_of(run.scene)->kind == sim::SceneKind::kMine;
   RunRecord record{run, {}};
   for (std::uint32_t i = 0; i < frames_of(run); ++i) {
     const sim::Frame rendered = simulator.render(i);
@@ -76,7 +77,7 @@ RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& 
     pose_wall_result result = api::make_result();
     demand_ok(instrument.process(frame.cloud, result), run);
     record.frames.push_back(record_of(result, run.surface.empty() ? simulator.truth(i) : TruthRow{},
-                                      simulator.surveyed_truth(i)));
+                                      by_survey ? simulator.surveyed_truth(i) : TruthRow{}));
     record.frames.back().frame = i;
     record.frames.back().phase = phase_of(i, run, event);
     on_frame();
