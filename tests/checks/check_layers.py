@@ -13,8 +13,8 @@ import re
 import sys
 
 # From the ground up: a room includes itself and what stands before it.
-ROOMS = ["base/math", "base/simd", "base/containers", "base/estimation", "config", "types", "trace", "gates", "cloud", "region",
-         "floor", "walls", "output", "engine"]
+ROOMS = ["base/math", "base/simd", "base/containers", "base/estimation", "config", "types", "trace", "gates", "cloud",
+         "region", "floor", "walls", "output", "engine"]
 # A wall goes from one to the next; what lies in walls/ itself is of all.
 WALL_STEPS = ["propose", "choose", "fit", "sample", "doubts"]
 # Those that stand beside the rooms: what each may include, besides itself.

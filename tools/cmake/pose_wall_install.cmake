@@ -38,7 +38,8 @@ set(pose_wall_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/libpose-wall-dev)
 pose_wall_sbom(${PROJECT_BINARY_DIR}/pose_wall.spdx.json pose_wall pose_wall_motion pose_wall_planar)
 install(FILES ${PROJECT_BINARY_DIR}/pose_wall.spdx.json DESTINATION ${pose_wall_doc_dir} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${pose_wall_doc_dir} RENAME copyright COMPONENT development)
-install(FILES ${PROJECT_SOURCE_DIR}/include/README.md ${PROJECT_SOURCE_DIR}/include/DEFINITIONS.md ${PROJECT_SOURCE_DIR}/include/AXES.md
+install(FILES ${PROJECT_SOURCE_DIR}/include/README.md ${PROJECT_SOURCE_DIR}/include/AXES.md
+  ${PROJECT_SOURCE_DIR}/include/DEFINITIONS.md
   ${PROJECT_SOURCE_DIR}/include/SAFETY.md
   ${PROJECT_SOURCE_DIR}/include/LIMITS.md ${PROJECT_SOURCE_DIR}/include/SIZES.md
   ${PROJECT_SOURCE_DIR}/tools/example.c ${PROJECT_SOURCE_DIR}/tools/two_engines.c

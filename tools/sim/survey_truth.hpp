@@ -3,8 +3,8 @@
 
 // What a surveyor with a dense scan would report of a real road: planes of what is really there, within stated regions.
 //
-// Regions and formula are those of include/DEFINITIONS.md. A wall that is none by them has no truth, nor has yaw without
-// any wall.
+// Regions and formula are those of include/DEFINITIONS.md. A wall that is none by them has no truth, nor has yaw
+// without any wall.
 #pragma once
 
 #include "sim/rock_surface.hpp"
