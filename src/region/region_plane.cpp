@@ -225,23 +225,20 @@ double RegionFit::weight_near(const RegionCell& place) const {
   return weight;
 }
 
-// What is not seen moves the settled plane as far as the waves predict, and no model knows it better.
-bool RegionFit::predict(const BoundedPoints& points, const Region& region, const Settings& settings,
-                        const Eigen::Vector3d& settled, UnevenPlane* waves, RegionPlane* out) {
+// Lists the cells that show the surface, then those of the region that are not seen: a thing may stand before them.
+RegionFit::Taken RegionFit::take_cells(Span<const PatchSums> sums, const Eigen::Vector3d& settled, double noise2,
+                                       RegionPlane* out) {
   const Span<RegionCell> cells = cells_.all();
-  const Span<const PatchSums> sums = cells_.sums_near(points, region, settled, kWidth_m, kReach, weights_of);
-  const double noise2 = settings.range_noise * settings.range_noise;
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  std::uint32_t seen = 0;
-  const auto take = [&](const SurfacePatch& patch, const RegionCell& cell, std::uint32_t* count) {
-    patches_[*count] = patch;
-    responses_[(*count)++] = (cell.inside ? cell.weight : 0.0) * Eigen::Vector3d(1.0, patch.u, patch.v);
+  Taken taken;
+  const auto take = [&](const SurfacePatch& patch, const RegionCell& cell) {
+    patches_[taken.all] = patch;
+    responses_[taken.all++] = (cell.inside ? cell.weight : 0.0) * Eigen::Vector3d(1.0, patch.u, patch.v);
   };
   for (std::uint32_t k = 0; k < cells.size(); ++k) {
     RegionCell& cell = cells[k];
     if (!cell.is_surface()) continue;
     cell.weight = weight_of(off(cell, settled));
-    if (cell.inside) A += cell.weight * row_of(cell) * row_of(cell).transpose();
+    if (cell.inside) taken.A += cell.weight * row_of(cell) * row_of(cell).transpose();
     const PatchSums& c = sums[k];
     if (cell.inside) out->points += c.w();
     if (!(cell.weight > kShown) || !c.has_weight() || c.count < 2) continue;
@@ -249,26 +246,33 @@ bool RegionFit::predict(const BoundedPoints& points, const Region& region, const
     const double own = (kPatchPriorPoints * noise2 + c.scatter_or_none()) / (kPatchPriorPoints - 1.0 + points_of);
     take({c.wu() / c.w(), c.wv() / c.w(), c.wr() / c.w(), c.share(),
           larger(own, kPatchNoiseMin_m * kPatchNoiseMin_m) / points_of},
-         cell, &seen);
+         cell);
   }
-  if (seen < kCellsMin) return false;
-  std::uint32_t all = seen;
+  taken.seen = taken.all;
   for (RegionCell& cell : cells) {
     if (cell.seen || !cell.inside) continue;
     cell.weight = weight_near(cell);
-    A += cell.weight * row_of(cell) * row_of(cell).transpose();
-    take({cell.u, cell.v, 0.0, 0.0, 0.0}, cell, &all);
+    taken.A += cell.weight * row_of(cell) * row_of(cell).transpose();
+    take({cell.u, cell.v, 0.0, 0.0, 0.0}, cell);
   }
-  if (is_singular(A)) return false;
-  const Eigen::Matrix3d inverse = A.inverse();
+  return taken;
+}
+
+// What is not seen moves the settled plane as far as the waves predict, and no model knows it better.
+bool RegionFit::predict(const BoundedPoints& points, const Region& region, const Settings& settings,
+                        const Eigen::Vector3d& settled, UnevenPlane* waves, RegionPlane* out) {
+  const Span<const PatchSums> sums = cells_.sums_near(points, region, settled, kWidth_m, kReach, weights_of);
+  const Taken taken = take_cells(sums, settled, settings.range_noise * settings.range_noise, out);
+  if (taken.seen < kCellsMin || is_singular(taken.A)) return false;
+  const Eigen::Matrix3d inverse = taken.A.inverse();
   Eigen::Vector3d of_seen = Eigen::Vector3d::Zero();  // these have settled
-  for (std::uint32_t k = 0; k < all; ++k) {
+  for (std::uint32_t k = 0; k < taken.all; ++k) {
     responses_[k] = inverse * responses_[k];
-    if (k < seen) of_seen += responses_[k] * patches_[k].residual;
+    if (k < taken.seen) of_seen += responses_[k] * patches_[k].residual;
   }
   const PredictedPlane predicted =
-      waves->predict(Span<const SurfacePatch>(patches_.data(), all), seen,
-                     Span<const Eigen::Vector3d>(responses_.data(), all), settings.protection_sigmas);
+      waves->predict(Span<const SurfacePatch>(patches_.data(), taken.all), taken.seen,
+                     Span<const Eigen::Vector3d>(responses_.data(), taken.all), settings.protection_sigmas);
   if (!predicted.solved) return false;
   out->at = settled + predicted.correction - of_seen;
   out->covariance_ = predicted.covariance;

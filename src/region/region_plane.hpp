@@ -76,6 +76,12 @@ class RegionFit {
     double before_m = 1e9;
   };
 
+  // Patches and responses of the first seen cells show the surface, those of the rest are predicted. A: of the weights.
+  struct Taken {
+    std::uint32_t seen = 0, all = 0;
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  };
+
   std::uint32_t count_seen(RegionPlane* out) const;
   void describe(const Eigen::Vector3d& plane, RegionPlane* out) const;
   bool through(int part, Eigen::Vector3d* plane) const;
@@ -83,6 +89,7 @@ class RegionFit {
   int settle_all(Settled (*settled)[kStarts]) const;
   double loss_of(const Eigen::Vector3d& plane) const;
   double loss_behind(const Eigen::Vector3d& plane, double* share_near) const;
+  Taken take_cells(Span<const PatchSums> sums, const Eigen::Vector3d& settled, double noise2, RegionPlane* out);
   bool predict(const BoundedPoints& points, const Region& region, const Settings& settings,
                const Eigen::Vector3d& settled, UnevenPlane* waves, RegionPlane* out);
   double weight_near(const RegionCell& place) const;
