@@ -136,14 +136,17 @@ void RegionFit::describe(const Eigen::Vector3d& plane, RegionPlane* out) const {
   out->near /= count;
 }
 
-// Least squares through the cells of a part of the region.
-bool RegionFit::through(int part, Eigen::Vector3d* plane) const {
+// weight_of(cell): 0 leaves it out.
+template <typename WeightOf>
+bool RegionFit::least_squares(const WeightOf& weight_of, Eigen::Vector3d* plane) const {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (const RegionCell& c : cells_.all()) {
-    if (!c.is_surface() || !c.inside || !is_in(part, cells_.from_middle(c))) continue;
-    A += row_of(c) * row_of(c).transpose();
-    b += c.h * row_of(c);
+    if (!c.is_surface() || !c.inside) continue;
+    const double weight = weight_of(c);
+    if (!(weight > 0.0)) continue;
+    A += weight * row_of(c) * row_of(c).transpose();
+    b += weight * c.h * row_of(c);
   }
   if (is_singular(A)) return false;
   *plane = A.inverse() * b;
@@ -153,49 +156,41 @@ bool RegionFit::through(int part, Eigen::Vector3d* plane) const {
 bool RegionFit::settle(const Manner& manner, Eigen::Vector3d* plane) const {
   double c_m = manner.c_m;
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    const double per_c = kWidth_m / c_m;
-    for (const RegionCell& c : cells_.all()) {
-      if (!c.is_surface() || !c.inside) continue;
-      const double t = off(c, *plane);
-      if (t * kWidth_m < -manner.before_m) continue;
-      const double weight = (1.0 + manner.lean.dot(cells_.from_middle(c))) * weight_of(t * per_c);
-      A += weight * row_of(c) * row_of(c).transpose();
-      b += weight * c.h * row_of(c);
-    }
-    if (is_singular(A)) return false;
     const Eigen::Vector3d before = *plane;
-    *plane = A.inverse() * b;
+    const double per_c = kWidth_m / c_m;
+    const auto weight = [&](const RegionCell& c) {
+      const double t = off(c, before);
+      if (t * kWidth_m < -manner.before_m) return 0.0;
+      return (1.0 + manner.lean.dot(cells_.from_middle(c))) * weight_of(t * per_c);
+    };
+    if (!least_squares(weight, plane)) return false;
     if (c_m == kWidth_m && (*plane - before).cwiseAbs().maxCoeff() < kSettled) break;
     c_m = larger(c_m * kNarrower, kWidth_m);
   }
   return true;
 }
 
-// The formula's mean over the cells.
-double RegionFit::loss_of(const Eigen::Vector3d& plane) const {
+// The formula's mean over the cells, of those before the plane as well or without them.
+double RegionFit::loss_of(const Eigen::Vector3d& plane, bool with_before) const {
   double sum = 0.0, count = 0.0;
   for (const RegionCell& c : cells_.all()) {
     if (!c.is_surface() || !c.inside) continue;
-    sum -= natural_log(weight_of(off(c, plane)));
+    const double t = off(c, plane);
+    if (with_before || t > 0.0) sum -= natural_log(weight_of(t));
     count += 1.0;
   }
   return sum / count;
 }
 
-// The same without what is before the plane. share_near: of the cells that lie within a width of it.
-double RegionFit::loss_behind(const Eigen::Vector3d& plane, double* share_near) const {
-  double sum = 0.0, count = 0.0, near = 0.0;
+// Of the cells, those within a width of the plane.
+double RegionFit::share_near(const Eigen::Vector3d& plane) const {
+  double near = 0.0, count = 0.0;
   for (const RegionCell& c : cells_.all()) {
     if (!c.is_surface() || !c.inside) continue;
-    const double t = off(c, plane);
-    if (t > 0.0) sum -= natural_log(weight_of(t));
-    near += std::fabs(t) < 1.0 ? 1.0 : 0.0;
+    near += std::fabs(off(c, plane)) < 1.0 ? 1.0 : 0.0;
     count += 1.0;
   }
-  *share_near = near / count;
-  return sum / count;
+  return near / count;
 }
 
 // The surface may lie near more than one plane. Returns the best one's number, -1 without any.
@@ -204,9 +199,12 @@ int RegionFit::settle_all(Settled (*settled)[kStarts]) const {
   for (int k = 0; k < kStarts; ++k) {
     Settled& of = (*settled)[k];
     const double c_m = k == kAll ? kWidest_m : kWidth_m;
-    of.solved = through(k, &of.plane) && settle({c_m}, &of.plane);
+    const auto part = [&](const RegionCell& c) { return is_in(k, cells_.from_middle(c)) ? 1.0 : 0.0; };
+    of.solved = least_squares(part, &of.start);
+    of.plane = of.start;
+    of.solved = of.solved && settle({c_m}, &of.plane);
     if (!of.solved) continue;
-    of.loss = loss_of(of.plane);
+    of.loss = loss_of(of.plane, true);
     if (best < 0 || of.loss < (*settled)[best].loss) best = k;
   }
   return best;
@@ -287,19 +285,17 @@ void RegionFit::read_otherwise(const Settled (&settled)[kStarts], int best, Regi
   const Eigen::Vector3d& plane = settled[best].plane;
   const auto add = [out](const Eigen::Vector3d& apart) { out->readings_[out->count_++] = apart; };
   add(plane - out->at);  // as if the wall ended with what is seen of it
-  double share = 0.0;
-  const double behind = loss_behind(plane, &share);
+  const double behind = loss_of(plane, false);
   for (int k = 0; k < kStarts; ++k) {
     const Settled& other = settled[k];
     if (!other.solved) continue;
     if (k != best && other.loss < settled[best].loss + kLossApart) add(other.plane - plane);
     // Things may stand before the surface, so what is nearer says little against a plane behind it.
-    Eigen::Vector3d hidden = plane;
-    if (k != kAll && !through(k, &hidden)) continue;
+    Eigen::Vector3d hidden = k == kAll ? plane : other.start;
     Manner without_things{kWidth_m};
     without_things.before_m = kWidth_m;
     if (!settle(without_things, &hidden)) continue;
-    if (loss_behind(hidden, &share) < behind + kLossApart && share >= kSupport) add(hidden - plane);
+    if (loss_of(hidden, false) < behind + kLossApart && share_near(hidden) >= kSupport) add(hidden - plane);
   }
   // The cells may stand for a little more or less of the area than the surveyor's.
   for (int k = kAll + 1; k < kEnds; ++k) {

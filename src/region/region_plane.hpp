@@ -20,7 +20,10 @@ namespace pose_wall {
 
 // h = at[0] + at[1] u + at[2] v.
 struct RegionPlane {
-  static constexpr std::uint32_t kReadingsMost = 16;
+  // What the formula starts from: all of the region, its four halves, and both its ends.
+  static constexpr int kStarts = 6;
+  // The seen cells alone, the other starts, each start behind things, and weights that lean four ways.
+  static constexpr std::uint32_t kReadingsMost = 1 + (kStarts - 1) + kStarts + 4;
 
   bool found = false;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
@@ -61,10 +64,11 @@ class RegionFit {
                   Work* work);
 
  private:
-  static constexpr int kStarts = 6;
+  static constexpr int kStarts = RegionPlane::kStarts;
   // A plane that the formula settles on, from all cells or those of a part of the region.
   struct Settled {
     bool solved = false;
+    Eigen::Vector3d start = Eigen::Vector3d::Zero();  // by least squares
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();
     double loss = 0.0;
   };
@@ -84,11 +88,12 @@ class RegionFit {
 
   std::uint32_t count_seen(RegionPlane* out) const;
   void describe(const Eigen::Vector3d& plane, RegionPlane* out) const;
-  bool through(int part, Eigen::Vector3d* plane) const;
+  template <typename WeightOf>
+  bool least_squares(const WeightOf& weight_of, Eigen::Vector3d* plane) const;
   bool settle(const Manner& manner, Eigen::Vector3d* plane) const;
   int settle_all(Settled (*settled)[kStarts]) const;
-  double loss_of(const Eigen::Vector3d& plane) const;
-  double loss_behind(const Eigen::Vector3d& plane, double* share_near) const;
+  double loss_of(const Eigen::Vector3d& plane, bool with_before) const;
+  double share_near(const Eigen::Vector3d& plane) const;
   Taken take_cells(Span<const PatchSums> sums, const Eigen::Vector3d& settled, double noise2, RegionPlane* out);
   bool predict(const BoundedPoints& points, const Region& region, const Settings& settings,
                const Eigen::Vector3d& settled, UnevenPlane* waves, RegionPlane* out);

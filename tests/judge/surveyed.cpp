@@ -16,7 +16,7 @@ namespace {
 
 // Coarser than the simulator's probes, as far: what both find must not hang on the grid.
 constexpr double kStep_m = 0.08, kFarthest_m = 30.0;
-// The definition's regions: surveyed.hpp.
+// The regions of include/DEFINITIONS.md.
 constexpr double kFloorAlong_m = 3.0, kFloorAcross_m = 1.125, kWallAlong_m = 2.5, kWallLow_m = 0.25, kWallHigh_m = 2.5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -49,7 +49,7 @@ double share_off(const Hit& hit, const Vector3d& plane) {
 // Least squares through the hits that count, then Cauchy's weights of an ever smaller width down to the definition's.
 template <typename Counts>
 Surface settle(const std::vector<Hit>& hits, double width_m, const Counts& counts) {
-  constexpr double kWidth_m = 0.15, kBefore = 4.0;
+  constexpr double kWidth_m = 0.15, kBefore = 4.0;  // c and k of include/DEFINITIONS.md
   constexpr int kRounds = 80;
   Surface out;
   for (int round = 0; round <= kRounds; ++round) {

@@ -8,9 +8,6 @@
 #include <cmath>
 #include <optional>
 
-#include "sim/middle_of.hpp"
-#include "sim/random.hpp"
-
 namespace pose_wall::tools::sim {
 namespace {
 
@@ -19,8 +16,8 @@ constexpr double kOpening_m = 3.0;  // deeper than a niche, and than a wall seen
 constexpr double kHalf = 0.5;       // of the region must be wall, by weight
 constexpr double kWidth_m = 0.15;   // c: rock of 7 cm weighs 0.8, a niche of half a metre a twelfth
 constexpr double kWidest_m = 2.0, kNarrower = 0.7071;  // where it starts, and what a round leaves of it
-constexpr double kBefore = 4.0;
-constexpr int kRounds = 100;         // at most; as a rule it settles sooner
+constexpr double kBefore = 4.0;                        // of the definition: things stand before walls
+constexpr int kRounds = 100;                           // at most; as a rule it settles sooner
 constexpr double kSettled_m = 1e-8;  // a round that moves a plane by less: far below what truth.csv is read to
 
 // One probe: where it ended, in coordinates (a, b) of the region and h square to it.
@@ -35,7 +32,7 @@ double height_over(const Plane3& plane, const Probe& p) {
   return p.h - plane.dot(Plane3(1.0, p.a, p.b));
 }
 
-// Weighted least squares through the probes of a half of the region, or all.
+// Sums of weighted least squares.
 struct Weighted {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();

@@ -66,7 +66,7 @@ constexpr std::uint64_t kPointMarked = 2, kWallLookedAt = 150000, kPointLookedAt
 constexpr std::uint64_t kPointGathered = 2, kPointTaken = 12, kProfile = 30000, kPointByColumn = 12, kPointSummed = 3;
 constexpr std::uint64_t kPointBent = 8;
 // Fits: a point in a round of least squares; a cell of patches, a patch with points, and one that is paired with those
-// around it; a patch of a surface that waves:
+// around it; a patch of a surface that waves; a cell of a region in its some 150 rounds of least squares, at four each:
 constexpr std::uint64_t kPointRound = 1, kCell = 4, kPatch = 20, kPatchMeasured = 60, kPatchPaired = 150;
 constexpr std::uint64_t kPatchWaved = 500, kCellSettled = 600;
 

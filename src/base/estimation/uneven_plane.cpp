@@ -341,20 +341,11 @@ void UnevenPlane::consider_waves(Span<const SurfacePatch> patches, Span<const Ei
 // Covariance of an estimator under a model of waves, before it is scaled. A patch's own error also
 // reaches the patches that are predicted from it.
 Eigen::Matrix3d UnevenPlane::passed_on(std::uint32_t wave, Span<const Eigen::Vector3d> responses) {
-  for (std::uint32_t i = 0; i < responses.size(); ++i) {
-    const Eigen::Vector3f to = responses[i].cast<float>();
-    passed_[i] = FourFloats{to.x(), to.y(), to.z(), 0.0F};
-  }
+  pass_on(0, responses, &wave);
   Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
   for (std::uint32_t i = responses.size(); i-- > 0;) {
-    const FourFloats own = passed_[i];
-    const std::uint32_t lane = i % kFour;
-    for (std::uint32_t k = 0; k < kNeighbours; ++k) {
-      const std::uint16_t at = neighbours_[i * kNeighbours + k];
-      if (at != kNone) passed_[at] += predicts_[(wave * kFours + i / kFour) * kNeighbours + k][lane] * own;
-    }
-    const Eigen::Vector3d to(static_cast<double>(own[0]), static_cast<double>(own[1]), static_cast<double>(own[2]));
-    out += static_cast<double>(left_[wave * kFours + i / kFour][lane]) * to * to.transpose();
+    const Eigen::Vector3d to = passed(i);
+    out += static_cast<double>(left_[wave * kFours + i / kFour][i % kFour]) * to * to.transpose();
   }
   return out;
 }
@@ -382,13 +373,14 @@ UnevenPlane::Models UnevenPlane::models_of(Span<const SurfacePatch> patches, Spa
   return models;
 }
 
-// How much each height counts by what it tells of those not seen. wave: nullptr without waves, where it tells nothing.
-void UnevenPlane::pass_on_unseen(std::uint32_t seen, Span<const Eigen::Vector3d> responses, const std::uint32_t* wave) {
+// Passes each response from the first on to the heights that predict its own; those before it have none of their own.
+// wave: nullptr without waves, where no height tells of another.
+void UnevenPlane::pass_on(std::uint32_t first, Span<const Eigen::Vector3d> responses, const std::uint32_t* wave) {
   for (std::uint32_t i = 0; i < responses.size(); ++i) {
-    const Eigen::Vector3f to = i < seen ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : responses[i].cast<float>();
+    const Eigen::Vector3f to = i < first ? Eigen::Vector3f(Eigen::Vector3f::Zero()) : responses[i].cast<float>();
     passed_[i] = FourFloats{to.x(), to.y(), to.z(), 0.0F};
   }
-  for (std::uint32_t i = responses.size(); wave != nullptr && i-- > seen;) {
+  for (std::uint32_t i = responses.size(); wave != nullptr && i-- > first;) {
     for (std::uint32_t k = 0; k < kNeighbours; ++k) {
       const std::uint16_t at = neighbours_[i * kNeighbours + k];
       if (at != kNone) passed_[at] += predicts_[(*wave * kFours + i / kFour) * kNeighbours + k][i % kFour] * passed_[i];
@@ -403,7 +395,7 @@ Eigen::Vector3d UnevenPlane::passed(std::uint32_t i) const {
 // Turns a model's endless plane into the region's. What is not seen is what its neighbours predict, beside the plane.
 void UnevenPlane::complete(Span<const SurfacePatch> patches, std::uint32_t seen, Span<const Eigen::Vector3d> responses,
                            const std::uint32_t* wave, double tau2, Model* model) {
-  pass_on_unseen(seen, responses, wave);
+  pass_on(seen, responses, wave);
   Eigen::Matrix3d unknown = Eigen::Matrix3d::Zero(), by_plane = Eigen::Matrix3d::Zero();
   Eigen::Vector3d value = Eigen::Vector3d::Zero(), bias = Eigen::Vector3d::Zero();
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
@@ -426,7 +418,7 @@ void UnevenPlane::complete(Span<const SurfacePatch> patches, std::uint32_t seen,
   model->covariance = model->scale * unknown + by_plane * model->covariance * by_plane.transpose();
 }
 
-// The region's plane through such a surface, less what is predicted of it. After pass_on_unseen().
+// The region's plane through such a surface, less what is predicted of it. After pass_on().
 Eigen::Matrix<double, 3, 2> UnevenPlane::missing_of_bend(Span<const SurfacePatch> patches, std::uint32_t seen,
                                                          Span<const Eigen::Vector3d> responses,
                                                          const std::uint32_t* wave) const {
@@ -495,7 +487,7 @@ PredictedPlane UnevenPlane::predict(Span<const SurfacePatch> patches, std::uint3
   static_cast<UnevenFit&>(out) = models.average(freedom, sigmas);
   if (!out.solved) return out;
   const std::uint32_t wave = likeliest - 1;
-  pass_on_unseen(seen, responses, likeliest > 0 ? &wave : nullptr);
+  pass_on(seen, responses, likeliest > 0 ? &wave : nullptr);
   out.missing_of_bend = missing_of_bend(patches, seen, responses, likeliest > 0 ? &wave : nullptr);
   return out;
 }

@@ -91,7 +91,7 @@ class UnevenPlane {
   void sum_waves(std::uint32_t patches, std::uint32_t seen, std::uint32_t lengths, double tau2, WaveSums* sums);
   void consider_waves(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses, double tau2,
                       Models* models);
-  void pass_on_unseen(std::uint32_t seen, Span<const Eigen::Vector3d> responses, const std::uint32_t* wave);
+  void pass_on(std::uint32_t first, Span<const Eigen::Vector3d> responses, const std::uint32_t* wave);
   Eigen::Vector3d passed(std::uint32_t i) const;
   Eigen::Matrix<double, 3, 2> missing_of_bend(Span<const SurfacePatch> patches, std::uint32_t seen,
                                               Span<const Eigen::Vector3d> responses, const std::uint32_t* wave) const;
