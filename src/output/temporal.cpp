@@ -302,6 +302,8 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     out = blank();
     pass_time(elapsed_s, m.measured ? change : narrower(change, by_config, elapsed_s, q, settings, t), q, &t);
     POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_QUANTITY + q));
+    // A leap starts afresh: a doubt from before it is of another place, and so are the looks that were refused.
+    if (timing.leap) t.doubted_frames = t.to_confirm = 0;
     // After a jump back, or while the clock stands still, the elapsed time is unknown: a held value has no bound any
     // more.
     const bool unknown = timing.still && !(elapsed_s > 0.0);
