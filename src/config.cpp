@@ -247,6 +247,8 @@ std::int32_t check_config(const pose_wall_config& config, pose_wall_rule_fault* 
        {"voxel_leaf", "outlier_radius", "outlier_radius must be at least voxel_leaf, or every voxel is an outlier"}},
       {s.ground_roi_radius <= s.ground_roi_radius_max,
        {"ground_roi_radius", "ground_roi_radius_max", "ground_roi_radius must not exceed ground_roi_radius_max"}},
+      {s.floor_region_max - s.floor_region_min >= 1.0,
+       {"floor_region_min", "floor_region_max", "the floor's region must be at least 1 m long"}},
       {s.ground_height_min < s.ground_height_max,
        {"ground_height_min", "ground_height_max", "ground_height_min must be smaller than ground_height_max"}},
       {s.wall_z_min < s.wall_z_max, {"wall_z_min", "wall_z_max", "wall_z_min must be smaller than wall_z_max"}},

@@ -287,8 +287,8 @@ void Engine::find_walls_if_level(Random* random, FrameFindings* found) {
   const Surfaces& before = memory_.last;
   const Plane* const last[2] = {before.has_wall[0] ? &before.wall_level[0] : nullptr,
                                 before.has_wall[1] ? &before.wall_level[1] : nullptr};
-  found->walls = find_walls(scene, last, random, &scratch_.walls);
-  if (settings_.region == kRegionOn) measure_wall_regions(scene, &scratch_.walls, &found->walls.side);
+  static_cast<WallsResult&>(found->walls) = find_walls(scene, last, random, &scratch_.walls);
+  if (settings_.region == kRegionOn) measure_wall_regions(scene, &scratch_.walls, &found->walls);
   found->floor = doubted_by_walls(found->floor, found->walls.tilt_level_rad, settings_, found->levelling);
 }
 
@@ -369,7 +369,7 @@ void Engine::conclude(const pose_wall_inputs* inputs, bool motion_taken_out, Fra
                       pose_wall_result* result) {
   const FrameTiming timing = time_frame(memory_.temporal, found->stamp_ns, settings_);
   found->reasons |= timing.reasons;
-  found->measured = measure_quantities(found->floor, found->levelling, found->walls.side, settings_);
+  found->measured = measure_quantities(found->floor, found->levelling, found->walls, settings_);
   doubt_repeats(timing, found);
   widen_by_scan_motion(inputs, motion_taken_out, timing.dt_s, found);
   const Change change = change_since_last(inputs, timing, found);

@@ -24,7 +24,7 @@ struct FrameFindings {
   VoxelResult voxels;
   FloorResult floor;
   Levelling levelling;
-  WallsResult walls;
+  MeasuredWalls walls;
   Measurements measured;
 };
 

@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0x066A6F7C3DF51B5BULL;
+constexpr std::uint64_t kSelfTestDigest = 0x4C2E1E80C209DB24ULL;
 
 }  // namespace pose_wall

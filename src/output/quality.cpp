@@ -10,6 +10,7 @@
 #include "base/math/finite.hpp"
 #include "base/math/larger.hpp"
 #include "gates/gate.hpp"
+#include "region/region_plane.hpp"
 
 namespace pose_wall {
 namespace {
@@ -23,7 +24,6 @@ constexpr double kLikelyInSigmas = 2.0;
 constexpr double kSigmaMinAngle_rad = 1e-5;
 constexpr double kSigmaMinDistance_m = 1e-4;
 constexpr double kLayerFactor = 2.0;  // ribs move a wall to one side, within bounds (walls/fit: What rock shows)
-constexpr double kHalf = 0.5;         // of two walls
 constexpr double kDofMin = 4.0;       // judgement, 2026-11-21: dof / (dof - 2) stretches a variance by 2 at most
 
 double with_floor(double sigma, double least) {
@@ -120,10 +120,7 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
     variance[side] = sigma * sigma;
     information += 1.0 / variance[side];
   }
-  // By the definition the road's direction is the mean of both walls' (include/DEFINITIONS.md), however rough they are.
-  const bool defined = walls[0].of_region || walls[1].of_region;
-  const double w[2] = {defined ? kHalf : 1.0 / (variance[0] * information),
-                       defined ? kHalf : 1.0 / (variance[1] * information)};
+  const double w[2] = {1.0 / (variance[0] * information), 1.0 / (variance[1] * information)};
   const double raw = w[0] * walls[0].yaw_rad + w[1] * walls[1].yaw_rad;
   const double bias = w[0] * walls[0].yaw_bias_rad_per_m + w[1] * walls[1].yaw_bias_rad_per_m;
   ProtectionParts bound;
@@ -134,16 +131,14 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
   const double difference = std::fabs(walls[0].yaw_rad - walls[1].yaw_rad);
   const double biased_apart = s.range_bias_max * std::fabs(walls[0].yaw_bias_rad_per_m - walls[1].yaw_bias_rad_per_m);
   const double apart_in_sigmas = (difference - biased_apart) / std::sqrt(variance[0] + variance[1]);
-  const bool splayed = !defined && apart_in_sigmas > kSplayInSigmas;
+  const bool splayed = apart_in_sigmas > kSplayInSigmas;
   // The road's own direction lies between the walls', and the mean may lie at either.
   if (splayed) bound[POSE_WALL_PART_BEND] += larger(w[0], w[1]) * difference;
-  const double stretch = defined ? 1.0 : larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
+  const double stretch = larger(1.0, (splayed ? kSplayInSigmas : apart_in_sigmas) / kLikelyInSigmas);
   // A wall that looks precise by chance must not lend the other its degrees of freedom.
   const double dof = 1.0 / (w[0] * w[0] / walls[0].yaw_dof + w[1] * w[1] / walls[1].yaw_dof);
   const double tilt_share = larger(tilt_to_yaw(walls[0], levelling), tilt_to_yaw(walls[1], levelling));
-  const double both_variance = w[0] * w[0] * variance[0] + w[1] * w[1] * variance[1];
-  return yaw_measurement(raw, defined ? both_variance : stretch * stretch / information, bound, dof, tilt_share, floor,
-                         s);
+  return yaw_measurement(raw, stretch * stretch / information, bound, dof, tilt_share, floor, s);
 }
 
 // If one of two walls is none, the other one alone gives the direction (solution separation: Blanch et al. 2015). If
@@ -163,13 +158,9 @@ void reach_without_things(const FloorResult& floor, const Levelling& levelling, 
   }
 }
 
-Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
-                        const Settings& s) {
-  // A side of which most is no wall tells no direction, where the other side shows its region's.
-  const auto counts = [&](int side) {
-    return !walls[side].fit.refused && !(walls[side].is_none && walls[1 - side].of_region);
-  };
-  const bool left = counts(0), right = counts(1);
+Measurement yaw_by_endless(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
+                           const Settings& s) {
+  const bool left = !walls[0].fit.refused, right = !walls[1].fit.refused;
   Measurement m;
   if (left && right) {
     m = yaw_by_both(walls, floor, levelling, s);
@@ -184,14 +175,57 @@ Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, co
   return m;
 }
 
+// By the definition the road's direction is the mean of both regions' walls, or that of one where the other side is
+// none (include/DEFINITIONS.md). A side that may be none is both.
+Measurement yaw_by_regions(const FloorResult& floor, const Levelling& levelling, const RegionWall (&regions)[2],
+                           const Settings& s) {
+  Measurement m;
+  const double walls = (regions[0].has_plane() ? 1.0 : 0.0) + (regions[1].has_plane() ? 1.0 : 0.0);
+  if (!regions[0].is_known() || !regions[1].is_known() || walls == 0.0) return m;
+  const double w = 1.0 / walls;
+  double raw = 0.0, variance = 0.0, per_dof = 0.0, tilt_share = 0.0;
+  ProtectionParts bound;
+  for (const RegionWall& region : regions) {
+    if (!region.has_plane()) continue;
+    const JudgedWall& wall = region.wall;
+    raw += w * wall.yaw_rad;
+    variance += w * w * wall.yaw_sigma_rad * wall.yaw_sigma_rad;
+    per_dof += w * w / wall.yaw_dof;
+    bound.add(yaw_bound_of(wall, floor, levelling), w);
+    tilt_share = larger(tilt_share, tilt_to_yaw(wall, levelling));
+    m.reasons |= wall.fit.reasons;
+  }
+  m = yaw_measurement(raw, variance, bound, 1.0 / per_dof, tilt_share, floor, s);
+  for (int side = 0; side < 2; ++side) {
+    const RegionWall &doubtful = regions[side], &other = regions[1 - side];
+    if (doubtful.kind != RegionWall::Kind::kDoubtful) continue;
+    if (!other.has_plane()) return {};  // it may be that neither is a wall
+    const Measurement alone = yaw_by_one(other.wall, floor, levelling, s);
+    m.protection.reach(std::fabs(m.raw - alone.raw) + alone.protection.sum(), POSE_WALL_PART_RIVAL);
+  }
+  return m;
+}
+
+// As of floor and walls: the endless one where it is known better.
+Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, const MeasuredWalls& walls,
+                        const Settings& s) {
+  if (!walls.has_regions) return yaw_by_endless(floor, levelling, walls.side, s);
+  const Measurement endless = yaw_by_endless(floor, levelling, walls.endless, s);
+  const Measurement region = yaw_by_regions(floor, levelling, walls.region, s);
+  if (!region.measured) return endless;
+  const Known known = {region.raw, region.protection.sum()}, before = {endless.raw, endless.protection.sum()};
+  return endless.measured && agree(before, known) && before.level <= known.level ? endless : region;
+}
+
 }  // namespace
 
-Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
+Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const MeasuredWalls& found,
                                 const Settings& settings) {
+  const JudgedWall(&walls)[2] = found.side;
   Measurements out;
   Measurement* const q = out.quantity;
   measure_floor(floor, levelling, settings, &q[POSE_WALL_ROLL], &q[POSE_WALL_PITCH]);
-  q[POSE_WALL_YAW] = measure_yaw(floor, levelling, walls, settings);
+  q[POSE_WALL_YAW] = measure_yaw(floor, levelling, found, settings);
   measure_distances(walls[0], settings, &q[POSE_WALL_D_LF], &q[POSE_WALL_D_LB]);
   measure_distances(walls[1], settings, &q[POSE_WALL_D_RF], &q[POSE_WALL_D_RB]);
   out.has_yaw_difference = !walls[0].fit.refused && !walls[1].fit.refused;

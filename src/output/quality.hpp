@@ -14,7 +14,7 @@
 namespace pose_wall {
 
 // walls: left, right. The quantities of a refused floor or wall stay unmeasured.
-Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
+Measurements measure_quantities(const FloorResult& floor, const Levelling& levelling, const MeasuredWalls& walls,
                                 const Settings& settings);
 
 }  // namespace pose_wall

@@ -3,6 +3,11 @@
 
 #include "region/region_cells.hpp"
 
+#include <cmath>
+#include <utility>
+
+#include "base/math/larger.hpp"
+
 namespace pose_wall {
 
 void RegionCells::lay_out(Arena& arena) {
@@ -12,21 +17,24 @@ void RegionCells::lay_out(Arena& arena) {
 }
 
 void RegionCells::begin(const Region& region) {
-  const auto cells_over = [](double length_m) { return static_cast<std::uint32_t>(length_m / kCell_m + 0.5); };
-  const std::uint32_t margin = cells_over(kMargin_m);
-  columns_ = cells_over(region.u_max_m - region.u_min_m) + 2 * margin;
-  rows_ = cells_over(region.v_max_m - region.v_min_m) + 2 * margin;
+  const auto cells_over = [](double length) { return static_cast<std::uint32_t>(length + 0.5); };
+  const std::uint32_t margin = cells_over(kMargin_m / kCell_m);
+  cell_u_m_ = larger(kCell_m, 2.0 * region.u_to_m / kColumnsMost);
+  columns_ = cells_over(2.0 * region.u_to_m / cell_u_m_) + 2 * margin;
+  rows_ = cells_over((region.v_max_m - region.v_min_m) / kCell_m) + 2 * margin;
   // A band that is higher than there is room for is seen from below up to there.
   if (columns_ * rows_ > kMost) rows_ = kMost / columns_;
-  u_from_m_ = static_cast<float>(region.u_min_m - kMargin_m);
-  v_from_m_ = static_cast<float>(region.v_min_m - kMargin_m);
+  const double u_from_m = -region.u_to_m - margin * cell_u_m_, v_from_m = region.v_min_m - kMargin_m;
+  u_from_m_ = static_cast<float>(u_from_m);
+  v_from_m_ = static_cast<float>(v_from_m);
   for (std::uint32_t row = 0; row < rows_; ++row) {
     for (std::uint32_t column = 0; column < columns_; ++column) {
       RegionCell& cell = cells_[row * columns_ + column];
       cell = RegionCell{};
-      cell.u = region.u_min_m - kMargin_m + (column + 0.5) * kCell_m;
-      cell.v = region.v_min_m - kMargin_m + (row + 0.5) * kCell_m;
-      cell.inside = column >= margin && column + margin < columns_ && row >= margin && row + margin < rows_;
+      cell.u = u_from_m + (column + 0.5) * cell_u_m_;
+      cell.v = v_from_m + (row + 0.5) * kCell_m;
+      cell.inside = column >= margin && column + margin < columns_ && row >= margin && row + margin < rows_ &&
+                    std::fabs(cell.u) >= region.u_from_m;
     }
   }
   bins_.first(columns_ * rows_ * kBins).fill(Bin{});
@@ -34,8 +42,8 @@ void RegionCells::begin(const Region& region) {
 
 // The cells of four points, of those that lie in one.
 RegionCells::FourCells RegionCells::cells_of(FourFloats u, FourFloats v, FourTruths counts) const {
-  constexpr auto kPerCell = static_cast<float>(1.0 / kCell_m);
-  const FourFloats column = (u - u_from_m_) * kPerCell, row = (v - v_from_m_) * kPerCell, none{};
+  const auto per_column = static_cast<float>(1.0 / cell_u_m_), per_row = static_cast<float>(1.0 / kCell_m);
+  const FourFloats column = (u - u_from_m_) * per_column, row = (v - v_from_m_) * per_row, none{};
   counts &= (column >= none) & (column < all_four(static_cast<float>(columns_))) & (row >= none) &
             (row < all_four(static_cast<float>(rows_)));
   const FourInts cell =
@@ -83,7 +91,13 @@ void RegionCells::find_layers() {
     if (cell.open || !cell.seen) continue;
     cell.u = static_cast<double>((bin[best].u + bin[best + 1].u) / most);
     cell.v = static_cast<double>((bin[best].v + bin[best + 1].v) / most);
-    cell.h = static_cast<double>((bin[best].h + bin[best + 1].h) / most);
+    cell.h = cell.first_h = static_cast<double>((bin[best].h + bin[best + 1].h) / most);
+    for (std::uint32_t j = 0; j + 1 < best; ++j) {
+      const float count = bin[j].count + bin[j + 1].count;
+      if (count < kLayerMin) continue;
+      cell.first_h = static_cast<double>((bin[j].h + bin[j + 1].h) / count);
+      break;
+    }
   }
 }
 
@@ -100,8 +114,12 @@ void RegionCells::find_openings() {
   for (RegionCell& c : all()) c.open = c.open || (c.seen && c.h > tenth_m + kOpening_m);
 }
 
+void RegionCells::exchange_layers() {
+  for (RegionCell& cell : all()) std::swap(cell.h, cell.first_h);
+}
+
 Eigen::Vector2d RegionCells::from_middle(const RegionCell& cell) const {
-  const double u = (cell.u - static_cast<double>(u_from_m_)) / (columns_ * kCell_m);
+  const double u = (cell.u - static_cast<double>(u_from_m_)) / (columns_ * cell_u_m_);
   const double v = (cell.v - static_cast<double>(v_from_m_)) / (rows_ * kCell_m);
   return {2.0 * u - 1.0, 2.0 * v - 1.0};
 }

@@ -18,16 +18,19 @@ namespace pose_wall {
 // right angles, from the frame's origin on.
 struct Region {
   Eigen::Vector3d u, v, h;
-  double u_min_m, u_max_m, v_min_m, v_max_m;
+  double u_from_m, u_to_m;  // ahead and behind
+  double v_min_m, v_max_m;
   double h_min_m;  // what is nearer is the machine's
   Eigen::Vector3d sensor_m;
-  double bend_per_m;  // the surface may bend as much where it is not seen: half the second derivative
+  // Along u and v, half the second derivative: the surface may bend as much where it is not seen.
+  Eigen::Vector2d bend_per_m;
 
   Eigen::Vector3d coordinates(const Eigen::Vector3d& p) const { return {u.dot(p), v.dot(p), h.dot(p)}; }
 };
 
 struct RegionCell {
-  double u, v, h;  // mean of the layer; the cell's middle where nothing is seen
+  double u, v, h;  // mean of the layer that most points lie in; the cell's middle where nothing is seen
+  double first_h;  // of the first layer of several points: what a surveyor's ray may meet
   double weight;   // of the plane's: set by the fit
   bool seen;
   bool open;    // seen through an opening: it shows no surface of the region
@@ -41,11 +44,15 @@ class RegionCells {
   // A quarter of a metre, and twice that as a margin: cells beside the region tell of those at its edge. In a trial on
   // a real gallery cells of 0.4 m gave three values beyond their levels, and these one.
   static constexpr double kCell_m = 0.25, kMargin_m = 0.5;
+  static constexpr double kColumnsMost = 24.0;  // a longer region has longer cells
   static constexpr std::uint32_t kMost = SurfacePatches::kMost;
 
   void lay_out(Arena& arena);
   void fill(const BoundedPoints& points, const Region& region);
   Span<RegionCell> all() const { return cells_.first(columns_ * rows_); }
+  double cell_area_m2() const { return cell_u_m_ * kCell_m; }
+  // Puts the first layers in the place of those that most points lie in, and back again.
+  void exchange_layers();
   // From -1 to 1 over the region and its margin.
   Eigen::Vector2d from_middle(const RegionCell& cell) const;
   // Sums of the points near a plane h = at[0] + at[1] u + at[2] v, by cell, in the order of all(). weight_of(t): of
@@ -58,6 +65,7 @@ class RegionCells {
  private:
   static constexpr double kBin_m = 0.25;      // of depth: two hold a surface that lies at the border of one
   static constexpr std::uint32_t kBins = 29;  // 7 m: the width of a wide road; the last one holds all beyond
+  static constexpr float kLayerMin = 2.0F;    // voxels: a single one may be dust
   static constexpr double kOpening_m = 3.0;   // of the definition
   struct Bin {
     float count, u, v, h;  // voxels, and sums over them
@@ -78,6 +86,7 @@ class RegionCells {
   Span<Bin> bins_;
   Span<PatchSums> sums_;
   std::uint32_t columns_ = 0, rows_ = 0;
+  double cell_u_m_ = kCell_m;
   float u_from_m_ = 0.0F, v_from_m_ = 0.0F;
 };
 

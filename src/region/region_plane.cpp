@@ -27,8 +27,8 @@ constexpr double kShown = 0.2;
 // Other readings of the cells (README). Of the mean loss of a cell: what a tenth of them at the formula's width adds.
 constexpr double kLossApart = 0.1;
 // With a quarter, 1 to 5 % fewer distances were valid in a real gallery, and as many beyond (2026-11-28).
-constexpr double kLean = 0.1;
-constexpr double kSupport = 0.4;  // of the cells: a surface that things hide by more is not the one that is seen
+constexpr double kLean = 0.25;
+constexpr double kEdge = 0.6;  // of the way from the middle: the last row
 // The plane of cells errs by this share of their spread, and by a millimetre, on the offset and per half metre: fully
 // seen walls of a real gallery were 5 to 15 mm off, where the waves alone told 1 to 4 (trial, 2026-11).
 constexpr double kModelShare = 0.04, kModel_m = 0.001, kModelPerMetre = 0.5;
@@ -81,7 +81,7 @@ double RegionPlane::sigma(const Eigen::Vector3d& of) const {
 ProtectionParts RegionPlane::bound(const Eigen::Vector3d& of, double range_bias_max_m) const {
   ProtectionParts out;
   out[POSE_WALL_PART_RANGE_BIAS] = range_bias_max_m * std::fabs(of.dot(bias_response_));
-  out[POSE_WALL_PART_BEND] = bend_per_m_ * std::sqrt((of.transpose() * missing_of_bend_).squaredNorm());
+  out[POSE_WALL_PART_BEND] = (missing_of_bend_.transpose() * of).cwiseProduct(bend_per_m_).norm();
   double most = 0.0;
   for (std::uint32_t k = 0; k < count_; ++k) most = larger(most, std::fabs(of.dot(readings_[k])));
   out[POSE_WALL_PART_RIVAL] = most;
@@ -117,23 +117,20 @@ std::uint32_t RegionFit::count_seen(RegionPlane* out) const {
 
 // What the cells show of the settled plane.
 void RegionFit::describe(const Eigen::Vector3d& plane, RegionPlane* out) const {
-  double squares = 0.0, count = 0.0, first_m = 0.0, last_m = 0.0;
+  double squares = 0.0, sum = 0.0, first_m = 0.0, last_m = 0.0;
   for (const RegionCell& c : cells_.all()) {
-    if (!c.seen || !c.inside) continue;
-    count += 1.0;
-    if (c.open) continue;
+    if (!c.is_surface() || !c.inside) continue;
     const double t = off(c, plane), weight = weight_of(t);
     if (std::fabs(t) < 1.0) {
       first_m = out->area_m2 > 0.0 ? -larger(-first_m, -c.u) : c.u;
       last_m = out->area_m2 > 0.0 ? larger(last_m, c.u) : c.u;
-      out->area_m2 += RegionCells::kCell_m * RegionCells::kCell_m;
+      out->area_m2 += cells_.cell_area_m2();
     }
-    out->near += weight;
+    sum += weight;
     squares += weight * t * t;
   }
   out->length_m = last_m - first_m + RegionCells::kCell_m;
-  out->rough_m = kWidth_m * std::sqrt(squares / out->near);
-  out->near /= count;
+  out->rough_m = kWidth_m * std::sqrt(squares / sum);
 }
 
 // weight_of(cell): 0 leaves it out.
@@ -161,7 +158,9 @@ bool RegionFit::settle(const Manner& manner, Eigen::Vector3d* plane) const {
     const auto weight = [&](const RegionCell& c) {
       const double t = off(c, before);
       if (t * kWidth_m < -manner.before_m) return 0.0;
-      return (1.0 + manner.lean.dot(cells_.from_middle(c))) * weight_of(t * per_c);
+      const Eigen::Vector2d at = cells_.from_middle(c);
+      if (manner.edge.dot(at) > kEdge) return 0.0;
+      return (1.0 + manner.lean.dot(at)) * weight_of(t * per_c);
     };
     if (!least_squares(weight, plane)) return false;
     if (c_m == kWidth_m && (*plane - before).cwiseAbs().maxCoeff() < kSettled) break;
@@ -170,27 +169,26 @@ bool RegionFit::settle(const Manner& manner, Eigen::Vector3d* plane) const {
   return true;
 }
 
-// The formula's mean over the cells, of those before the plane as well or without them.
-double RegionFit::loss_of(const Eigen::Vector3d& plane, bool with_before) const {
+// loss(t): what a cell adds that lies so far behind the plane. The mean over the cells.
+template <typename LossOf>
+double RegionFit::mean_over_cells(const Eigen::Vector3d& plane, const LossOf& loss) const {
   double sum = 0.0, count = 0.0;
   for (const RegionCell& c : cells_.all()) {
     if (!c.is_surface() || !c.inside) continue;
-    const double t = off(c, plane);
-    if (with_before || t > 0.0) sum -= natural_log(weight_of(t));
+    sum += loss(off(c, plane));
     count += 1.0;
   }
   return sum / count;
 }
 
-// Of the cells, those within a width of the plane.
-double RegionFit::share_near(const Eigen::Vector3d& plane) const {
-  double near = 0.0, count = 0.0;
-  for (const RegionCell& c : cells_.all()) {
-    if (!c.is_surface() || !c.inside) continue;
-    near += std::fabs(off(c, plane)) < 1.0 ? 1.0 : 0.0;
-    count += 1.0;
-  }
-  return near / count;
+// The formula's.
+double RegionFit::loss_of(const Eigen::Vector3d& plane) const {
+  return mean_over_cells(plane, [](double t) { return -natural_log(weight_of(t)); });
+}
+
+// What lies a width before the plane and nearer is a thing, however near.
+double RegionFit::loss_without_things(const Eigen::Vector3d& plane) const {
+  return mean_over_cells(plane, [](double t) { return -natural_log(weight_of(larger(t, -1.0))); });
 }
 
 // The surface may lie near more than one plane. Returns the best one's number, -1 without any.
@@ -204,7 +202,7 @@ int RegionFit::settle_all(Settled (*settled)[kStarts]) const {
     of.plane = of.start;
     of.solved = of.solved && settle({c_m}, &of.plane);
     if (!of.solved) continue;
-    of.loss = loss_of(of.plane, true);
+    of.loss = loss_of(of.plane);
     if (best < 0 || of.loss < (*settled)[best].loss) best = k;
   }
   return best;
@@ -214,7 +212,7 @@ int RegionFit::settle_all(Settled (*settled)[kStarts]) const {
 double RegionFit::weight_near(const RegionCell& place) const {
   double nearest_m2 = 1e9, weight = 0.0;
   for (const RegionCell& c : cells_.all()) {
-    if (!c.is_surface()) continue;
+    if (!c.seen) continue;
     const double du = c.u - place.u, dv = c.v - place.v, m2 = du * du + dv * dv;
     if (!(m2 < nearest_m2)) continue;
     nearest_m2 = m2;
@@ -247,12 +245,18 @@ RegionFit::Taken RegionFit::take_cells(Span<const PatchSums> sums, const Eigen::
          cell);
   }
   taken.seen = taken.all;
+  double cells_inside = 0.0;
   for (RegionCell& cell : cells) {
-    if (cell.seen || !cell.inside) continue;
-    cell.weight = weight_near(cell);
-    taken.A += cell.weight * row_of(cell) * row_of(cell).transpose();
-    take({cell.u, cell.v, 0.0, 0.0, 0.0}, cell);
+    if (!cell.inside) continue;
+    if (!cell.seen) {
+      cell.weight = weight_near(cell);
+      taken.A += cell.weight * row_of(cell) * row_of(cell).transpose();
+      take({cell.u, cell.v, 0.0, 0.0, 0.0}, cell);
+    }
+    out->near += cell.weight;
+    cells_inside += 1.0;
   }
+  out->near /= cells_inside;
   return taken;
 }
 
@@ -274,36 +278,75 @@ bool RegionFit::predict(const BoundedPoints& points, const Region& region, const
   if (!predicted.solved) return false;
   out->at = settled + predicted.correction - of_seen;
   out->covariance_ = predicted.covariance;
+  out->about_endless_ = predicted.about_endless;
   out->bias_response_ = predicted.bias_response;
   out->missing_of_bend_ = predicted.missing_of_bend;
   out->dof = predicted.dof;
   return true;
 }
 
+// How far both the upper and the lower edge lie behind the plane at least, in widths; of each the mean.
+double RegionFit::seen_behind_at_edges(const Eigen::Vector3d& plane) const {
+  constexpr double kMost = 2.0;  // widths: beyond it is an opening
+  double sums[2] = {}, counts[2] = {};
+  for (const RegionCell& c : cells_.all()) {
+    const double v = cells_.from_middle(c)[1];
+    if (!c.is_surface() || !c.inside || std::fabs(v) < kEdge) continue;
+    const int edge = v > 0.0 ? 1 : 0;
+    sums[edge] += -larger(-kMost, -larger(-kMost, off(c, plane)));
+    counts[edge] += 1.0;
+  }
+  if (counts[0] == 0.0 || counts[1] == 0.0) return 0.0;
+  return -larger(-sums[0] / counts[0], -sums[1] / counts[1]);
+}
+
 // Other planes that the region's may be (README). The level reaches to each, as far as it moves the value.
-void RegionFit::read_otherwise(const Settled (&settled)[kStarts], int best, RegionPlane* out) const {
+void RegionFit::read_otherwise(const Settled (&settled)[kStarts], int best, RegionPlane* out) {
   const Eigen::Vector3d& plane = settled[best].plane;
   const auto add = [out](const Eigen::Vector3d& apart) { out->readings_[out->count_++] = apart; };
   add(plane - out->at);  // as if the wall ended with what is seen of it
-  const double behind = loss_of(plane, false);
+  const double loss = loss_without_things(plane);
   for (int k = 0; k < kStarts; ++k) {
     const Settled& other = settled[k];
     if (!other.solved) continue;
     if (k != best && other.loss < settled[best].loss + kLossApart) add(other.plane - plane);
-    // Things may stand before the surface, so what is nearer says little against a plane behind it.
+    // Things may stand before the surface, so what is nearer costs no more than a thing.
     Eigen::Vector3d hidden = k == kAll ? plane : other.start;
     Manner without_things{kWidth_m};
     without_things.before_m = kWidth_m;
     if (!settle(without_things, &hidden)) continue;
-    if (loss_of(hidden, false) < behind + kLossApart && share_near(hidden) >= kSupport) add(hidden - plane);
+    if (loss_without_things(hidden) < loss + kLossApart) add(hidden - plane);
   }
-  // The cells may stand for a little more or less of the area than the surveyor's.
+  // Where a cell shows two layers, a surveyor's ray may end at the nearer one, or begin behind it.
+  Eigen::Vector3d nearer = plane;
+  cells_.exchange_layers();
+  if (settle({kWidth_m}, &nearer)) add(nearer - plane);
+  cells_.exchange_layers();
+  // What hangs before a wall in its middle leaves it at the top and at the foot.
+  const double behind_m = kWidth_m * seen_behind_at_edges(plane);
+  if (behind_m > 0.0) add({behind_m, 0.0, 0.0});
+  // At its ends the cells may stand for a little more or less of the area than the surveyor's. At its edges another
+  // surface may begin: a wall's foot beside the floor, a heap or a roof's arch at a wall.
   for (int k = kAll + 1; k < kEnds; ++k) {
     Eigen::Vector3d leaning = plane;
     Manner manner{kWidth_m};
-    manner.lean = kLean * towards(k);
+    (towards(k)[0] != 0.0 ? manner.lean : manner.edge) = (towards(k)[0] != 0.0 ? kLean : 1.0) * towards(k);
     if (settle(manner, &leaning)) add(leaning - plane);
   }
+}
+
+double RegionFit::step_at(double u_m, const Eigen::Vector3d& plane) const {
+  constexpr double kAbout_m = 0.5, kMost_m = 3.0;  // two columns to each side; an opening
+  double count = 0.0, weights = 0.0, sum_m = 0.0;
+  for (const RegionCell& c : cells_.all()) {
+    if (!c.seen || !c.inside || std::fabs(c.u - u_m) > kAbout_m) continue;
+    const double t = c.open ? kMost_m / kWidth_m : off(c, plane), weight = weight_of(t);
+    const double off_m = std::fabs(kWidth_m * t);
+    count += 1.0;
+    weights += weight;
+    sum_m += (1.0 - weight) * (off_m < kMost_m ? off_m : kMost_m);
+  }
+  return weights < 0.5 * count ? sum_m / (count - weights) : 0.0;
 }
 
 RegionPlane RegionFit::fit(const BoundedPoints& points, const Region& region, const Settings& settings,

@@ -9,6 +9,7 @@
 #include "gates/gate.hpp"
 #include "walls/doubts/edges.hpp"
 #include "walls/doubts/sight.hpp"
+#include "walls/fit/groove_profile.hpp"
 
 namespace pose_wall {
 namespace {
@@ -18,19 +19,42 @@ constexpr double kNearest_m = 0.3;  // from the machine's middle: what is nearer
 // Half the second derivative: the roof arch of a road of 4 m, where it comes down into the band.
 constexpr double kBend_per_m = 0.1;
 
-Region region_of(const WallScene& scene, int side) {
+// The cells hold a window of depth about the wall, as far as one is known.
+double nearest_of(const Region& region, const JudgedWall& endless) {
+  constexpr double kBefore_m = 3.0;  // half of the window and less: what stands nearer is no wall's
+  if (!endless.fit.found) return kNearest_m;
+  const Plane& plane = endless.fit.plane;
+  const double out = -plane.n.dot(region.h), skew = std::fabs(plane.n.dot(region.u)) * region.u_to_m;
+  return larger(kNearest_m, (plane.d - skew) / out - kBefore_m);
+}
+
+Region region_of(const WallScene& scene, int side, const JudgedWall& endless) {
   Region region;
   region.u = scene.forward_level;
   region.v = Eigen::Vector3d::UnitZ();
   region.h = side == 0 ? scene.left_level : Eigen::Vector3d(-scene.left_level);
-  region.u_min_m = -kAlong_m;
-  region.u_max_m = kAlong_m;
+  region.u_from_m = 0.0;
+  region.u_to_m = kAlong_m;
   region.v_min_m = scene.z_min_level_m;
   region.v_max_m = scene.z_max_level_m;
-  region.h_min_m = kNearest_m;
   region.sensor_m = scene.sensor_level_m;
-  region.bend_per_m = kBend_per_m;
+  region.bend_per_m.fill(kBend_per_m);
+  region.h_min_m = nearest_of(region, endless);
   return region;
+}
+
+// Pipes one above the other, all along the wall.
+bool is_grooved(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level) {
+  constexpr float kNear_m = 0.3F;  // twice the formula's width
+  GrooveProfile profile(scene.z_min_level_m, scene.z_max_level_m, along_level.dot(scene.sensor_level_m));
+  const Eigen::Vector3f n = plane.n.cast<float>(), along = along_level.cast<float>();
+  const auto d = static_cast<float>(plane.d);
+  for_each_four_points(
+      scene.band_level, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+        const FourFloats off = n.x() * x + n.y() * y + n.z() * z + d;
+        profile.add(along.x() * x + along.y() * y, z, off, counts & (magnitude_of(off) < all_four(kNear_m)));
+      });
+  return profile.is_grooved();
 }
 
 // A thing that hides the wall is none. The gates are those of an endless plane, but for rays through gaps: an opening
@@ -44,6 +68,7 @@ bool is_wall(const WallScene& scene, const RegionPlane& found, const JudgedWall&
   demand<gate::WALL_YAW>(&verdict, std::fabs(wall.yaw_rad), s);
   if (verdict.refused) return false;
   const Plane& plane = wall.fit.plane;
+  demand<gate::WALL_GROOVES>(&verdict, !is_grooved(scene, plane, wall.along_level));
   scratch->fit.work.add(steps::kWallLookedAt);
   scratch->fit.work.add(scene.band_level.count, steps::kPointLookedAt);
   const WallSight sight = look_at(scene, plane, wall.along_level, kWellBehind_m, &scratch->sight);
@@ -56,21 +81,52 @@ bool is_wall(const WallScene& scene, const RegionPlane& found, const JudgedWall&
   return verdict.reasons == 0;
 }
 
-// The largest level of both distances: what a narrower one is compared by.
-double level_of(const JudgedWall& wall, const Settings& s) {
-  double most = 0.0;
+double level_of(const JudgedWall& wall, int end, const Settings& s) {
+  const double factor = protection_factor(s.protection_sigmas, wall.distance_dof[end]);
+  return factor * wall.distance_sigma_m[end] + wall.distance_bound_m[end].sum();
+}
+
+// Of both ends.
+bool agree(const JudgedWall& endless, const JudgedWall& region, const Settings& s) {
   for (int end = 0; end < 2; ++end) {
-    const double factor = protection_factor(s.protection_sigmas, wall.distance_dof[end]);
-    most = larger(most, factor * wall.distance_sigma_m[end] + wall.distance_bound_m[end].sum());
+    const Known a = {endless.distance_m[end], level_of(endless, end, s)};
+    if (!agree(a, {region.distance_m[end], level_of(region, end, s)})) return false;
   }
-  return most;
+  return true;
+}
+
+double worse_of(const JudgedWall& wall, const Settings& s) {
+  return larger(level_of(wall, 0, s), level_of(wall, 1, s));
+}
+
+// Either may be the wall.
+void reach_to(const JudgedWall& region, const Settings& s, JudgedWall* endless) {
+  for (int end = 0; end < 2; ++end) {
+    endless->distance_bound_m[end][POSE_WALL_PART_RIVAL] +=
+        std::fabs(endless->distance_m[end] - region.distance_m[end]) + level_of(region, end, s);
+  }
+}
+
+// How distances and direction follow from h = at[0] + at[1] u + at[2] v.
+Eigen::Vector3d of_distance(const WallScene& scene, const Region& region, const Eigen::Vector3d& at, int side,
+                            int end) {
+  const Eigen::Vector3d sample = region.coordinates(scene.sample_level_m[side][end]);
+  return Eigen::Vector3d(1.0, sample.x(), sample.y()) / std::sqrt(1.0 + at[1] * at[1] + at[2] * at[2]);
+}
+
+Eigen::Vector3d of_yaw(const Eigen::Vector3d& at) {
+  return {0.0, 1.0 / (1.0 + at[1] * at[1]), 0.0};
+}
+
+void widen(double waves, double* sigma) {
+  *sigma = std::sqrt(*sigma * *sigma + waves * waves);
 }
 
 JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPlane& found, int side,
                    const JudgedWall& before) {
   const Settings& s = scene.settings;
   JudgedWall wall;
-  wall.fit.found = wall.of_region = true;
+  wall.fit.found = true;
   wall.fit.reasons = before.fit.reasons & kDoubts;  // told, and answered by the level
   wall.fit.inliers = static_cast<std::uint32_t>(found.points);
   wall.fit.iterations = before.fit.iterations;
@@ -82,19 +138,15 @@ JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPla
   wall.along_min_m = -kAlong_m;
   wall.along_max_m = kAlong_m;
   wall.yaw_rad = yaw_of(wall.along_level, scene.forward_level);
-  const Eigen::Vector3d of_yaw(0.0, 1.0 / (1.0 + found.at[1] * found.at[1]), 0.0);
-  wall.yaw_sigma_rad = found.sigma(of_yaw);
-  wall.yaw_bound_rad = found.bound(of_yaw, s.range_bias_max);
+  wall.yaw_sigma_rad = found.sigma(of_yaw(found.at));
+  wall.yaw_bound_rad = found.bound(of_yaw(found.at), s.range_bias_max);
   wall.yaw_dof = found.dof;
-  const double upright = std::sqrt(1.0 + found.at[1] * found.at[1] + found.at[2] * found.at[2]);
   for (int end = 0; end < 2; ++end) {
-    const Eigen::Vector3d at = region.coordinates(scene.sample_level_m[side][end]);
-    const Eigen::Vector3d of = Eigen::Vector3d(1.0, at.x(), at.y()) / upright;
+    const Eigen::Vector3d of = of_distance(scene, region, found.at, side, end);
     wall.distance_m[end] = distance_at(wall.fit.plane, scene.sample_level_m[side][end]);
     wall.distance_sigma_m[end] = found.sigma(of);
     wall.distance_bound_m[end] = found.bound(of, s.range_bias_max);
     wall.distance_dof[end] = found.dof;
-    wall.extrapolated[end] = before.extrapolated[end];
     // A distance has no sign: a point in the rock has that of one before it.
     const bool in_rock = wall.fit.plane.signed_distance(scene.sample_level_m[side][end]) < 0.0;
     wall.distance_bound_m[end][POSE_WALL_PART_EXTRAPOLATION] = in_rock ? 2.0 * wall.distance_m[end] : 0.0;
@@ -102,53 +154,75 @@ JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPla
   return wall;
 }
 
-void measure_region(const WallScene& scene, int side, WallsScratch* scratch, JudgedWall* wall) {
-  const Settings& s = scene.settings;
-  // The region's plane answers doubts about what lies elsewhere, and a plane that is looked past. A side without a
-  // wall, or with pipes one above the other, has none in its region either.
-  if (!wall->fit.found || wall->grooved || (wall->fit.refused && (wall->fit.reasons & ~kDoubts) != 0)) return;
-  const Region region = region_of(scene, side);
+// A side without an endless wall shows none in its region either, but it may be shown to have none. The endless wall is
+// widened to stand for the region's.
+RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless, WallsScratch* scratch) {
+  using Kind = RegionWall::Kind;
+  RegionWall out;
+  const Region region = region_of(scene, side, *endless);
   const RegionPlane found =
-      scratch->region.fit(scene.band_level, region, s, &scratch->fit.patches.waves(), &scratch->fit.work);
-  wall->is_none = found.is_none();
-  // By the definition the side may be none. Then the other one alone gives the road's direction.
-  wall->may_be_no_wall = wall->may_be_no_wall || (found.found && !found.is_there() && !found.is_none());
-  if (!found.is_there()) return;
-  const JudgedWall taken = wall_of(scene, region, found, side, *wall);
-  const bool is_narrower = wall->fit.refused || level_of(taken, s) < level_of(*wall, s);
-  if (is_narrower && is_wall(scene, found, taken, scratch)) *wall = taken;
+      scratch->region.fit(scene.band_level, region, scene.settings, &scratch->fit.patches.waves(), &scratch->fit.work);
+  if (!found.found) return out;
+  if (found.is_none()) {
+    out.kind = Kind::kNone;
+    return out;
+  }
+  // The region's plane answers doubts about what lies elsewhere, and a plane that is looked past.
+  if (!endless->fit.found || (endless->fit.refused && (endless->fit.reasons & ~kDoubts) != 0)) return out;
+  out.wall = wall_of(scene, region, found, side, *endless);
+  for (int end = 0; end < 2; ++end) {
+    const double step_m = scratch->region.step_at(region.u.dot(scene.sample_level_m[side][end]), found.at);
+    out.wall.extrapolated[end] = step_m > 0.0;
+    out.wall.distance_bound_m[end][POSE_WALL_PART_EXTRAPOLATION] += step_m;
+  }
+  if (!is_wall(scene, found, out.wall, scratch)) return out;
+  out.kind = found.is_there() ? Kind::kWall : Kind::kDoubtful;
+  out.yaw_waves_rad = found.sigma_about_endless(of_yaw(found.at));
+  for (int end = 0; end < 2; ++end) {
+    const Eigen::Vector3d of = of_distance(scene, region, found.at, side, end);
+    widen(found.sigma_about_endless(of), &endless->distance_sigma_m[end]);
+  }
+  return out;
 }
 
-// By the definition the road's direction is of both walls. Where the other one is not known, and not known to be none,
-// the endless wall's direction stays, which reaches to what is seen of the other side.
-void keep_direction(const JudgedWall& before, JudgedWall* wall) {
-  wall->yaw_rad = before.yaw_rad;
-  wall->yaw_sigma_rad = before.yaw_sigma_rad;
-  wall->yaw_bias_rad_per_m = before.yaw_bias_rad_per_m;
-  wall->yaw_bound_rad = before.yaw_bound_rad;
-  wall->yaw_dof = before.yaw_dof;
-  wall->yaw_to_rival_rad = before.yaw_to_rival_rad;
-  wall->may_be_no_wall = before.may_be_no_wall || before.fit.refused;
+// By the definition the region's wall is right, and the endless one where that is known better.
+void choose(const RegionWall& region, const Settings& s, JudgedWall* wall) {
+  if (!region.has_plane()) return;
+  if (region.kind == RegionWall::Kind::kDoubtful) {
+    if (!wall->fit.refused) reach_to(region.wall, s, wall);
+  } else if (wall->fit.refused || !agree(*wall, region.wall, s) || worse_of(region.wall, s) < worse_of(*wall, s)) {
+    *wall = region.wall;
+  }
+}
+
+// Endless walls tell the direction of the regions' as well as their waves allow, on an unknown side those of the other.
+// By the definition a side that is none tells nothing where the other one is a wall.
+void let_direct(const RegionWall& region, const RegionWall& other, JudgedWall* endless) {
+  if (region.has_plane()) {
+    widen(region.yaw_waves_rad, &endless->yaw_sigma_rad);
+  } else if (other.has_plane()) {
+    widen(other.yaw_waves_rad, &endless->yaw_sigma_rad);
+    if (region.kind == RegionWall::Kind::kNone) endless->fit.refused = true;
+  }
 }
 
 }  // namespace
 
-void measure_wall_regions(const WallScene& scene, WallsScratch* scratch, JudgedWall (*walls)[2]) {
+void measure_wall_regions(const WallScene& scene, WallsScratch* scratch, MeasuredWalls* walls) {
   Work& work = scratch->fit.work;
-  const JudgedWall before[2] = {(*walls)[0], (*walls)[1]};
   for (int side = 0; side < 2; ++side) {
     POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
+    JudgedWall& wall = walls->side[side];
     if (work.stops()) {
-      demand_work_left(work, &(*walls)[side].fit);
-      continue;
+      demand_work_left(work, &wall.fit);
+    } else {
+      walls->region[side] = measure_region(scene, side, &wall, scratch);
     }
-    measure_region(scene, side, scratch, &(*walls)[side]);
+    walls->endless[side] = wall;
+    choose(walls->region[side], scene.settings, &wall);
   }
-  for (int side = 0; side < 2; ++side) {
-    const JudgedWall& other = (*walls)[1 - side];
-    JudgedWall& wall = (*walls)[side];
-    if (wall.of_region && other.fit.refused && !other.is_none) keep_direction(before[side], &wall);
-  }
+  for (int side = 0; side < 2; ++side) let_direct(walls->region[side], walls->region[1 - side], &walls->endless[side]);
+  walls->has_regions = true;
 }
 
 }  // namespace pose_wall

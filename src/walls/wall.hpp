@@ -55,9 +55,6 @@ struct Doubt : Verdict {
 struct JudgedWall : FittedWall {
   double yaw_to_rival_rad = 0.0;  // if its rival is the wall, or the road bends before it
   bool may_be_no_wall = false;    // but a curtain, a vehicle or pipes
-  // By the plane of the region beside the machine (walls/region):
-  bool of_region = false;
-  bool is_none = false;  // most of the region is no wall
 
   JudgedWall() = default;
   explicit JudgedWall(const FittedWall& fitted) : FittedWall(fitted) {}
@@ -71,10 +68,29 @@ struct JudgedWall : FittedWall {
   }
 };
 
+// What the region beside the machine shows of a side (walls/region). Of a doubtful wall most or little less may be
+// none.
+struct RegionWall {
+  enum class Kind { kUnknown, kNone, kDoubtful, kWall };
+  Kind kind = Kind::kUnknown;
+  JudgedWall wall;             // of a wall, and of a doubtful one
+  double yaw_waves_rad = 0.0;  // how its waves turn it about an endless wall: standard deviation
+
+  bool is_known() const { return kind != Kind::kUnknown; }
+  bool has_plane() const { return kind == Kind::kDoubtful || kind == Kind::kWall; }
+};
+
 struct WallsResult {
-  JudgedWall side[2];  // left, right
+  JudgedWall side[2];  // left, right: what the distances are of
   // Possible tilt error of the levelled frame, by the lean of both sides. Zero unless both are sure.
   Eigen::Vector3d tilt_level_rad = Eigen::Vector3d::Zero();
+};
+
+// With their regions, once these are measured. Yaw is of both sides, and needs both kinds of walls.
+struct MeasuredWalls : WallsResult {
+  bool has_regions = false;
+  JudgedWall endless[2];
+  RegionWall region[2];
 };
 
 }  // namespace pose_wall

@@ -306,8 +306,7 @@ POSE_WALL_WRAP(void, refuse_blocked_sides, (const IngestCounts& counts, const Se
 }
 
 POSE_WALL_WRAP(Measurements, measure_quantities,
-               (const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
-                const Settings& s)) {
+               (const FloorResult& floor, const Levelling& levelling, const MeasuredWalls& walls, const Settings& s)) {
   Measurements r = measure_quantities_for_real(floor, levelling, walls, s);
   if (!fails(Fault::kNothingMeasured)) return r;
   r = Measurements{};

@@ -39,17 +39,18 @@ class MotionBeside {
   pose_wall_motion* motion_ = nullptr;
 };
 
-Finding finding_of(const pose_wall_value& value, int quantity, int frame, const Truths& truths) {
-  const Truth& truth = truths.road;
+Finding finding_of(const pose_wall_value& value, int quantity, int frame, const Truths& truths, double alert_limit) {
   Finding finding;
+  finding.alert_limit = alert_limit;
   finding.frame = frame;
   finding.quantity = quantity;
   finding.state = value.state;
   finding.raw_state = value.raw_state;
   finding.reasons = value.reasons;
   finding.cause = value.cause;
-  finding.error = truth.error(quantity, value.value);
-  finding.raw_error = truth.error(quantity, value.raw);
+  finding.error = truths.error(quantity, value.value, alert_limit);
+  finding.raw_error = truths.error(quantity, value.raw, alert_limit);
+  finding.road_error = truths.road.error(quantity, value.value);
   finding.surveyed_error = truths.surveyed.error(quantity, value.value);
   finding.level = value.protection_level;
   finding.raw_level = value.raw_protection_level;
@@ -85,7 +86,6 @@ std::string replay(const Case& tried, const Treatment& treatment) {
   if (tried.furnishing == Furnishing::kQuiet) text += " --quiet";
   if (tried.furnishing == Furnishing::kRich) text += " --rich";
   if (tried.no_bias) text += " --no-bias";
-  if (tried.surveyed) text += " --surveyed";
   if (!tried.times) text += " --times off";
   if (!treatment.motion) text += " --motion off";
   if (treatment.work_max > 0) text += format(" --work-max %u", treatment.work_max);
@@ -98,8 +98,7 @@ void judge_frame(const pose_wall_result& result, int frame, const Truths& truths
                  Verdict* verdict) {
   verdict->work.push_back(work_of(result));
   for (int q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    verdict->findings.push_back(finding_of(result.quantity[q], q, frame, truths));
-    verdict->findings.back().alert_limit = limits[q < POSE_WALL_D_LF ? 0 : 1];
+    verdict->findings.push_back(finding_of(result.quantity[q], q, frame, truths, limits[q < POSE_WALL_D_LF ? 0 : 1]));
   }
 }
 

@@ -28,12 +28,13 @@ struct Finding {
 
   int frame = 0, quantity = 0;
   std::uint32_t state = 0, raw_state = 0, reasons = 0, cause = 0;
-  // By both truths: what is within the limit of one is not wrong.
-  bool misleading_by_both() const { return misleading() && !(surveyed_error_abs() <= alert_limit); }
-  bool misleading_surveyed() const { return state == POSE_WALL_VALID && surveyed_error_abs() > alert_limit; }
-  double surveyed_error_abs() const { return surveyed_error < 0.0 ? -surveyed_error : surveyed_error; }
+  // Valid, and wrong by one truth alone.
+  bool misleading_by(double one_error) const {
+    return state == POSE_WALL_VALID && (one_error < 0.0 ? -one_error : one_error) > alert_limit;
+  }
 
-  double surveyed_error = 0.0;  // NaN where no plane of the rock is that wall
+  // By each truth alone; the latter is NaN where no plane of the rock is that wall. The others are by both.
+  double road_error = 0.0, surveyed_error = 0.0;
   double error = 0.0, level = 0.0, raw_error = 0.0, raw_level = 0.0, sigma = 0.0, alert_limit = 0.0;
 };
 

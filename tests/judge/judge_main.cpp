@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // usage: pose_wall_judge [--seed FIRST] [--roads N] [--frames N] [--from FRAME] [--sensor NAME] [--quiet | --rich]
-// [--no-bias] [--surveyed]
+// [--no-bias]
 //                        [--times on|off] [--motion on|off] [--work-max N] [--going drawn|stands|drives] [--all]
 //                        [--compare | --furnished | --near-walls | --write FOLDER]
 //
@@ -11,7 +11,6 @@
 // --write its frames. --times off: all rays of a scan at one instant, by sensors with even rings. --motion on: the
 // motion library runs beside the engine. --compare hears the same clouds with motion, without, and without a budget.
 // --furnished does so on the roads of the furnished class.
-// --surveyed tells valid values against the second truth as well, planes of the rock that is really there.
 // --near-walls tries sensors near walls, with the offsets of their light and without. Exit status 1: a valid value was
 // beyond its level or misleading; --near-walls: a value was lost by the offsets.
 
@@ -78,7 +77,6 @@ Options read_options(const std::vector<std::string>& words) {
   const std::map<std::string, bool*> switches = {{"--quiet", &quiet},
                                                  {"--rich", &rich},
                                                  {"--no-bias", &options.first.no_bias},
-                                                 {"--surveyed", &options.first.surveyed},
                                                  {"--all", &options.all},
                                                  {"--compare", &options.compare},
                                                  {"--furnished", &options.furnished},
@@ -146,7 +144,7 @@ int run(const Options& options) {
     std::fflush(stdout);
   }
   totals.print();
-  if (options.first.surveyed) std::printf("\nTwo truths\n%s", truths_table(totals.all).c_str());
+  std::printf("\nTwo truths\n%s", truths_table(totals.all).c_str());
   return wrong ? 1 : 0;
 }
 

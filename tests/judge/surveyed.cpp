@@ -17,7 +17,7 @@ namespace {
 // Coarser than the simulator's probes, as far: what both find must not hang on the grid.
 constexpr double kStep_m = 0.08, kFarthest_m = 30.0;
 // The regions of include/DEFINITIONS.md.
-constexpr double kFloorAlong_m = 3.0, kFloorAcross_m = 1.125, kWallAlong_m = 2.5, kWallLow_m = 0.25, kWallHigh_m = 2.5;
+constexpr double kFloorAcross_m = 1.125, kWallAlong_m = 2.5, kWallLow_m = 0.25, kWallHigh_m = 2.5;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 double rock_m(const Road& road, const Ray& ray) {
@@ -29,7 +29,7 @@ double rock_m(const Road& road, const Ray& ray) {
 // Which way probes go from a plane about the machine, and how far it reaches.
 struct Region {
   Vector3d middle_m, along, across, out;
-  double half_along_m, low_m, high_m;
+  double from_m, to_m, low_m, high_m;  // along, ahead and behind; across
 };
 
 struct Hit {
@@ -77,7 +77,8 @@ Surface settle(const std::vector<Hit>& hits, double width_m, const Counts& count
 std::optional<Plane> fit(const Road& road, const Region& region) {
   std::vector<Hit> hits;
   int sent = 0;
-  for (double a = -region.half_along_m; a <= region.half_along_m; a += kStep_m) {
+  for (double a = -region.to_m; a <= region.to_m; a += kStep_m) {
+    if (std::abs(a) < region.from_m) continue;
     for (double b = region.low_m; b <= region.high_m; b += kStep_m, ++sent) {
       const Ray ray = {region.middle_m + a * region.along + b * region.across, region.out};
       const double at_m = rock_m(road, ray);
@@ -98,7 +99,7 @@ std::optional<Plane> fit(const Road& road, const Region& region) {
       settle(hits, 0.15, [](const Hit& h) { return h.along_m > 0.0; }),
       settle(hits, 0.15, [=](const Hit& h) { return h.across_m < middle_m; }),
       settle(hits, 0.15, [=](const Hit& h) { return h.across_m > middle_m; }),
-      settle(hits, 0.15, [&](const Hit& h) { return std::abs(h.along_m) > 0.5 * region.half_along_m; })};
+      settle(hits, 0.15, [&](const Hit& h) { return std::abs(h.along_m) > 0.5 * (region.from_m + region.to_m); })};
   const Surface* best = nullptr;
   for (const Surface& surface : surfaces) {
     if (surface.plane.allFinite() && (best == nullptr || surface.loss < best->loss)) best = &surface;
@@ -112,14 +113,14 @@ std::optional<Plane> fit(const Road& road, const Region& region) {
 
 }  // namespace
 
-Truth surveyed_truth(const Road& road, const Machine& machine, const Pose& pose) {
+Truth surveyed_truth(const Road& road, const Machine& machine, const Pose& pose, const FloorRegion& region) {
   Truth truth;
   truth.low.fill(kNone), truth.high.fill(kNone);
   const Vector3d up = Vector3d::UnitZ();
   const Vector3d forward = pose.turn * machine.base_from_machine.col(0);
   const Vector3d level = (forward - forward.z() * up).normalized();
-  const auto floor =
-      fit(road, {pose.position_m, level, up.cross(level), -up, kFloorAlong_m, -kFloorAcross_m, kFloorAcross_m});
+  const auto floor = fit(road, {pose.position_m, level, up.cross(level), -up, region.from_m, region.to_m,
+                                -kFloorAcross_m, kFloorAcross_m});
   if (!floor) return truth;
   Road found = road;
   found.floor = *floor;
@@ -127,7 +128,7 @@ Truth surveyed_truth(const Road& road, const Machine& machine, const Pose& pose)
   const Vector3d left = floor->normal.cross(ahead);
   const double height_m = floor->distance_m(pose.position_m);
   const auto wall = [&](double side) {
-    return fit(road, {pose.position_m, ahead, floor->normal, side * left, kWallAlong_m, kWallLow_m - height_m,
+    return fit(road, {pose.position_m, ahead, floor->normal, side * left, 0.0, kWallAlong_m, kWallLow_m - height_m,
                       kWallHigh_m - height_m});
   };
   const auto left_wall = wall(1.0), right_wall = wall(-1.0);

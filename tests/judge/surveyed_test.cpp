@@ -95,10 +95,9 @@ TEST(SurveyedTruth, NothingValidIsWrongByBothTruths) {
     Case tried;
     tried.seed = seed;
     tried.furnishing = Furnishing::kRich;
-    tried.surveyed = true;
     const Verdict verdict = hear(tried);
     add(&tallies, verdict);
-    for (const Finding& finding : verdict.findings) EXPECT_FALSE(finding.misleading_by_both()) << verdict.text(finding);
+    for (const Finding& finding : verdict.findings) EXPECT_FALSE(finding.misleading()) << verdict.text(finding);
   }
   int valid = 0;
   for (const Tally& tally : tallies) valid += static_cast<int>(tally.valid_surveyed_errors.size());

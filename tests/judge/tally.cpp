@@ -22,11 +22,11 @@ void Tally::add(const Finding& finding) {
   if (finding.beyond()) ++*beyond[finding.state];
   raw_beyond += finding.raw_beyond() ? 1 : 0;
   misleading += finding.misleading() ? 1 : 0;
-  misleading_surveyed += finding.misleading_surveyed() ? 1 : 0;
-  misleading_by_both += finding.misleading_by_both() ? 1 : 0;
+  misleading_road += finding.misleading_by(finding.road_error) ? 1 : 0;
+  misleading_surveyed += finding.misleading_by(finding.surveyed_error) ? 1 : 0;
   if (finding.state == POSE_WALL_VALID && std::isfinite(finding.surveyed_error)) {
-    valid_errors.push_back(finding.error_abs());
-    valid_surveyed_errors.push_back(finding.surveyed_error_abs());
+    valid_road_errors.push_back(std::abs(finding.road_error));
+    valid_surveyed_errors.push_back(std::abs(finding.surveyed_error));
   }
   if (finding.raw_state != POSE_WALL_INVALID) {
     closest = std::max(closest, finding.raw_error_abs() / finding.raw_level);
@@ -69,11 +69,12 @@ std::string truths_table(const Tallies& tallies) {
   for (std::size_t k = 0; k < tallies.size(); ++k) {
     const Tally& tally = tallies[k];
     const int q = static_cast<int>(k);
-    text += format(
-        "%-6s %6d %10.3f %10.3f %10.3f %10.3f %6d %6d %6d\n", pose_wall_quantity_name(static_cast<std::uint32_t>(k)),
-        tally.valid, shown(q, quantile(tally.valid_errors, 0.5)), shown(q, quantile(tally.valid_errors, 0.95)),
-        shown(q, quantile(tally.valid_surveyed_errors, 0.5)), shown(q, quantile(tally.valid_surveyed_errors, 0.95)),
-        tally.misleading, tally.misleading_surveyed, tally.misleading_by_both);
+    text += format("%-6s %6d %10.3f %10.3f %10.3f %10.3f %6d %6d %6d\n",
+                   pose_wall_quantity_name(static_cast<std::uint32_t>(k)), tally.valid,
+                   shown(q, quantile(tally.valid_road_errors, 0.5)), shown(q, quantile(tally.valid_road_errors, 0.95)),
+                   shown(q, quantile(tally.valid_surveyed_errors, 0.5)),
+                   shown(q, quantile(tally.valid_surveyed_errors, 0.95)), tally.misleading_road,
+                   tally.misleading_surveyed, tally.misleading);
   }
   return text;
 }

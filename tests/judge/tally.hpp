@@ -22,13 +22,13 @@ struct Tally {
   }
 
   int frames = 0, valid = 0, degraded = 0, held = 0;
-  int first = 0, first_valid = 0;                       // of frame 0
-  int misleading_surveyed = 0, misleading_by_both = 0;  // of the second truth; of both at once
+  int first = 0, first_valid = 0;                    // of frame 0
+  int misleading_road = 0, misleading_surveyed = 0;  // by one truth alone
   int beyond_valid = 0, beyond_degraded = 0, beyond_held = 0, raw_beyond = 0, misleading = 0;
   double closest = 0.0;                                 // largest share of its level that an error took
   double z2_sum = 0.0;                                  // of their squared errors over squared sigma
   std::vector<double> errors, levels, levels_in_sigma;  // of measured values: raw ones
-  std::vector<double> valid_errors, valid_surveyed_errors;
+  std::vector<double> valid_road_errors, valid_surveyed_errors;
   std::vector<double> told_levels;                     // of what is told and not invalid, from frame 1 on
   std::vector<int> reasons = std::vector<int>(32, 0);  // of values that are not valid
 };
@@ -37,7 +37,7 @@ using Tallies = std::vector<Tally>;  // one a quantity
 void add(Tallies* tallies, const Verdict& verdict);
 // A row a quantity: frames, valid share, errors, levels, what is beyond.
 std::string table(const Tallies& tallies);
-// Valid values against each of the two truths, of cases that ask for both.
+// Valid values against each of the two truths.
 std::string truths_table(const Tallies& tallies);
 // Why values are not valid, most frequent first.
 std::string reasons_table(const Tallies& tallies);

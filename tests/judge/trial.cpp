@@ -45,15 +45,31 @@ void write_points(const Cloud& cloud, const std::string& file) {
 
 }  // namespace
 
-void read_settings(const std::string& file, pose_wall_config* config) {
+std::vector<Setting> settings_in(const std::string& file) {
   std::ifstream in(std::string(POSE_WALL_JUDGE_CONFIGS) + "/" + file);
   if (!in) throw std::runtime_error(file + ": cannot be read");
+  std::vector<Setting> settings;
   std::string line;
   while (std::getline(in, line)) {
     line = line.substr(0, line.find('#'));
     const std::size_t colon = line.find(':');
     if (colon == std::string::npos) continue;
-    const std::string key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
+    settings.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
+  }
+  return settings;
+}
+
+FloorRegion floor_region_in(const std::string& file) {
+  FloorRegion floor;
+  for (const auto& [key, value] : settings_in(file)) {
+    if (key == "floor_region_min") floor.from_m = std::stod(value);
+    if (key == "floor_region_max") floor.to_m = std::stod(value);
+  }
+  return floor;
+}
+
+void read_settings(const std::string& file, pose_wall_config* config) {
+  for (const auto& [key, value] : settings_in(file)) {
     const std::int32_t status = pose_wall_config_set(config, key.c_str(), value.c_str());
     if (status == POSE_WALL_E_KEY_UNKNOWN) continue;
     if (status != POSE_WALL_OK) throw std::runtime_error(key + ": " + pose_wall_status_text(status));
@@ -73,6 +89,7 @@ Trial::Trial(const Case& tried)
       scanner_(sensor(), tried.no_bias, &draw_),
       stance_(draw_stance(road_, tried.furnishing == Furnishing::kQuiet, &draw_)),
       stands_(draw_.chance(0.5)) {
+  floor_ = floor_region_in(sensor().config);
   if (!tried.times) return;
   Draw going(tried.seed ^ 0x601D601D601D601DU);
   drive_ = draw_drive(road_, machine_, stance_, tried.going, tried.frames, &going);
@@ -100,8 +117,16 @@ Setup Trial::setup() const {
 }
 
 Truths Trial::truths_at(const Pose& pose) const {
-  const Truth road = truth_of(road_, machine_, pose);
-  return {road, tried_.surveyed ? surveyed_truth(road_, machine_, pose) : road};
+  return {truth_of(road_, machine_, pose), surveyed_truth(road_, machine_, pose, floor_)};
+}
+
+double Truths::error(int quantity, double value, double alert_limit) const {
+  const double by_road = road.error(quantity, value), by_survey = surveyed.error(quantity, value);
+  if (!std::isfinite(by_survey)) return by_road;
+  if (!std::isfinite(by_road)) return by_survey;
+  const bool is_between = (by_road < 0.0) != (by_survey < 0.0);
+  if (is_between && std::abs(by_road - by_survey) <= 2.0 * alert_limit) return 0.0;
+  return std::abs(by_road) < std::abs(by_survey) ? by_road : by_survey;
 }
 
 Cloud Trial::creeping_frame(Truths* truths) {

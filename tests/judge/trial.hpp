@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "judge/scanner.hpp"
+#include "judge/surveyed.hpp"
 #include "pose_wall.h"
 #include "pose_wall_motion.h"
 
@@ -22,17 +23,20 @@ struct Case {
   Furnishing furnishing = Furnishing::kDrawn;
   int sensor = -1;  // row of kSensorTable; -1: drawn
   int frames = 4;
-  int from_frame = 0;     // frames before it are measured and not judged
-  bool no_bias = false;   // ranges without a constant error
-  bool surveyed = false;  // the second truth as well: it costs more than the frame
+  int from_frame = 0;    // frames before it are measured and not judged
+  bool no_bias = false;  // ranges without a constant error
   // Scans that take their time, while the machine drives or stands, by sensors with their own tables of beams. Else all
   // rays at one instant, and a machine that creeps.
   bool times = false;
   Going going = Going::kDrawn;
 };
 
-// Of the road's planes, and of the rock that is really there: the same where the case does not ask for it.
+// Of the road's planes, and of the rock that is really there.
 struct Truths {
+  // Signed distance to what lies between both. Where they are further apart than twice the limit within which a value
+  // counts as right, to the nearer one.
+  double error(int quantity, double value, double alert_limit) const;
+
   Truth road, surveyed;
 };
 
@@ -42,6 +46,8 @@ struct Setup {
   pose_wall_motion_settings motion;
 };
 
+// Of a delivered file, or the defaults.
+FloorRegion floor_region_in(const std::string& file);
 // The keys of a delivered file; what the engine does not know belongs to other programs.
 void read_settings(const std::string& file, pose_wall_config* config);
 
@@ -65,6 +71,7 @@ class Trial {
   Truths truths_at(const Pose& pose) const;
 
   Case tried_;
+  FloorRegion floor_;
   Draw draw_, drive_draw_;
   Road road_;
   int sensor_;

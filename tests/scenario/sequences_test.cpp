@@ -93,7 +93,7 @@ TEST(Sequences, OldCloudsAreNoticedWhateverComesBetween) {
         pose_wall_cloud cloud = is_empty ? cloud_of(Points(), 0) : cloud_of(frame);
         const tools::TruthRow truth = simulator.truth(i);
         cloud.stamp_ns = truth.stamp_ns;
-        const JudgedFrame judged{engine.process(cloud), truth};
+        const JudgedFrame judged{engine.process(cloud), truth, truth};
         expect_within_level(judged, i);
         for (std::uint32_t q = 0; i >= kFresh && q < POSE_WALL_QUANTITIES; ++q) {
           EXPECT_FALSE(judged.is(q, POSE_WALL_VALID)) << "frame " << i;

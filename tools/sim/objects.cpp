@@ -78,7 +78,6 @@ class Wallside {
 
 void add_fixtures(const Setup& setup, const Wallside& wall, int side, std::vector<Primitive>& out) {
   const Objects& o = setup.objects;
-  const Floor& f = setup.floor;
   if (has_side(o.pipe_side, side)) {
     for (int i = 0; i < static_cast<int>(o.pipe_count); ++i) {
       wall.add_pipe(o.pipe_height_m + i * o.pipe_spacing_m, o.pipe_radius_m, o.pipe_standoff_m, out);
@@ -93,10 +92,6 @@ void add_fixtures(const Setup& setup, const Wallside& wall, int side, std::vecto
   if (has_side(o.conveyor_side, side)) {
     wall.add_solid(Label::kObject, -kReach_m, kReach_m, o.conveyor_standoff_m,
                    o.conveyor_standoff_m + o.conveyor_width_m, o.conveyor_bottom_m, o.conveyor_top_m, out);
-  }
-  if (has_side(f.bench_side, side)) {
-    wall.add_solid(Label::kObject, -kReach_m, kReach_m, -kIntoRock_m, f.bench_width_m, -kIntoRock_m, f.bench_height_m,
-                   out);
   }
 }
 
@@ -151,6 +146,18 @@ std::vector<Primitive> road_objects(const Setup& setup, std::uint64_t seed) {
     add_visitors(setup, wall, side, random, out);
   }
   add_clutter(setup, random, out);
+  return out;
+}
+
+std::vector<Primitive> benches(const Setup& setup) {
+  const Floor& f = setup.floor;
+  std::vector<Primitive> out;
+  for (const int side : {1, -1}) {
+    if (!has_side(f.bench_side, side)) continue;
+    Wallside(setup, side)
+        .add_solid(Label::kObject, -kReach_m, kReach_m, -kIntoRock_m, f.bench_width_m, -kIntoRock_m, f.bench_height_m,
+                   out);
+  }
   return out;
 }
 

@@ -15,5 +15,6 @@ namespace pose_wall::tools::sim {
 std::vector<Primitive> road_objects(const Setup& setup, std::uint64_t seed);
 // The narrow place: part of the rock, though built of boxes.
 std::vector<Primitive> narrow_place(const Setup& setup);
+std::vector<Primitive> benches(const Setup& setup);
 
 }  // namespace pose_wall::tools::sim

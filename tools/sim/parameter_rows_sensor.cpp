@@ -31,6 +31,8 @@ const std::vector<Parameter> kSensorRows = {
     SENSOR(window_from_deg, "deg", -360.0, 360.0, "it measures only from this of its own azimuths (+ left) ..."),
     SENSOR(window_to_deg, "deg", -360.0, 360.0, "... counter-clockwise to this one; equal: all around"),
     SENSOR(unit_scale, "1", 0.001, 1000.0, "1000: a driver that delivers millimetres"),
+    SENSOR(floor_from_m, "m", 0.0, 15.0, "the floor's region begins so far ahead and behind, for truth and engine"),
+    SENSOR(floor_to_m, "m", 1.0, 20.0, "the floor's region ends here"),
 
     FAULT(dropout, "1", 0.0, 1.0, "share of returns that are lost"),
     FAULT(dust, "1", 0.0, 1.0, "share of beams that end in dust"),

@@ -27,6 +27,21 @@ Sensor rotating(const char* name, double rings, double columns, double elevation
   return sensor;
 }
 
+// Where a sensor of this lowest beam sees the floor well from 1.3 m above it, and twice as far: as in config/. One that
+// looks down steeply sees the floor from the machine's end on.
+Sensor with_floor(Sensor sensor) {
+  struct Look {
+    double lowest_deg, from_m, to_m;
+  };
+  for (const Look& look : {Look{-12.0, 8.0, 16.0}, Look{-19.0, 5.0, 10.0}, Look{-30.0, 4.0, 8.0}}) {
+    if (sensor.elevation_min_deg < look.lowest_deg) continue;
+    sensor.floor_from_m = look.from_m;
+    sensor.floor_to_m = look.to_m;
+    break;
+  }
+  return sensor;
+}
+
 Sensor non_repetitive() {
   Sensor sensor = rotating("mid360", 0.0, 0.0, 0.0, 0.02, 40.0);
   sensor.pattern_points = 20000.0;
@@ -77,7 +92,7 @@ Sensor real_sensor(const BeamTable& table) {
   sensor.range_floor_m = table.ranges.min_m;
   sensor.range_ceiling_m = table.ranges.max_m;
   sensor.divergence_deg = table.ranges.beam_deg;
-  return sensor;
+  return with_floor(sensor);
 }
 
 std::string help_of(const BeamTable& table) {
@@ -146,11 +161,11 @@ std::vector<Beam> pattern_beams(const Sensor& sensor, std::uint32_t frame_index)
 
 const std::vector<SensorModel>& sensor_models() {
   static const std::vector<SensorModel> models = {
-      {rotating("vlp16", 16.0, 1800.0, 15.0, 0.02, 100.0), "16 rings, -15 to 15 deg, 1800 columns, 2 cm noise", 0.0,
-       few_points("15.0", "0.015")},
-      {rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0), "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise",
-       0.0, more_points()},
-      {rotating("os0-128", 128.0, 1024.0, 45.0, 0.015, 50.0),
+      {with_floor(rotating("vlp16", 16.0, 1800.0, 15.0, 0.02, 100.0)),
+       "16 rings, -15 to 15 deg, 1800 columns, 2 cm noise", 0.0, few_points("15.0", "0.015")},
+      {with_floor(rotating("os1-64", 64.0, 1024.0, 22.5, 0.012, 90.0)),
+       "64 rings, -22.5 to 22.5 deg, 1024 columns, 1.2 cm noise", 0.0, more_points()},
+      {with_floor(rotating("os0-128", 128.0, 1024.0, 45.0, 0.015, 50.0)),
        "128 rings, -45 to 45 deg, 1024 columns, 1.5 cm noise",
        0.0,
        {{"range_bias_max", kBiasMost_m}}},

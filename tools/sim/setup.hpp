@@ -211,7 +211,9 @@ struct Sensor {
   double noise_dark_most = 1.0;    // noise grows with the root of the light that is missing, this often at most
   double window_from_deg = 0.0;    // it measures only between these of its own azimuths, + left; from == to: all around
   double window_to_deg = 0.0;
-  double unit_scale = 1.0;  // 1000: a driver that delivers millimetres
+  double unit_scale = 1.0;    // 1000: a driver that delivers millimetres
+  double floor_from_m = 1.5;  // the floor's region of the truth, and of the engine's config: where it begins ...
+  double floor_to_m = 3.5;    // ... and ends
 };
 
 struct Faults {

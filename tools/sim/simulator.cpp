@@ -137,7 +137,7 @@ TruthRow Simulator::truth(std::uint32_t frame_index, StepRule rule) const {
 
 TruthRow Simulator::surveyed_truth(std::uint32_t frame_index) const {
   const Placement at = truth_moment(frame_index).at;
-  return with_pose(survey_truth(world_, at, setup_.machine), frame_index, at);
+  return with_pose(survey_truth(world_, at, setup_.machine, setup_.sensor), frame_index, at);
 }
 
 std::int64_t Simulator::stamp_ns(std::uint32_t frame_index) const {

@@ -39,7 +39,8 @@ class Simulator {
   Frame render(std::uint32_t frame_index) const;
   // By the ideal road; of a real one, surveyed.
   TruthRow truth(std::uint32_t frame_index, StepRule rule = StepRule::kSquare) const;
-  // By planes of the rock that is really there (survey_truth.hpp), steel sets with it, heaps and bodies without.
+  // By planes of the ground that is really there (survey_truth.hpp), steel sets, heaps and benches with it, bodies
+  // without.
   TruthRow surveyed_truth(std::uint32_t frame_index) const;
 
  private:

@@ -113,20 +113,27 @@ struct FoundPlane {
   double d_m;
 };
 
+// From near_a to far_a along a, on either side, and from low_b to high_b along b.
+struct Extent {
+  double near_a_m, far_a_m, low_b_m, high_b_m;
+};
+
 // Rays from a plane through `middle` with axes a and b, that go along c.
 std::optional<FoundPlane> probe(const RockSurface& rock, const Vector& middle, const Vector& a, const Vector& b,
-                                const Vector& c, double half_a_m, double low_b_m, double high_b_m) {
+                                const Vector& c, const Extent& extent) {
   std::vector<Probe> probes;
   std::size_t sent = 0;
-  for (double at_a = -half_a_m; at_a <= half_a_m + 1e-9; at_a += kStep_m) {
-    for (double at_b = low_b_m; at_b <= high_b_m + 1e-9; at_b += kStep_m) {
+  for (double at_a = -extent.far_a_m; at_a <= extent.far_a_m + 1e-9; at_a += kStep_m) {
+    if (std::abs(at_a) < extent.near_a_m - 1e-9) continue;
+    for (double at_b = extent.low_b_m; at_b <= extent.high_b_m + 1e-9; at_b += kStep_m) {
       ++sent;
       const Hit hit = rock.trace({middle + at_a * a + at_b * b, c}, kProbe_m);
       if (hit.label != Label::kNone) probes.push_back({at_a, at_b, hit.t_m});
     }
   }
   leave_openings(&probes);
-  const std::optional<Plane3> plane = fit_plane(probes, sent, 0.5 * (low_b_m + high_b_m), 0.5 * half_a_m);
+  const std::optional<Plane3> plane =
+      fit_plane(probes, sent, 0.5 * (extent.low_b_m + extent.high_b_m), 0.5 * (extent.near_a_m + extent.far_a_m));
   if (!plane) return std::nullopt;
   const Vector on = middle + (*plane)[0] * c;
   const Vector n = ((*plane)[1] * a + (*plane)[2] * b - c).normalized();
@@ -135,13 +142,14 @@ std::optional<FoundPlane> probe(const RockSurface& rock, const Vector& middle, c
 
 }  // namespace
 
-TruthRow survey_truth(const RockSurface& rock, const Placement& base, const Machine& machine) {
+TruthRow survey_truth(const RockSurface& rock, const Placement& base, const Machine& machine, const Sensor& sensor) {
   TruthRow row;
   const Vector ahead_road = base.R_road_base * forward_axis(machine);
   const Vector ahead_level = Vector(ahead_road.x(), ahead_road.y(), 0.0).normalized();
   const Vector left_level = Vector::UnitZ().cross(ahead_level);
-  const std::optional<FoundPlane> floor = probe(rock, base.origin_road, ahead_level, left_level, -Vector::UnitZ(),
-                                                kFloorAlong_m, -kFloorAcross_m, kFloorAcross_m);
+  const std::optional<FoundPlane> floor =
+      probe(rock, base.origin_road, ahead_level, left_level, -Vector::UnitZ(),
+            {sensor.floor_from_m, sensor.floor_to_m, -kFloorAcross_m, kFloorAcross_m});
   if (!floor) return row;
   const Vector up_base = base.R_road_base.transpose() * floor->n;
   row.value[0] = std::atan2(up_base.y(), up_base.z());
@@ -154,8 +162,8 @@ TruthRow survey_truth(const RockSurface& rock, const Placement& base, const Mach
   Vector along = Vector::Zero();
   std::size_t quantity = 3;
   for (const int side : {1, -1}) {
-    const std::optional<FoundPlane> wall = probe(rock, base.origin_road, ahead, floor->n, side * left, kWallAlong_m,
-                                                 kWallLow_m - height_m, kWallHigh_m - height_m);
+    const std::optional<FoundPlane> wall = probe(rock, base.origin_road, ahead, floor->n, side * left,
+                                                 {0.0, kWallAlong_m, kWallLow_m - height_m, kWallHigh_m - height_m});
     for (const double s : {machine.s_front_m, machine.s_back_m}) {
       const Vector P = base.origin_road + s * ahead_road;
       if (wall) row.value[quantity] = std::abs(wall->n.dot(P) + wall->d_m);

@@ -13,14 +13,14 @@
 
 namespace pose_wall::tools::sim {
 
-// Half lengths of the regions about base; heights are above the floor.
-inline constexpr double kFloorAlong_m = 3.0, kFloorAcross_m = 1.125, kWallAlong_m = 2.5, kWallLow_m = 0.25,
-                        kWallHigh_m = 2.5;
+// Half lengths of the regions about base; heights are above the floor. Of the floor the sensor tells how far along.
+inline constexpr double kFloorAcross_m = 1.125, kWallAlong_m = 2.5, kWallLow_m = 0.25, kWallHigh_m = 2.5;
 
 // How far a probe looks for rock: wider than any roadway.
 inline constexpr double kProbe_m = 30.0;
 
 // Values alone: without pose and stamp.
-TruthRow survey_truth(const RockSurface& rock, const Placement& base, const Machine& machine);
+TruthRow survey_truth(const RockSurface& rock, const Placement& base, const Machine& machine,
+                      const Sensor& sensor = {});
 
 }  // namespace pose_wall::tools::sim

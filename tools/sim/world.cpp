@@ -63,8 +63,10 @@ World::World(const Setup& setup, std::uint64_t seed)
   surfaces_ = road_surfaces(setup, tile_.get(), seed);
   recesses_ = road_recesses(setup, tile_.get(), seed);
   objects_ = road_objects(setup, seed);
-  const std::vector<Primitive> narrow = narrow_place(setup);
-  objects_.insert(objects_.end(), narrow.begin(), narrow.end());
+  for (const std::vector<Primitive>& places : {narrow_place(setup), benches(setup)}) {
+    ground_.insert(ground_.end(), places.begin(), places.end());
+  }
+  objects_.insert(objects_.end(), ground_.begin(), ground_.end());
 }
 
 World World::mean(const Setup& setup) {
@@ -107,23 +109,24 @@ Hit World::trace(const Ray& ray, double t_max_m, const std::vector<Primitive>& t
   return best;
 }
 
+// Of ground: heaps and benches lie there, and what stands out from a wall for a while is rock.
 Hit World::trace(const Ray& ray, double t_max_m) const {
-  return trace_surfaces(ray, t_max_m, false);
-}
-
-Hit World::trace_ground(const Ray& ray, double t_max_m) const {
-  return trace_surfaces(ray, t_max_m, true);
+  Hit best = trace_ground(ray, t_max_m);
+  for (const Primitive& place : ground_) {
+    double cosine = 1.0;
+    const double t = place.hit(ray, &cosine);
+    if (t < best.t_m && t < t_max_m) best = {t, cosine, place.label, 0};
+  }
+  return best;
 }
 
 // Surfaces in the order in which the ray comes into their reach; those it reaches after the best hit are not searched.
-Hit World::trace_surfaces(const Ray& ray, double t_max_m, bool heaps) const {
+Hit World::trace_ground(const Ray& ray, double t_max_m) const {
   if (surveyed_) return surveyed_->trace(ray, t_max_m);
   std::array<double, kMostSurfaces> start{};
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const RoadSurface& s = surfaces_[i];
-    start[i] = s.label == Label::kMuck && !heaps
-                   ? kNever
-                   : s.surface.enter(ray, std::max(s.surface.relief.reach_m(), s.steel ? rock_.steel_depth_m : 0.0));
+    start[i] = s.surface.enter(ray, std::max(s.surface.relief.reach_m(), s.steel ? rock_.steel_depth_m : 0.0));
   }
   Hit best;
   best.t_m = t_max_m;

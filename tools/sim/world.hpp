@@ -39,7 +39,6 @@ class World final : public RockSurface {
 
  private:
   World() = default;
-  Hit trace_surfaces(const Ray& ray, double t_max_m, bool heaps) const;
   void hit_wall_or_recess(const RoadSurface& wall, const Ray& ray, double t_start, Hit* best) const;
   double hit_steel(const RoadSurface& behind, const Ray& ray, double t_behind) const;
 
@@ -51,7 +50,7 @@ class World final : public RockSurface {
   NoiseLayer puddles_, texture_;
   std::vector<RoadSurface> surfaces_;
   std::vector<Recess> recesses_;
-  std::vector<Primitive> objects_;
+  std::vector<Primitive> objects_, ground_;  // the latter are some of them
 };
 
 }  // namespace pose_wall::tools::sim

@@ -47,7 +47,8 @@ struct UnevenPlane::Model {
   Eigen::Vector3d correction, bias_response;
   Eigen::Matrix3d covariance;
   double log_likelihood;
-  double scale;  // of the variances
+  double scale;                   // of the variances
+  Eigen::Matrix3d about_endless;  // of predict()
 };
 
 // By the number of the model: without waves, then wave by wave.
@@ -60,6 +61,7 @@ struct UnevenPlane::Models {
     evidence.log_likelihood[number] = static_cast<float>(of[number].log_likelihood);
   }
   UnevenFit average(double freedom, double sigmas) const;
+  Eigen::Matrix3d about_endless() const;
 };
 
 UnevenFit UnevenPlane::Models::average(double freedom, double sigmas) const {
@@ -80,6 +82,16 @@ UnevenFit UnevenPlane::Models::average(double freedom, double sigmas) const {
     out.covariance += weights[k] * apart * apart.transpose();
   }
   out.dof = spread_of_mixture(weights, slopes, freedom, sigmas).dof;
+  return out;
+}
+
+Eigen::Matrix3d UnevenPlane::Models::about_endless() const {
+  Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
+  double weights[kWaveModels];
+  if (!weigh_models(evidence, WaveEvidence{}, &weights)) return out;
+  for (std::uint32_t k = 0; k < kWaveModels; ++k) {
+    if (evidence.solved[k]) out += weights[k] * of[k].about_endless;
+  }
   return out;
 }
 
@@ -392,9 +404,20 @@ Eigen::Vector3d UnevenPlane::passed(std::uint32_t i) const {
   return {static_cast<double>(passed_[i][0]), static_cast<double>(passed_[i][1]), static_cast<double>(passed_[i][2])};
 }
 
+// Variance of a height that its neighbours leave, before it is scaled.
+double UnevenPlane::left_of(const std::uint32_t* wave, double tau2, std::uint32_t i) const {
+  return wave != nullptr ? static_cast<double>(left_[*wave * kFours + i / kFour][i % kFour]) : tau2;
+}
+
 // Turns a model's endless plane into the region's. What is not seen is what its neighbours predict, beside the plane.
 void UnevenPlane::complete(Span<const SurfacePatch> patches, std::uint32_t seen, Span<const Eigen::Vector3d> responses,
                            const std::uint32_t* wave, double tau2, Model* model) {
+  model->about_endless.setZero();
+  pass_on(0, responses, wave);
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    const Eigen::Vector3d to = passed(i);
+    model->about_endless += model->scale * left_of(wave, tau2, i) * to * to.transpose();
+  }
   pass_on(seen, responses, wave);
   Eigen::Matrix3d unknown = Eigen::Matrix3d::Zero(), by_plane = Eigen::Matrix3d::Zero();
   Eigen::Vector3d value = Eigen::Vector3d::Zero(), bias = Eigen::Vector3d::Zero();
@@ -403,8 +426,7 @@ void UnevenPlane::complete(Span<const SurfacePatch> patches, std::uint32_t seen,
     const Eigen::Vector3d by_waves = passed(i);
     const Eigen::RowVector3d row(1.0, p.u, p.v);
     if (i >= seen) {
-      const double left = wave != nullptr ? static_cast<double>(left_[*wave * kFours + i / kFour][i % kFour]) : tau2;
-      unknown += left * by_waves * by_waves.transpose();
+      unknown += left_of(wave, tau2, i) * by_waves * by_waves.transpose();
       by_plane += responses[i] * row;
       continue;
     }
@@ -485,6 +507,7 @@ PredictedPlane UnevenPlane::predict(Span<const SurfacePatch> patches, std::uint3
     }
   }
   static_cast<UnevenFit&>(out) = models.average(freedom, sigmas);
+  out.about_endless = models.about_endless();
   if (!out.solved) return out;
   const std::uint32_t wave = likeliest - 1;
   pass_on(seen, responses, likeliest > 0 ? &wave : nullptr);

@@ -32,6 +32,8 @@ struct UnevenFit {
 
 // The plane of a region.
 struct PredictedPlane : UnevenFit {
+  // How the waves turn and shift it about the endless plane that they ride on.
+  Eigen::Matrix3d about_endless = Eigen::Matrix3d::Zero();
   // What is missing of the correction where the surface bends by u² or v², in 1 / m: none where all is seen.
   Eigen::Matrix<double, 3, 2> missing_of_bend = Eigen::Matrix<double, 3, 2>::Zero();
 };
@@ -93,6 +95,7 @@ class UnevenPlane {
                       Models* models);
   void pass_on(std::uint32_t first, Span<const Eigen::Vector3d> responses, const std::uint32_t* wave);
   Eigen::Vector3d passed(std::uint32_t i) const;
+  double left_of(const std::uint32_t* wave, double tau2, std::uint32_t i) const;
   Eigen::Matrix<double, 3, 2> missing_of_bend(Span<const SurfacePatch> patches, std::uint32_t seen,
                                               Span<const Eigen::Vector3d> responses, const std::uint32_t* wave) const;
   void complete(Span<const SurfacePatch> patches, std::uint32_t seen, Span<const Eigen::Vector3d> responses,

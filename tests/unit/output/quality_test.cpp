@@ -46,7 +46,12 @@ struct Scene {
   JudgedWall walls[2] = {good_wall(), good_wall()};
   Settings settings = test::settings_with({{"range_bias_max", "0.03"}, {"integrity_risk", "5.733e-7"}});
 
-  Measurements measured() const { return measure_quantities(floor, levelling, walls, settings); }
+  // Of endless walls.
+  Measurements measured() const {
+    MeasuredWalls found;
+    for (int side = 0; side < 2; ++side) found.side[side] = walls[side];
+    return measure_quantities(floor, levelling, found, settings);
+  }
 };
 
 TEST(Quality, GoodFitsMeasureAllSeven) {
@@ -195,6 +200,45 @@ TEST(Quality, YawByThingsThatMayBeNoWallsIsNotKnown) {
     scene.walls[1].fit.refused = is_alone;
     EXPECT_GE(scene.measured().quantity[POSE_WALL_YAW].protection.sum(), 0.44) << is_alone;
   }
+}
+
+// The sides' regions beside the machine: one of a kind, with a wall that is turned so far.
+struct Regions : Scene {
+  explicit Regions(RegionWall::Kind left, RegionWall::Kind right) {
+    found.has_regions = true;
+    for (int side = 0; side < 2; ++side) {
+      found.side[side] = found.endless[side] = walls[side];
+      found.region[side].kind = side == 0 ? left : right;
+      found.region[side].wall = good_wall(side == 0 ? 0.10 : 0.04, 0.0005);
+    }
+  }
+  Measurement yaw() const { return measure_quantities(floor, levelling, found, settings).quantity[POSE_WALL_YAW]; }
+  MeasuredWalls found;
+};
+
+using Kind = RegionWall::Kind;
+
+// However well each is known: by the definition each wall counts once, and a side that is none does not.
+TEST(Quality, YawIsTheMeanOfTheRegionsWallsOrOfOneWhereTheOtherIsNone) {
+  Regions both(Kind::kWall, Kind::kWall);
+  both.found.region[0].wall.yaw_sigma_rad *= 3.0;
+  EXPECT_NEAR(both.yaw().raw, 0.07, 1e-12);
+  EXPECT_NEAR(Regions(Kind::kNone, Kind::kWall).yaw().raw, 0.04, 1e-12);
+}
+
+TEST(Quality, YawReachesToEachReadingOfADoubtfulSide) {
+  const Measurement yaw = Regions(Kind::kWall, Kind::kDoubtful).yaw();
+  EXPECT_GT(yaw.protection.sum(), std::fabs(yaw.raw - 0.10));
+  EXPECT_LT(yaw.protection.sum(), 0.2);
+}
+
+TEST(Quality, YawIsOfTheEndlessWallsWhereARegionIsUnknownOrTheyAreKnownBetter) {
+  EXPECT_NEAR(Regions(Kind::kUnknown, Kind::kWall).yaw().raw, 0.02, 1e-12);
+  Regions agree(Kind::kWall, Kind::kWall);
+  for (RegionWall& region : agree.found.region) region.wall.yaw_sigma_rad = 0.02;
+  EXPECT_NEAR(agree.yaw().raw, 0.02, 1e-12);
+  for (RegionWall& region : agree.found.region) region.wall.yaw_rad = 0.3;
+  EXPECT_NEAR(agree.yaw().raw, 0.3, 1e-12) << "far beyond both levels, the endless walls are other surfaces";
 }
 
 // The level alone tells how good a value is: a doubt adds its reason here, and its bound where it is raised.

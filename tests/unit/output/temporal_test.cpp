@@ -614,6 +614,18 @@ TEST(TemporalStamps, ALeapStartsSmoothingAfresh) {
   EXPECT_EQ(life.measured(30000, 2.4).value, 2.4);
 }
 
+// A rival that was seen before a leap, or frames that were refused, are of another place.
+TEST(TemporalStamps, ALeapStartsDoubtsAndConfirmationsAfresh) {
+  Life doubted({{"stamp_gap_max", "1.0"}});
+  doubted.ambiguous(0, 2.0, 9.0);
+  EXPECT_NE(doubted.measured(100, 2.0).state, POSE_WALL_VALID) << "the rival is not forgotten so soon";
+  EXPECT_EQ(doubted.measured(30000, 2.4).state, POSE_WALL_VALID);
+  Life refused({{"stamp_gap_max", "1.0"}});
+  refused.missing(0);
+  EXPECT_NE(refused.measured(100, 2.0).state, POSE_WALL_VALID) << "one of several looks at the same thing";
+  EXPECT_EQ(refused.measured(30000, 2.4).state, POSE_WALL_VALID);
+}
+
 TEST(TemporalStamps, ALeapWhileHeldExpires) {
   Life life;
   life.measured(0, 2.0);

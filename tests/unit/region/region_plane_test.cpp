@@ -31,19 +31,24 @@ Region region_beside() {
   region.u = Eigen::Vector3d::UnitX();
   region.v = Eigen::Vector3d::UnitZ();
   region.h = Eigen::Vector3d::UnitY();
-  region.u_min_m = -2.5;
-  region.u_max_m = 2.5;
+  region.u_from_m = 0.0;
+  region.u_to_m = 2.5;
   region.v_min_m = -1.125;
   region.v_max_m = 1.125;
   region.h_min_m = 0.3;
   region.sensor_m = Eigen::Vector3d::Zero();
-  region.bend_per_m = 0.1;
+  region.bend_per_m.fill(0.1);
   return region;
 }
 
-RegionPlane plane_of(const Surface& surface, test::Noise* noise) {
-  test::OwnedPoints points(8192);
-  for (double u = -2.96; u < 3.0; u += 0.08) {
+struct Fitted {
+  RegionPlane plane;
+  double step_ahead_m, step_behind_m;  // about two metres away
+};
+
+Fitted fitted(const Surface& surface, test::Noise* noise, const Region& region = region_beside()) {
+  test::OwnedPoints points(32768);
+  for (double u = -region.u_to_m - 0.46; u < region.u_to_m + 0.5; u += 0.08) {
     for (double v = -1.56; v < 1.6; v += 0.08) {
       const double h = surface(u, v);
       if (!std::isnan(h)) points.add(u, h + noise->normal(kNoise_m), v, 4.0F);
@@ -52,7 +57,12 @@ RegionPlane plane_of(const Surface& surface, test::Noise* noise) {
   test::Placed<RegionFit> fit;
   test::Placed<UnevenPlane> waves;
   Work work;
-  return fit->fit(points.set(), region_beside(), test::settings_with(), waves.get(), &work);
+  const RegionPlane plane = fit->fit(points.set(), region, test::settings_with(), waves.get(), &work);
+  return {plane, fit->step_at(2.0, plane.at), fit->step_at(-2.0, plane.at)};
+}
+
+RegionPlane plane_of(const Surface& surface, test::Noise* noise) {
+  return fitted(surface, noise).plane;
 }
 
 double level(const RegionPlane& plane, const Eigen::Vector3d& of) {
@@ -160,12 +170,10 @@ TEST(RegionPlane, LevelReachesToABendOfWhatIsNotSeen) {
 
 TEST(RegionPlane, LevelReachesToTheWallBehindThings) {
   test::Noise noise(5);
-  for (const double upto_m : {-0.7, -0.4, -0.1}) {
-    // A heap that leans against the wall, up to some height.
-    const auto heap = [upto_m](double, double v) {
-      return v < upto_m ? kDistance_m - 0.8 * (upto_m - v) : kDistance_m;
-    };
-    const RegionPlane plane = plane_of(heap, &noise);
+  for (const double upto_m : {0.3, 0.5, 0.7}) {
+    // Pipes that leave the top and the foot of the wall free.
+    const auto pipes = [upto_m](double, double v) { return std::fabs(v) < upto_m ? kDistance_m - 0.25 : kDistance_m; };
+    const RegionPlane plane = plane_of(pipes, &noise);
     ASSERT_TRUE(plane.found);
     EXPECT_LT(std::fabs(plane.at[0] - kDistance_m), level(plane, kOffset)) << upto_m;
   }
@@ -175,6 +183,45 @@ TEST(RegionPlane, LevelReachesToTheWallBehindThings) {
 TEST(RegionPlane, OfTwoHalvesApartIsNoSureWall) {
   test::Noise noise(8);
   EXPECT_FALSE(plane_of([](double u, double) { return u > 0.0 ? 2.0 : 2.8; }, &noise).is_there());
+}
+
+// What lies between the two parts of a region is not of it, whatever it is.
+TEST(RegionPlane, OfARingLeavesItsMiddleOut) {
+  test::Noise noise(9);
+  Region ring = region_beside();
+  ring.u_from_m = 4.0;
+  ring.u_to_m = 8.0;
+  const auto pit = [](double u, double v) {
+    return kDistance_m + 0.02 * u + 0.01 * v + (std::fabs(u) < 3.4 ? 1.0 : 0.0);
+  };
+  const RegionPlane plane = fitted(pit, &noise, ring).plane;
+  ASSERT_TRUE(plane.is_there());
+  EXPECT_NEAR(plane.at[0], kDistance_m, 5e-3);
+  EXPECT_NEAR(plane.at[1], 0.02, 1e-3);
+  EXPECT_NEAR(plane.at[2], 0.01, 3e-3);
+  EXPECT_GT(plane.seen_at_ends, 0.95);
+}
+
+// A niche about one sampling point leaves the wall, but the distance there is that of the niche.
+TEST(RegionPlane, StepsAreToldWhereMostOfTheSurfaceIsAnother) {
+  test::Noise noise(10);
+  const Fitted niche = fitted([](double u, double) { return u > 1.4 ? kDistance_m + 0.6 : kDistance_m; }, &noise);
+  EXPECT_NEAR(niche.step_ahead_m, 0.6, 0.1);
+  EXPECT_EQ(niche.step_behind_m, 0.0);
+}
+
+// An endless plane is uncertain as that of the region by as much as the rock waves.
+TEST(RegionPlane, WavesTurnItAboutAnEndlessPlane) {
+  test::Noise noise(11);
+  const RegionPlane smooth = plane_of([](double, double) { return kDistance_m; }, &noise);
+  const auto waves = [](double u, double v) {
+    return kDistance_m + 0.05 * std::sin(2.0 * u + 0.7) + 0.05 * std::sin(3.0 * v);
+  };
+  const RegionPlane wavy = plane_of(waves, &noise);
+  const Eigen::Vector3d slope(0.0, 1.0, 0.0);
+  EXPECT_LT(smooth.sigma_about_endless(slope), 1e-3);
+  EXPECT_GT(wavy.sigma_about_endless(slope), 5e-3);
+  EXPECT_LT(wavy.sigma_about_endless(slope), 0.1);
 }
 
 TEST(RegionPlane, OfAnOpeningIsNone) {
