@@ -243,16 +243,10 @@ bool load_memory(const void* from, std::uint32_t config_crc32, pose_wall_moment*
   const unsigned char* const bytes = static_cast<const unsigned char*>(from);
   if (word_at(bytes) != kVersion) return false;
   if (word_at(bytes + 8) != checksum(config_crc32, bytes + 8 * kHeadWords, body_bytes())) return false;
-  pose_wall_moment read_moment{};
-  Memory read;
   Reader reader(bytes + 8 * kHeadWords);
-  visit(&reader, &read_moment);
-  visit(&reader, &read);
-  if (!reader.good()) return false;
-  Reader again(bytes + 8 * kHeadWords);  // a copy would bring unwritten padding along
-  visit(&again, then);
-  visit(&again, memory);
-  return true;
+  visit(&reader, then);
+  visit(&reader, memory);
+  return reader.good();
 }
 
 void take_up(const Memory& memory, const pose_wall_moment& then, const pose_wall_moment& now, Engine* engine) {

@@ -13,7 +13,7 @@ namespace pose_wall {
 
 std::uint64_t memento_bytes();
 void save_memory(const Memory& memory, const pose_wall_moment& now, std::uint32_t config_crc32, void* to);
-// False, and *then and *memory unchanged, where `from` is damaged, of another version or of another config.
+// False, and *then and *memory of no use, where `from` is damaged, of another version or of another config.
 bool load_memory(const void* from, std::uint32_t config_crc32, pose_wall_moment* then, Memory* memory);
 // Gives it to an engine, with its age from the two moments.
 void take_up(const Memory& memory, const pose_wall_moment& then, const pose_wall_moment& now, Engine* engine);

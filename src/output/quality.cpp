@@ -141,6 +141,13 @@ Measurement yaw_by_both(const JudgedWall (&walls)[2], const FloorResult& floor, 
   return yaw_measurement(raw, stretch * stretch / information, bound, dof, tilt_share, floor, s);
 }
 
+// The direction may be that of one wall alone.
+void reach_to_one(const JudgedWall& wall, const FloorResult& floor, const Levelling& levelling, const Settings& s,
+                  Measurement* yaw) {
+  const Measurement alone = yaw_by_one(wall, floor, levelling, s);
+  yaw->protection.reach(std::fabs(yaw->raw - alone.raw) + alone.protection.sum(), POSE_WALL_PART_RIVAL);
+}
+
 // If one of two walls is none, the other one alone gives the direction (solution separation: Blanch et al. 2015). If
 // nothing but things that may be no wall is left, the direction is that of a thing.
 void reach_without_things(const FloorResult& floor, const Levelling& levelling, const JudgedWall (&walls)[2],
@@ -153,8 +160,7 @@ void reach_without_things(const FloorResult& floor, const Levelling& levelling, 
       yaw->protection[POSE_WALL_PART_RIVAL] += kThing_rad;
       return;
     }
-    const Measurement alone = yaw_by_one(other, floor, levelling, s);
-    yaw->protection.reach(std::fabs(yaw->raw - alone.raw) + alone.protection.sum(), POSE_WALL_PART_RIVAL);
+    reach_to_one(other, floor, levelling, s, yaw);
   }
 }
 
@@ -193,15 +199,13 @@ Measurement yaw_by_regions(const FloorResult& floor, const Levelling& levelling,
     per_dof += w * w / wall.yaw_dof;
     bound.add(yaw_bound_of(wall, floor, levelling), w);
     tilt_share = larger(tilt_share, tilt_to_yaw(wall, levelling));
-    m.reasons |= wall.fit.reasons;
   }
   m = yaw_measurement(raw, variance, bound, 1.0 / per_dof, tilt_share, floor, s);
   for (int side = 0; side < 2; ++side) {
     const RegionWall &doubtful = regions[side], &other = regions[1 - side];
     if (doubtful.kind != RegionWall::Kind::kDoubtful) continue;
     if (!other.has_plane()) return {};  // it may be that neither is a wall
-    const Measurement alone = yaw_by_one(other.wall, floor, levelling, s);
-    m.protection.reach(std::fabs(m.raw - alone.raw) + alone.protection.sum(), POSE_WALL_PART_RIVAL);
+    reach_to_one(other.wall, floor, levelling, s, &m);
   }
   return m;
 }

@@ -91,11 +91,11 @@ void RegionCells::find_layers() {
     if (cell.open || !cell.seen) continue;
     cell.u = static_cast<double>((bin[best].u + bin[best + 1].u) / most);
     cell.v = static_cast<double>((bin[best].v + bin[best + 1].v) / most);
-    cell.h = cell.first_h = static_cast<double>((bin[best].h + bin[best + 1].h) / most);
+    cell.h = cell.first_h = (bin[best].h + bin[best + 1].h) / most;
     for (std::uint32_t j = 0; j + 1 < best; ++j) {
       const float count = bin[j].count + bin[j + 1].count;
       if (count < kLayerMin) continue;
-      cell.first_h = static_cast<double>((bin[j].h + bin[j + 1].h) / count);
+      cell.first_h = (bin[j].h + bin[j + 1].h) / count;
       break;
     }
   }

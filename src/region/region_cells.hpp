@@ -29,9 +29,10 @@ struct Region {
 };
 
 struct RegionCell {
-  double u, v, h;  // mean of the layer that most points lie in; the cell's middle where nothing is seen
-  double first_h;  // of the first layer of several points: what a surveyor's ray may meet
-  double weight;   // of the plane's: set by the fit
+  double u, v;    // mean of the layer that most points lie in; the cell's middle where nothing is seen
+  float h;        // of that layer
+  float first_h;  // of the first layer of several points: what a surveyor's ray may meet
+  double weight;  // of the plane's: set by the fit
   bool seen;
   bool open;    // seen through an opening: it shows no surface of the region
   bool inside;  // the region, not the margin beside it

@@ -62,6 +62,7 @@ struct RegionPlane {
   std::uint32_t count_ = 0;
 };
 
+// A value, and what bounds its error.
 struct Known {
   double value, level;
 };

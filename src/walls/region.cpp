@@ -154,8 +154,8 @@ JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPla
   return wall;
 }
 
-// A side without an endless wall shows none in its region either, but it may be shown to have none. The endless wall is
-// widened to stand for the region's.
+// A side without an endless wall shows none in its region either, but it may be shown to have none. The endless
+// distances are widened to stand for the region's.
 RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless, WallsScratch* scratch) {
   using Kind = RegionWall::Kind;
   RegionWall out;

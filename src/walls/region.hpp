@@ -11,9 +11,9 @@
 
 namespace pose_wall {
 
-// Fills in both sides' regions and endless walls. A side becomes its region's wall, where that passes the gates of an
-// endless one, answers all over, and the sensor looks neither over nor past it; but not where the endless one is known
-// better and lies within the region's level. Both sides are refused if the budget is spent.
+// Fills in both sides' regions and endless walls. A side becomes its region's wall where that is one: it passes the
+// gates of an endless one, answers all over, and the sensor looks neither over nor past it. The endless wall stays
+// where it is known better and both agree. Both sides are refused if the budget is spent.
 void measure_wall_regions(const WallScene& scene, WallsScratch* scratch, MeasuredWalls* walls);
 
 }  // namespace pose_wall

@@ -15,6 +15,7 @@ namespace pose_wall {
 
 struct WallsScratch {
   ProposeScratch propose;
+  WallCandidates beside[2];  // of this frame, left and right: too large for the stack of all fits
   WallGrid grid;
   WallFitScratch fit;
   SightScratch sight;

@@ -47,7 +47,7 @@ WallsResult find_walls(const WallScene& scene, const Plane* const last[2], Rando
   const Settings& s = scene.settings;
   Work& work = scratch->fit.work;
   const SideView views[2] = {{scene.forward_level, scene.left_level}, {scene.forward_level, -scene.left_level}};
-  WallCandidates beside[2];
+  WallCandidates(&beside)[2] = scratch->beside;
   thin_out(scene, &scratch->propose);
   propose_walls(scene, views, last, random, &scratch->propose, &beside);
   // Read before the same searches run ahead and behind.

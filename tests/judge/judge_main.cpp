@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // usage: pose_wall_judge [--seed FIRST] [--roads N] [--frames N] [--from FRAME] [--sensor NAME] [--quiet | --rich]
-// [--no-bias]
-//                        [--times on|off] [--motion on|off] [--work-max N] [--going drawn|stands|drives] [--all]
+//                        [--no-bias] [--times on|off] [--motion on|off] [--work-max N] [--going drawn|stands|drives]
+//                        [--all]
 //                        [--compare | --furnished | --near-walls | --write FOLDER]
 //
 // Judges the engine on N roads from the seed FIRST on, and prints tables: of all, by sensor and by feature, before them

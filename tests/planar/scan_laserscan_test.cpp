@@ -26,8 +26,8 @@ pose_wall_planar_laserscan half_turn(const std::vector<float>& ranges) {
   return message;
 }
 
-std::int32_t scan_of(const pose_wall_planar_laserscan& message, std::uint32_t infinite_is_open, float* room,
-                     pose_wall_planar_scan* scan) {
+std::int32_t scan_of_message(const pose_wall_planar_laserscan& message, std::uint32_t infinite_is_open, float* room,
+                             pose_wall_planar_scan* scan) {
   const pose_wall_planar_pose sensor = {0.5, 0.0, 0.1};
   return pose_wall_planar_scan_of_laserscan(&message, &sensor, 0.02, 77, infinite_is_open, room, scan);
 }
@@ -36,7 +36,7 @@ TEST(ScanLaserScan, InAndOutIsTheSameMessage) {
   const std::vector<float> ranges(361, 4.0F);
   const pose_wall_planar_laserscan message = half_turn(ranges);
   pose_wall_planar_scan scan{};
-  ASSERT_EQ(scan_of(message, 1, nullptr, &scan), POSE_WALL_OK);
+  ASSERT_EQ(scan_of_message(message, 1, nullptr, &scan), POSE_WALL_OK);
   EXPECT_EQ(scan.struct_size, sizeof(scan));
   EXPECT_EQ(scan.stamp_ns, 77);
   EXPECT_NEAR(scan.angle_min_rad + 360 * scan.angle_step_rad, M_PI / 2.0, 1e-7);
@@ -56,7 +56,7 @@ TEST(ScanLaserScan, InAndOutIsTheSameMessage) {
 TEST(ScanLaserScan, AnEndThatIsNotTheLastBeamsMiddleIsNotUsed) {
   const std::vector<float> ranges(360, 4.0F);  // one beam fewer than the end says
   pose_wall_planar_scan scan{};
-  ASSERT_EQ(scan_of(half_turn(ranges), 1, nullptr, &scan), POSE_WALL_OK);
+  ASSERT_EQ(scan_of_message(half_turn(ranges), 1, nullptr, &scan), POSE_WALL_OK);
   EXPECT_NEAR(scan.angle_step_rad, M_PI / 360.0, 1e-9);
 }
 
@@ -64,11 +64,11 @@ TEST(ScanLaserScan, InfinityIsUnknownUnlessTheDriverMeansOpen) {
   std::vector<float> ranges(361, kInfinite), room(361, 0.0F);
   ranges[7] = 3.0F;
   pose_wall_planar_scan scan{};
-  ASSERT_EQ(scan_of(half_turn(ranges), 0, room.data(), &scan), POSE_WALL_OK);
+  ASSERT_EQ(scan_of_message(half_turn(ranges), 0, room.data(), &scan), POSE_WALL_OK);
   EXPECT_EQ(scan.range_m, room.data());
   EXPECT_TRUE(std::isnan(scan.range_m[0]));
   EXPECT_EQ(scan.range_m[7], 3.0F);
-  ASSERT_EQ(scan_of(half_turn(ranges), 1, nullptr, &scan), POSE_WALL_OK);
+  ASSERT_EQ(scan_of_message(half_turn(ranges), 1, nullptr, &scan), POSE_WALL_OK);
   EXPECT_EQ(scan.range_m[0], kInfinite);
 }
 
@@ -78,7 +78,7 @@ TEST(ScanLaserScan, WhatIsNoScanIsRefused) {
   const auto with = [&](auto change) {
     pose_wall_planar_laserscan message = half_turn(ranges);
     change(message);
-    return scan_of(message, 1, nullptr, &scan);
+    return scan_of_message(message, 1, nullptr, &scan);
   };
   EXPECT_EQ(with([](auto& m) { m.count = 0; }), POSE_WALL_PLANAR_E_SCAN);
   EXPECT_EQ(with([](auto& m) { m.count = 7000; }), POSE_WALL_PLANAR_E_SCAN);
@@ -87,7 +87,7 @@ TEST(ScanLaserScan, WhatIsNoScanIsRefused) {
   EXPECT_EQ(with([](auto& m) { m.angle_increment = 0.0F, m.angle_max = m.angle_min; }), POSE_WALL_PLANAR_E_SCAN);
   EXPECT_EQ(with([](auto& m) { m.range_max = kInfinite; }), POSE_WALL_PLANAR_E_SCAN);
   EXPECT_EQ(with([](auto& m) { m.ranges = nullptr; }), POSE_WALL_E_NULL);
-  EXPECT_EQ(scan_of(half_turn(ranges), 0, nullptr, &scan), POSE_WALL_E_NULL);
+  EXPECT_EQ(scan_of_message(half_turn(ranges), 0, nullptr, &scan), POSE_WALL_E_NULL);
   EXPECT_EQ(scan.struct_size, 0U);
   EXPECT_EQ(pose_wall_planar_laserscan_of(nullptr, nullptr), POSE_WALL_E_NULL);
 }

@@ -346,18 +346,18 @@ void UnevenPlane::consider_waves(Span<const SurfacePatch> patches, Span<const Ei
     Model& model = models->of[1 + wave];
     if (!sums.of[wave].solve(static_cast<double>(patches.size()), &model)) continue;
     models->count(1 + wave);
-    if (responses.size() > 0) model.covariance = model.scale * passed_on(wave, responses);
+    if (responses.size() > 0) model.covariance = model.scale * passed_on(&wave, tau2, responses);
   }
 }
 
 // Covariance of an estimator under a model of waves, before it is scaled. A patch's own error also
 // reaches the patches that are predicted from it.
-Eigen::Matrix3d UnevenPlane::passed_on(std::uint32_t wave, Span<const Eigen::Vector3d> responses) {
-  pass_on(0, responses, &wave);
+Eigen::Matrix3d UnevenPlane::passed_on(const std::uint32_t* wave, double tau2, Span<const Eigen::Vector3d> responses) {
+  pass_on(0, responses, wave);
   Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
   for (std::uint32_t i = responses.size(); i-- > 0;) {
     const Eigen::Vector3d to = passed(i);
-    out += static_cast<double>(left_[wave * kFours + i / kFour][i % kFour]) * to * to.transpose();
+    out += left_of(wave, tau2, i) * to * to.transpose();
   }
   return out;
 }
@@ -412,12 +412,7 @@ double UnevenPlane::left_of(const std::uint32_t* wave, double tau2, std::uint32_
 // Turns a model's endless plane into the region's. What is not seen is what its neighbours predict, beside the plane.
 void UnevenPlane::complete(Span<const SurfacePatch> patches, std::uint32_t seen, Span<const Eigen::Vector3d> responses,
                            const std::uint32_t* wave, double tau2, Model* model) {
-  model->about_endless.setZero();
-  pass_on(0, responses, wave);
-  for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    const Eigen::Vector3d to = passed(i);
-    model->about_endless += model->scale * left_of(wave, tau2, i) * to * to.transpose();
-  }
+  model->about_endless = model->scale * passed_on(wave, tau2, responses);
   pass_on(seen, responses, wave);
   Eigen::Matrix3d unknown = Eigen::Matrix3d::Zero(), by_plane = Eigen::Matrix3d::Zero();
   Eigen::Vector3d value = Eigen::Vector3d::Zero(), bias = Eigen::Vector3d::Zero();

@@ -103,7 +103,7 @@ class UnevenPlane {
   static void predict(const Neighbourhood& at, const FourFloats (&to_own)[kNeighbours],
                       const FourFloats (&between)[kNeighbours][kNeighbours], float own_share, float tau2,
                       FourTruths seen, FourFloats* predicts, FourFloats* left, Whitened* sums);
-  Eigen::Matrix3d passed_on(std::uint32_t wave, Span<const Eigen::Vector3d> responses);
+  Eigen::Matrix3d passed_on(const std::uint32_t* wave, double tau2, Span<const Eigen::Vector3d> responses);
 
   Span<Values> values_;
   Span<float> u_m_, v_m_;           // of the patches once more, to compare four at a time
