@@ -160,11 +160,17 @@ int32_t pose_wall_trace_let_pass(uint32_t gate);
 /* Restores the table's limits, and lets no gate pass any more. */
 void pose_wall_trace_forget_limits(void);
 
+enum pose_wall_trace_answer {
+  POSE_WALL_TRACE_FAILED = 0,
+  POSE_WALL_TRACE_PASSED = 1,
+  POSE_WALL_TRACE_ANSWERED = 2 /* failed on the endless plane, whose place that of the region took (region: on) */
+};
+
 typedef struct pose_wall_trace_gate {
   uint32_t subject; /* pose_wall_trace_subject */
   uint32_t gate;    /* pose_wall_trace_gate_id */
   uint32_t attempt; /* floor: which radius, from 0. walls: 0 while planes are chosen, 1 for the fit */
-  uint32_t passed;
+  uint32_t passed;  /* pose_wall_trace_answer */
   double value;
   double limit;
 } pose_wall_trace_gate;

@@ -89,7 +89,10 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
                           agree({at.pitch_rad, before.pitch_rad}, {to.pitch_rad, known.pitch_rad});
   const bool is_same = std::fabs(found.at[0] - floor->fit.plane.d) < kStep_m;
   if (found.is_there() && is_same) {
-    if (!both_agree || known.worse() < before.worse()) *floor = near;
+    if (both_agree && !(known.worse() < before.worse())) return;
+    *floor = near;
+    POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_FLOOR));
+    POSE_WALL_NOTE(trace::answered(POSE_WALL_TRACE_DOUBTS));
     return;
   }
   // Most of it may be no floor, or another one. Then either plane may be the right one.

@@ -97,17 +97,24 @@ Measurement yaw_measurement(double raw, double walls_variance, const ProtectionP
   const double variance = walls_variance + tilt * tilt;
   // Welch and Satterthwaite: the degrees of freedom of a sum of variances.
   const double both = walls_variance * walls_variance / dof + tilt * tilt * tilt * tilt / floor.dof;
-  const double dof_of_sum = both > 0.0 ? variance * variance / both : dof;
+  // NaN stays NaN: without the degrees of freedom of the floor, yaw has no bound.
+  const double dof_of_sum = both == 0.0 ? dof : variance * variance / both;
   return measurement(raw, with_floor(std::sqrt(variance), kSigmaMinAngle_rad), bound, dof_of_sum, s);
+}
+
+// Of a wall by itself: nothing of it cancels.
+ProtectionParts bound_alone(const JudgedWall& wall, const FloorResult& floor, const Levelling& levelling,
+                            const Settings& s) {
+  ProtectionParts bound = yaw_bound_of(wall, floor, levelling);
+  bound[POSE_WALL_PART_RIVAL] += wall.yaw_to_rival_rad;
+  bound[POSE_WALL_PART_RANGE_BIAS] += s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
+  return bound;
 }
 
 Measurement yaw_by_one(const JudgedWall& wall, const FloorResult& floor, const Levelling& levelling,
                        const Settings& s) {
-  ProtectionParts bound = yaw_bound_of(wall, floor, levelling);
-  bound[POSE_WALL_PART_RIVAL] += wall.yaw_to_rival_rad;
-  bound[POSE_WALL_PART_RANGE_BIAS] += s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
-  return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, bound, wall.yaw_dof,
-                         tilt_to_yaw(wall, levelling), floor, s);
+  return yaw_measurement(wall.yaw_rad, wall.yaw_sigma_rad * wall.yaw_sigma_rad, bound_alone(wall, floor, levelling, s),
+                         wall.yaw_dof, tilt_to_yaw(wall, levelling), floor, s);
 }
 
 // Mean of both directions, weighted by their information. A range bias turns the walls against each other and cancels
@@ -181,29 +188,39 @@ Measurement yaw_by_endless(const FloorResult& floor, const Levelling& levelling,
   return m;
 }
 
+// Of a side whose region is not known the endless wall stands for it, or the one that faces it.
+const JudgedWall* directing_wall(const MeasuredWalls& walls, int side) {
+  const RegionWall& region = walls.region[side];
+  if (region.has_plane()) return &region.wall;
+  if (region.is_known()) return nullptr;
+  for (const int of : {side, 1 - side}) {
+    if (!walls.endless[of].fit.refused) return &walls.endless[of];
+  }
+  return nullptr;
+}
+
 // By the definition the road's direction is the mean of both regions' walls, or that of one where the other side is
 // none (include/DEFINITIONS.md). A side that may be none is both.
-Measurement yaw_by_regions(const FloorResult& floor, const Levelling& levelling, const RegionWall (&regions)[2],
+Measurement yaw_by_regions(const FloorResult& floor, const Levelling& levelling, const MeasuredWalls& found,
                            const Settings& s) {
-  Measurement m;
-  const double walls = (regions[0].has_plane() ? 1.0 : 0.0) + (regions[1].has_plane() ? 1.0 : 0.0);
-  if (!regions[0].is_known() || !regions[1].is_known() || walls == 0.0) return m;
+  const JudgedWall* const wall[2] = {directing_wall(found, 0), directing_wall(found, 1)};
+  const double walls = (wall[0] != nullptr ? 1.0 : 0.0) + (wall[1] != nullptr ? 1.0 : 0.0);
+  if (walls == 0.0) return {};
   const double w = 1.0 / walls;
   double raw = 0.0, variance = 0.0, per_dof = 0.0, tilt_share = 0.0;
   ProtectionParts bound;
-  for (const RegionWall& region : regions) {
-    if (!region.has_plane()) continue;
-    const JudgedWall& wall = region.wall;
-    raw += w * wall.yaw_rad;
-    variance += w * w * wall.yaw_sigma_rad * wall.yaw_sigma_rad;
-    per_dof += w * w / wall.yaw_dof;
-    bound.add(yaw_bound_of(wall, floor, levelling), w);
-    tilt_share = larger(tilt_share, tilt_to_yaw(wall, levelling));
+  for (const JudgedWall* const of : wall) {
+    if (of == nullptr) continue;
+    raw += w * of->yaw_rad;
+    variance += w * w * of->yaw_sigma_rad * of->yaw_sigma_rad;
+    per_dof += w * w / of->yaw_dof;
+    bound.add(bound_alone(*of, floor, levelling, s), w);
+    tilt_share = larger(tilt_share, tilt_to_yaw(*of, levelling));
   }
-  m = yaw_measurement(raw, variance, bound, 1.0 / per_dof, tilt_share, floor, s);
+  Measurement m = yaw_measurement(raw, variance, bound, 1.0 / per_dof, tilt_share, floor, s);
   for (int side = 0; side < 2; ++side) {
-    const RegionWall &doubtful = regions[side], &other = regions[1 - side];
-    if (doubtful.kind != RegionWall::Kind::kDoubtful) continue;
+    if (found.region[side].is_sure()) continue;
+    const RegionWall& other = found.region[1 - side];
     if (!other.has_plane()) return {};  // it may be that neither is a wall
     reach_to_one(other.wall, floor, levelling, s, &m);
   }
@@ -215,7 +232,7 @@ Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, co
                         const Settings& s) {
   if (!walls.has_regions) return yaw_by_endless(floor, levelling, walls.side, s);
   const Measurement endless = yaw_by_endless(floor, levelling, walls.endless, s);
-  const Measurement region = yaw_by_regions(floor, levelling, walls.region, s);
+  const Measurement region = yaw_by_regions(floor, levelling, walls, s);
   if (!region.measured) return endless;
   const Known known = {region.raw, region.protection.sum()}, before = {endless.raw, endless.protection.sum()};
   return endless.measured && agree(before, known) && before.level <= known.level ? endless : region;

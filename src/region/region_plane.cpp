@@ -209,12 +209,13 @@ int RegionFit::settle_all(Settled (*settled)[kStarts]) const {
   return best;
 }
 
-// Of the nearest cell that is seen.
+// Of the nearest cell that is seen. What stands beside a road runs along it.
 double RegionFit::weight_near(const RegionCell& place) const {
+  constexpr double kAlong = 0.5;  // with 1, walls at the edge of the lane made two floors of three doubtful
   double nearest_m2 = 1e9, weight = 0.0;
   for (const RegionCell& c : cells_.all()) {
     if (!c.seen) continue;
-    const double du = c.u - place.u, dv = c.v - place.v, m2 = du * du + dv * dv;
+    const double du = kAlong * (c.u - place.u), dv = c.v - place.v, m2 = du * du + dv * dv;
     if (!(m2 < nearest_m2)) continue;
     nearest_m2 = m2;
     weight = c.weight;
@@ -237,7 +238,11 @@ RegionFit::Taken RegionFit::take_cells(Span<const PatchSums> sums, const Eigen::
     cell.weight = weight_of(off(cell, settled));
     if (cell.inside) taken.A += cell.weight * row_of(cell) * row_of(cell).transpose();
     const PatchSums& c = sums[k];
-    if (cell.inside) out->points += c.w();
+    if (cell.inside) {
+      out->points += c.w();
+      // Noise that is as wide as the formula shows in the points, not in their mean.
+      out->near += c.has_weight() ? -larger(-cell.weight, -c.w() / c.count) : cell.weight;
+    }
     if (!(cell.weight > kShown) || !c.has_weight() || c.count < 2) continue;
     const double points_of = static_cast<double>(c.count);
     const double own = (kPatchPriorPoints * noise2 + c.scatter_or_none()) / (kPatchPriorPoints - 1.0 + points_of);
@@ -253,8 +258,8 @@ RegionFit::Taken RegionFit::take_cells(Span<const PatchSums> sums, const Eigen::
       cell.weight = weight_near(cell);
       taken.A += cell.weight * row_of(cell) * row_of(cell).transpose();
       take({cell.u, cell.v, 0.0, 0.0, 0.0}, cell);
+      out->near += cell.weight;
     }
-    out->near += cell.weight;
     cells_inside += 1.0;
   }
   out->near /= cells_inside;

@@ -67,6 +67,17 @@ void note_gate(std::uint32_t id, double value, double limit, bool passed) {
   writer.to->gate[writer.to->gates++] = {writer.subject, id, attempt, passed ? 1U : 0U, value, limit};
 }
 
+void answered(std::uint32_t effect) {
+  if (writer.to == nullptr) return;
+  for (std::uint32_t i = 0; i < writer.to->gates; ++i) {
+    pose_wall_trace_gate& g = writer.to->gate[i];
+    pose_wall_trace_info info{};
+    pose_wall_trace_gate_info(g.gate, &info);
+    const bool counts = g.subject == writer.subject && info.effect == effect;
+    if (counts && g.passed == POSE_WALL_TRACE_FAILED) g.passed = POSE_WALL_TRACE_ANSWERED;
+  }
+}
+
 void set_limit(std::uint32_t id, double limit) {
   limits[id].is_set = true;
   limits[id].limit = limit;

@@ -41,6 +41,9 @@ class Silence {
 };
 
 void note_gate(std::uint32_t id, double value, double limit, bool passed);
+// Another plane took the place of the subject's. What failed with this effect (pose_wall_trace_effect) no longer
+// counts.
+void answered(std::uint32_t effect);
 // The limit of this gate from pose_wall_trace_set_limit, or the table's.
 double limit_or(std::uint32_t id, double of_table);
 void set_limit(std::uint32_t id, double limit);

@@ -77,6 +77,7 @@ struct RegionWall {
   double yaw_waves_rad = 0.0;  // how its waves turn it about an endless wall: standard deviation
 
   bool is_known() const { return kind != Kind::kUnknown; }
+  bool is_sure() const { return kind == Kind::kNone || kind == Kind::kWall; }
   bool has_plane() const { return kind == Kind::kDoubtful || kind == Kind::kWall; }
 };
 

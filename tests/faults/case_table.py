@@ -24,7 +24,7 @@ GROUPS = {
     "Members": ("NaN written into a config past the functions", "found by the check"),
     "NumberKeys": ("numbers below and above a key's range, and at its ends", "refused; at its ends the contract holds"),
     "Rules": ("keys that contradict each other", "nothing is opened"),
-    "StageFailures": ("a step of the engine fails, once and for good", "held or degraded, then invalid; never wrong"),
+    "StageFailures": ("a step of the engine fails, once and for good", "told by others, degraded or held; never wrong"),
     "BitFlips": ("bits of the block flip between calls", "state: refused until opened again; scratch: same bits"),
     "SelfTestFaults": ("the same during the self test; a digest off by a bit", "the self test fails"),
     "PoisonedSequence": ("each frame is garbage, alone and with the next", "nothing wrong, back within 4 frames"),

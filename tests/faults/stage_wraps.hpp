@@ -16,8 +16,10 @@
 #include "floor/fit.hpp"
 #include "floor/floor.hpp"
 #include "floor/levelling.hpp"
+#include "floor/region.hpp"
 #include "output/quality.hpp"
 #include "output/temporal.hpp"
+#include "region/region_plane.hpp"
 #include "report.hpp"
 #include "walls/choose/choose.hpp"
 #include "walls/direction.hpp"
@@ -27,6 +29,7 @@
 #include "walls/fit/groove_profile.hpp"
 #include "walls/fit/strip_profile.hpp"
 #include "walls/fit/two_layers.hpp"
+#include "walls/region.hpp"
 #include "walls/sample/at_sample.hpp"
 #include "walls/sample/measure.hpp"
 #include "walls/sample/step_profile.hpp"
@@ -50,6 +53,11 @@ inline void refuse(PlaneFit* fit, std::uint32_t reason) {
   fit->reasons |= reason;
 }
 
+inline void spoil(Plane* plane) {
+  plane->n.fill(kNan);
+  plane->d = kNan;
+}
+
 }  // namespace wraps
 
 }  // namespace pose_wall::test
@@ -60,6 +68,7 @@ using test::Fault;
 using test::wraps::fails;
 using test::wraps::kNan;
 using test::wraps::refuse;
+using test::wraps::spoil;
 
 // The type of a method of C, from that of a function that takes self first.
 template <typename Function>
@@ -118,6 +127,7 @@ POSE_WALL_WRAP(FloorResult, find_floor, (const FloorScene& scene, Random* random
     r.roll_sigma_rad = r.pitch_sigma_rad = kNan;
     r.roll_bound_rad[POSE_WALL_PART_BEND] = r.pitch_bound_rad[POSE_WALL_PART_BEND] = kNan;
   }
+  if (fails(Fault::kFloorPlaneNan)) spoil(&r.fit.plane);
   return r;
 }
 
@@ -167,6 +177,9 @@ POSE_WALL_WRAP(WallsResult, find_walls,
   const bool both = fails(Fault::kWallsNotFound);
   if (both || fails(Fault::kLeftNotFound)) refuse(&r.side[0].fit, POSE_WALL_R_WALL_NOT_FOUND);
   if (both || fails(Fault::kRightNotFound)) refuse(&r.side[1].fit, POSE_WALL_R_WALL_NOT_FOUND);
+  if (fails(Fault::kWallPlanesNan)) {
+    for (JudgedWall& wall : r.side) spoil(&wall.fit.plane);
+  }
   if (!fails(Fault::kWallsNan)) return r;
   for (JudgedWall& wall : r.side) wall.yaw_rad = wall.distance_m[0] = wall.distance_m[1] = kNan;
   return r;
@@ -293,6 +306,44 @@ POSE_WALL_WRAP(WallEdges, look_past,
 
 POSE_WALL_WRAP(double, distance_at, (const Plane& plane, const Eigen::Vector3d& sample_m)) {
   return fails(Fault::kDistanceNan) ? kNan : distance_at_for_real(plane, sample_m);
+}
+
+POSE_WALL_WRAP(void, measure_floor_region, (const FloorScene& scene, FloorScratch* scratch, FloorResult* floor)) {
+  if (!fails(Fault::kFloorRegionSilent)) measure_floor_region_for_real(scene, scratch, floor);
+}
+
+POSE_WALL_WRAP(void, measure_wall_regions, (const WallScene& scene, WallsScratch* scratch, MeasuredWalls* walls)) {
+  if (!fails(Fault::kWallRegionsSilent)) measure_wall_regions_for_real(scene, scratch, walls);
+}
+
+POSE_WALL_WRAP_METHOD(RegionPlane, region_plane, RegionFit::fit,
+                      (RegionFit * self, const BoundedPoints& points, const Region& region, const Settings& settings,
+                       UnevenPlane* waves, Work* work)) {
+  if (fails(Fault::kRegionsNotFound)) return {};
+  RegionPlane r = region_plane_for_real(self, points, region, settings, waves, work);
+  if (fails(Fault::kRegionsNan)) r.at.fill(kNan);
+  if (fails(Fault::kRegionsUnweighed)) r.near = kNan;
+  if (fails(Fault::kRegionsNone)) r.near = 0.0;
+  if (fails(Fault::kRegionsDoubtful)) r.near = 0.5;  // half of it may be no surface: neither one nor none
+  if (fails(Fault::kRegionsUnseenAtEnds)) r.seen_at_ends = 0.0;
+  if (fails(Fault::kRegionFreedomNan)) r.dof = kNan;
+  return r;
+}
+
+POSE_WALL_WRAP_METHOD(double, region_step, RegionFit::step_at,
+                      (const RegionFit* self, double u_m, const Eigen::Vector3d& plane)) {
+  return fails(Fault::kRegionStepNan) ? kNan : region_step_for_real(self, u_m, plane);
+}
+
+POSE_WALL_WRAP_METHOD(PredictedPlane, region_waves, UnevenPlane::predict,
+                      (UnevenPlane * self, Span<const SurfacePatch> patches, std::uint32_t seen,
+                       Span<const Eigen::Vector3d> responses, double sigmas)) {
+  if (fails(Fault::kRegionWavesUnsolved)) return {};
+  PredictedPlane r = region_waves_for_real(self, patches, seen, responses, sigmas);
+  if (fails(Fault::kRegionWavesNan)) r.correction.fill(kNan);
+  if (fails(Fault::kRegionWavesUnbounded)) r.covariance.fill(kNan);
+  if (fails(Fault::kRegionTurnNan)) r.about_endless.fill(kNan);
+  return r;
 }
 
 POSE_WALL_WRAP(void, share_direction, (const WallScene& scene, JudgedWall (*walls)[2])) {

@@ -39,12 +39,13 @@ pose_wall_trace_info info_of(std::uint32_t gate) {
   return info;
 }
 
-// Reasons of the notes that failed, of one subject; for the floor, of the radius that was taken.
-std::uint32_t noted(const pose_wall_trace& trace, std::uint32_t subject) {
+// Reasons of the notes with this outcome, of one subject; for the floor, of the radius that was taken.
+std::uint32_t noted(const pose_wall_trace& trace, std::uint32_t subject,
+                    pose_wall_trace_answer answer = POSE_WALL_TRACE_FAILED) {
   std::uint32_t reasons = 0;
   for (std::uint32_t i = 0; i < trace.gates; ++i) {
     const pose_wall_trace_gate& g = trace.gate[i];
-    if (g.subject != subject || g.passed != 0) continue;
+    if (g.subject != subject || g.passed != static_cast<std::uint32_t>(answer)) continue;
     if (subject == POSE_WALL_TRACE_FLOOR && g.attempt != trace.floor_attempt) continue;
     reasons |= info_of(g.gate).reasons;
   }
@@ -63,8 +64,12 @@ void expect_complete(const pose_wall_result& result, const pose_wall_trace& trac
   const std::uint32_t walls = noted(trace, POSE_WALL_TRACE_WALLS);
   EXPECT_EQ(result.frame_reasons & (kOfFrame | kOfTime), frame);
   EXPECT_EQ(result.floor.reasons & ~kOfFrame, noted(trace, POSE_WALL_TRACE_FLOOR));
-  EXPECT_EQ(result.left.reasons & ~kOfFrame, walls | noted(trace, POSE_WALL_TRACE_LEFT));
-  EXPECT_EQ(result.right.reasons & ~kOfFrame, walls | noted(trace, POSE_WALL_TRACE_RIGHT));
+  // A refusal that the region's plane answers is told as a doubt. The floor's doubts are told no more.
+  const auto told = [&](std::uint32_t side) {
+    return noted(trace, side) | noted(trace, side, POSE_WALL_TRACE_ANSWERED);
+  };
+  EXPECT_EQ(result.left.reasons & ~kOfFrame, walls | told(POSE_WALL_TRACE_LEFT));
+  EXPECT_EQ(result.right.reasons & ~kOfFrame, walls | told(POSE_WALL_TRACE_RIGHT));
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     EXPECT_EQ(result.quantity[q].reasons & kOfOutcome, noted(trace, POSE_WALL_TRACE_QUANTITY + q) & kOfOutcome) << q;
   }

@@ -115,6 +115,21 @@ std::string across_sentence(const pose_wall_config& config, const pose_wall_resu
   return say("Much more wall is seen {}: the machine seems to stand across the road.", places);
 }
 
+// Gates that failed on the endless plane, whose place that of the region took.
+std::string answered_sentence(const std::vector<Note>& answered) {
+  std::vector<std::string> names;
+  for (const Note& note : answered) add_once(names, note.info.name);
+  if (names.empty()) return "";
+  return say(
+      "The plane of all that is in view failed {}. The value is of the region beside the machine, which answers it.",
+      listed(names));
+}
+
+std::uint32_t reasons_of(const pose_wall_result& result, std::uint32_t subject) {
+  if (subject == POSE_WALL_TRACE_FLOOR) return result.floor.reasons;
+  return subject == POSE_WALL_TRACE_LEFT ? result.left.reasons : result.right.reasons;
+}
+
 // Without a floor or points no plane was looked for.
 Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes,
                           std::uint32_t subject) {
@@ -122,8 +137,13 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
   const std::vector<Note> doubts = failed(notes, subject, POSE_WALL_TRACE_DOUBTS);
   const bool nothing_looked_at = notes.of(subject).empty() && refusals.empty();
   const bool is_refused = !refusals.empty() || nothing_looked_at;
+  const std::vector<Note> answered = notes.answered(subject);
+  // The result may tell the reason of an answered gate, as a doubt.
+  const bool is_doubted = !doubts.empty() || std::any_of(answered.begin(), answered.end(), [&](const Note& n) {
+    return (n.info.reasons & reasons_of(result, subject)) != 0;
+  });
   Paragraph out{
-      subject, is_refused ? Verdict::kRefused : (doubts.empty() ? Verdict::kAccepted : Verdict::kDoubted), {}, {}};
+      subject, is_refused ? Verdict::kRefused : (is_doubted ? Verdict::kDoubted : Verdict::kAccepted), {}, {}};
   std::vector<PlaneWords> planes = planes_of(config, result, notes, subject);
   std::stable_partition(planes.begin(), planes.end(),
                         [](const PlaneWords& p) { return p.candidate.fate == POSE_WALL_TRACE_CHOSEN; });
@@ -141,6 +161,7 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
     if (!across.empty()) out.helps.insert(out.helps.begin(), tr("check forward_axis and extrinsic_yaw"));
   }
   tell(doubts, refusals, &out);
+  add_once(out.sentences, answered_sentence(answered));
   add_once(out.sentences, others_sentence(planes));
   return out;
 }

@@ -58,6 +58,7 @@ Json gates_json(const Notes& notes) {
                    {"limit", note.gate.limit},
                    {"ratio", has_ratio ? Json(note.gate.value / note.gate.limit) : Json()},
                    {"passed", note.passed()},
+                   {"answered", note.answered()},
                    {"reasons", note.passed() ? Json::array() : reason_list(note.info.reasons)}});
   }
   return out;

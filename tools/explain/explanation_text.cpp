@@ -36,6 +36,7 @@ std::string ratio_text(const Note& note) {
 
 const char* passed_text(const Note& note) {
   if (note.passed()) return tr("passed");
+  if (note.answered()) return tr("answered");
   switch (note.info.effect) {
     case POSE_WALL_TRACE_REFUSES:
       return tr("REFUSES");
@@ -47,7 +48,7 @@ const char* passed_text(const Note& note) {
 }
 
 const char* colour_of(const Note& note) {
-  if (note.passed()) return "";
+  if (note.passed() || note.answered()) return "";
   switch (note.info.effect) {
     case POSE_WALL_TRACE_REFUSES:
       return "\033[31m";

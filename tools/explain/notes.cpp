@@ -47,10 +47,16 @@ std::vector<Note> Notes::of(std::uint32_t subject) const {
 
 std::vector<Note> Notes::failed(std::uint32_t subject, std::uint32_t effect) const {
   std::vector<Note> out = of(subject);
-  out.erase(
-      std::remove_if(out.begin(), out.end(), [&](const Note& n) { return n.passed() || n.info.effect != effect; }),
-      out.end());
+  out.erase(std::remove_if(out.begin(), out.end(),
+                           [&](const Note& n) { return n.passed() || n.answered() || n.info.effect != effect; }),
+            out.end());
   std::stable_sort(out.begin(), out.end(), [](const Note& a, const Note& b) { return a.gate.gate < b.gate.gate; });
+  return out;
+}
+
+std::vector<Note> Notes::answered(std::uint32_t subject) const {
+  std::vector<Note> out = of(subject);
+  out.erase(std::remove_if(out.begin(), out.end(), [](const Note& n) { return !n.answered(); }), out.end());
   return out;
 }
 

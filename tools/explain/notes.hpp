@@ -17,7 +17,9 @@ struct Note {
   pose_wall_trace_gate gate;
   pose_wall_trace_info info;
 
-  bool passed() const { return gate.passed != 0; }
+  bool passed() const { return gate.passed == POSE_WALL_TRACE_PASSED; }
+  // It failed on the endless plane, and the value is of the region's.
+  bool answered() const { return gate.passed == POSE_WALL_TRACE_ANSWERED; }
   bool is(pose_wall_trace_gate_id id) const { return gate.gate == static_cast<std::uint32_t>(id); }
 };
 
@@ -29,8 +31,9 @@ class Notes {
 
   std::vector<Note> all() const;
   std::vector<Note> of(std::uint32_t subject) const;
-  // Failed notes of this effect (pose_wall_trace_effect).
+  // Failed notes of this effect (pose_wall_trace_effect), without those that were answered.
   std::vector<Note> failed(std::uint32_t subject, std::uint32_t effect) const;
+  std::vector<Note> answered(std::uint32_t subject) const;
   bool refused(std::uint32_t subject) const { return !failed(subject, POSE_WALL_TRACE_REFUSES).empty(); }
 
   // Strongest first; of the floor those of the radius that counts.
