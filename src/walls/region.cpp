@@ -61,7 +61,8 @@ bool is_grooved(const WallScene& scene, const Plane& plane, const Eigen::Vector3
 }
 
 // A thing that hides the wall is none. The gates are those of an endless plane, but for rays through gaps: an opening
-// is no wall and weighs little in the region's plane. A row of props has gaps that show nothing.
+// is no wall and weighs little in the region's plane. A row of props has gaps that show nothing, so what is seen
+// through lowers the region's weight.
 bool is_wall(const WallScene& scene, const JudgedWall& wall, WallsScratch* scratch, RegionPlane* region) {
   POSE_WALL_NOTE(const trace::Silence silence);  // a plane that fails is not taken, and its gates stop nothing else
   const Settings& s = scene.settings;
