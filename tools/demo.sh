@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 . tools/shell/packages.sh
 
 # shellcheck disable=SC2086  # a list of words
-need_packages $packages_to_build
+need_packages $packages_to_build $packages_to_read
 need_cmake
 step "Configuring" cmake --preset release -DPOSE_WALL_BUILD_TESTS=OFF
 step "Building" cmake --build --preset release --target pose_wall_cli

@@ -113,6 +113,32 @@ inline Text mid360_payload(char type, std::size_t point_bytes) {
          points;
 }
 
+// Of an LSLidar: a Velodyne's layout with `tail` behind its blocks; and what a C16 of firmware 3 says of itself.
+inline Text lslidar_payload(const Text& tail) {
+  Text payload = velodyne_payload().substr(0, 1200) + tail;
+  for (std::size_t block = 0; block < 12; ++block) {
+    payload.replace(100 * block + 2, 2, number(static_cast<std::uint16_t>(36 * block)));
+  }
+  return payload;
+}
+
+inline Text lslidar_device() {
+  Text device = Text("\xA5\xFF\0\x5A", 4) + Text(1202, '\0');
+  for (std::size_t i = 0; i < 16; ++i) {
+    const auto angle = static_cast<std::uint16_t>(100 * (i % 2 == 0 ? static_cast<int>(i) - 15 : static_cast<int>(i)));
+    device[245 + 2 * i] = static_cast<char>(angle >> 8U);
+    device[246 + 2 * i] = static_cast<char>(angle);
+  }
+  return device;
+}
+
+inline Text lslidar_hybrid_payload() {
+  Text payload;
+  for (int i = 0; i < 171; ++i)
+    payload += i == 62 ? Text("\xFF\xAA\xBB\xCC\xDD\x11\x11", 7) : Text("\x41\x23\xF8\3\x92\0\t", 7);
+  return payload + Text("\2\x11\x2D\0\7\7\xDD\x80\1", 9);
+}
+
 // As the target `packets` takes them: length, milliseconds, bytes.
 inline Text datagrams(const Text& payload, int count) {
   Text text;

@@ -223,7 +223,30 @@ void packets() {
   write("packets", automatic + datagrams(mid360_payload('\1', 14), 3));
   write("packets", automatic + datagrams(mid360_payload('\2', 8), 3));
   write("packets", automatic + datagrams(mid360_payload('\3', 10), 3));
+  const Text first_kind = datagrams(lslidar_payload(Text("\1\2\3\0\x37\x10", 6)), 6);
+  write("packets", automatic + datagrams(lslidar_device(), 1) + first_kind);
+  write("packets", automatic + first_kind + datagrams(lslidar_device(), 1));
+  for (const char model : {'\x10', '\x12', '\x20', '\x64', '\x65', '\x46', '\x5A', '\x08'}) {
+    write("packets", automatic + datagrams(lslidar_payload(Text(10, '\1') + '\x39' + model), 6));
+  }
+  write("packets", Text("\x11\0", 2) + datagrams(lslidar_device(), 1) + datagrams(lslidar_hybrid_payload(), 6));
   for (char kind = 1; kind < 10; ++kind) write("packets", kind + Text("\0", 1) + datagrams(mid360_payload('\2', 8), 1));
+  // By metadata: profiles of 4, 8, 12 and 16 bytes a pixel, the other head, a window.
+  const Text standard = Text("\1\0\7\0", 4) + Text(28, '\0'), fusa = Text("\1\5\0\0\7\0\0\0", 8) + Text(24, '\0');
+  struct OusterSeed {
+    int choice;
+    Text head;
+    std::size_t pixel_bytes;
+  };
+  const std::vector<OusterSeed> ousters = {{7, standard, 4},  {8, standard, 8},  {1, standard, 12},
+                                           {2, standard, 16}, {7 + 16, fusa, 4}, {11 + 16 + 32, fusa, 8}};
+  for (const auto& [choice, head, pixel_bytes] : ousters) {
+    Text payload = head;
+    for (char column = 0; column < 4; ++column) {
+      payload += Text(8, '\1') + column + Text("\0\1\0", 3) + Text(2 * pixel_bytes, '\x25');
+    }
+    write("packets", Text(1, '\5') + static_cast<char>(choice) + datagrams(payload + Text(32, '\0'), 3));
+  }
   for (const bool cdr : {false, true}) {
     const char form = cdr ? '\1' : '\0';
     write("message", Text(1, '\0') + form + point_cloud2(cdr));

@@ -124,6 +124,63 @@ TEST(McapWriter, FinishedBytesAreTrueBeforeAndAfterAChunk) {
   EXPECT_EQ(writer.bytes(), told);
 }
 
+template <typename Number>
+Number number_in(const std::string& bytes, std::uint64_t at) {
+  std::uint64_t number = 0;
+  for (std::size_t i = sizeof(Number); i-- > 0;) number = number << 8U | static_cast<unsigned char>(bytes.at(at + i));
+  return static_cast<Number>(number);
+}
+
+// As a reader does that jumps: footer, chunk index, message index, message. Each message is reached once.
+std::vector<std::pair<std::uint64_t, std::uint16_t>> reached_by_index(const std::string& file) {
+  constexpr std::uint64_t kHead = 9, kFooter = kHead + 20, kMagic = 8, kChunkContent = kHead + 40;
+  std::vector<std::pair<std::uint64_t, std::uint16_t>> reached;  // time and channel
+  const std::uint64_t footer = file.size() - kMagic - kFooter;
+  for (auto at = number_in<std::uint64_t>(file, footer + kHead); at < footer;
+       at += kHead + number_in<std::uint64_t>(file, at + 1)) {
+    if (file[at] != 0x08) continue;
+    const auto chunk = number_in<std::uint64_t>(file, at + kHead + 16);
+    const auto chunk_bytes = number_in<std::uint64_t>(file, at + kHead + 24);
+    const auto offsets_bytes = number_in<std::uint32_t>(file, at + kHead + 32);
+    std::uint64_t index_bytes = 0;
+    for (std::uint64_t entry = at + kHead + 36; entry < at + kHead + 36 + offsets_bytes; entry += 10) {
+      const auto index = number_in<std::uint64_t>(file, entry + 2);
+      EXPECT_EQ(file.at(index), 0x07);
+      EXPECT_EQ(index, chunk + chunk_bytes + index_bytes) << "the indexes follow their chunk";
+      index_bytes += kHead + number_in<std::uint64_t>(file, index + 1);
+      EXPECT_EQ(number_in<std::uint16_t>(file, index + kHead), number_in<std::uint16_t>(file, entry));
+      const auto entries_bytes = number_in<std::uint32_t>(file, index + kHead + 2);
+      for (std::uint64_t i = 0; i < entries_bytes; i += 16) {
+        const std::uint64_t message = chunk + kChunkContent + number_in<std::uint64_t>(file, index + kHead + 6 + i + 8);
+        EXPECT_EQ(file.at(message), 0x05);
+        EXPECT_EQ(number_in<std::uint16_t>(file, message + kHead), number_in<std::uint16_t>(file, entry));
+        const auto time_ns = number_in<std::uint64_t>(file, message + kHead + 6);
+        EXPECT_EQ(time_ns, number_in<std::uint64_t>(file, index + kHead + 6 + i));
+        reached.emplace_back(time_ns, number_in<std::uint16_t>(file, entry));
+      }
+    }
+    EXPECT_EQ(number_in<std::uint64_t>(file, at + kHead + 36 + offsets_bytes), index_bytes);
+  }
+  return reached;
+}
+
+// Readers of JavaScript, as Foxglove has them, take a chunk without an index for one without messages.
+TEST(McapWriter, EveryMessageIsReachedByTheIndexOfItsChunk) {
+  const TempFolder folder;
+  McapWriter writer(folder.file("a.mcap"), kChannels);
+  std::vector<std::pair<std::uint64_t, std::uint16_t>> written;
+  for (std::uint64_t i = 0; i < 9; ++i) {
+    const auto channel = static_cast<std::uint16_t>(i < 3 || i % 2 == 0 ? 0 : 1);
+    writer.add(channel, 100 + i, std::string(i, 'm'));
+    written.emplace_back(100 + i, channel);
+    if (i % 3 == 2) writer.flush();
+  }
+  writer.finish();
+  std::vector<std::pair<std::uint64_t, std::uint16_t>> reached = reached_by_index(text_of(folder.file("a.mcap")));
+  std::sort(reached.begin(), reached.end());
+  EXPECT_EQ(reached, written);
+}
+
 TEST(McapWriter, NeverWritesOverAFile) {
   const TempFolder folder;
   const std::string file = folder.write("a.mcap", "an incident");

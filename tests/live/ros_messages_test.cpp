@@ -164,7 +164,7 @@ TEST_P(RosMessagesOf, LabelledPointsAreACloud) {
   const std::string message = messages_.points(result_);
   const DecodedCloud cloud = decode_point_cloud2(GetParam(), view_of(message), {});
   EXPECT_EQ(cloud.stamp_ns, kStamp_ns);
-  EXPECT_EQ(cloud.frame_id, "base_link");
+  EXPECT_EQ(cloud.source.frame_id, "base_link");
   ASSERT_EQ(cloud.frame.cloud.width * cloud.frame.cloud.height, 2U);
   ASSERT_EQ(cloud.frame.fields.size(), 4U);
   EXPECT_EQ(cloud.frame.fields[3].name, "label");

@@ -135,6 +135,21 @@ TEST(RosReader, OfTwoSensorsOnOneTopicTheFirstIsTaken) {
   EXPECT_EQ(fact(reading.health(), "clouds of another frame_id, dropped"), "1");
 }
 
+// The second one is mounted elsewhere: that the first is silent makes it no better.
+TEST(RosReader, TheKeyChoosesTheSensorAndNamesTheOthers) {
+  Reading reading({"source=ros1", "ros_source=frame_id rear"});
+  reading.cloud(1, 0, "front");
+  EXPECT_EQ(reading.health().grade, Grade::kBad);
+  EXPECT_NE(reading.health().summary.find("ros_source is 'frame_id rear'; clouds come from frame_id front"),
+            std::string::npos)
+      << reading.health().summary;
+  reading.cloud(1, 1, "rear");
+  ASSERT_EQ(reading.taker.frames().size(), 1U);
+  EXPECT_EQ(reading.taker.frames().front().frame_id, "rear");
+  EXPECT_NE(fact(reading.health(), "sources").find("frame_id front (1 cloud) is not"), std::string::npos)
+      << fact(reading.health(), "sources");
+}
+
 TEST(RosReader, TheExtrinsicIsToldWhenItIsThereAndBeforeTheCloudThatItIsFor) {
   Reading reading({"source=ros1", "extrinsic_from=tf"});
   reading.cloud(1, 0, "mast");

@@ -18,11 +18,13 @@
 #include "live/loopback.hpp"
 #include "live/sensor_sim/metadata_server.hpp"
 #include "live/sensor_sim/packet_encoder.hpp"
+#include "live/sensor_sim/robosense_encoder.hpp"
 #include "packets/ouster.hpp"
 #include "packets/udp_capture.hpp"
 #include "packets/velodyne.hpp"
 #include "sim/scenes.hpp"
 #include "support/real_frames.hpp"
+#include "tools/ouster_packets.hpp"
 #include "tools/test_files.hpp"
 
 namespace pose_wall::tools::live {
@@ -112,7 +114,7 @@ TEST(SimulatedSensor, PacketsOfAVlp16GiveTheRangesBack) {
   VelodyneAssembler assembler;
   for (const std::string& packet : vlp16_turns(2)) {
     const Bytes bytes = test::bytes_of(packet);
-    ASSERT_TRUE(assembler.add({0, 1, {bytes.data(), bytes.size()}}));
+    ASSERT_TRUE(assembler.add({0, {}, {bytes.data(), bytes.size()}}));
   }
   const std::optional<Scan> scan = assembler.take();
   ASSERT_TRUE(scan);
@@ -133,7 +135,7 @@ struct Contradicted {
       for (const std::string& packet : encoder.packets(image_of(64, 1024), turn * kTurn_ns, kTurn_ns)) {
         const Bytes bytes = test::bytes_of(packet);
         try {
-          assembler.add({0, 1, {bytes.data(), bytes.size()}});
+          assembler.add({0, {}, {bytes.data(), bytes.size()}});
         } catch (const FrameError& fault) {
           why = fault.what();
           ++times;
@@ -181,7 +183,7 @@ TEST(SimulatedSensor, PacketsOfAnOusterGiveTheRangesBack) {
   const RangeImage image = image_of(64, 1024);
   for (const std::string& packet : encoder.packets(image, 0, kTurn_ns)) {
     const Bytes bytes = test::bytes_of(packet);
-    ASSERT_TRUE(assembler.add({0, 1, {bytes.data(), bytes.size()}}));
+    ASSERT_TRUE(assembler.add({0, {}, {bytes.data(), bytes.size()}}));
   }
   assembler.finish();
   const std::optional<Scan> scan = assembler.take();
@@ -238,12 +240,79 @@ TEST(UdpSource, PacketsOfOthersAndWhatIsNoPacketAreCountedAndDropped) {
   VelodyneAssembler alone;
   for (const std::string& packet : ours) {
     const Bytes bytes = test::bytes_of(packet);
-    alone.add({0, 1, {bytes.data(), bytes.size()}});
+    alone.add({0, {}, {bytes.data(), bytes.size()}});
   }
   const Frame expected = frame_of(*alone.take());
   for (std::uint32_t i = 0; i < 16U * 1800U; ++i) {
     ASSERT_EQ(range_at(catcher.frames()[0].frame, i), range_at(expected, i)) << i;
   }
+}
+
+TEST(UdpSource, ASecondSensorOnThePortIsNamedAndNotMixedIn) {
+  const std::uint16_t port = free_udp_port();
+  const auto source = make_udp_source(live_config(port));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender sender(port), other(port, "127.0.0.2");
+  const std::vector<std::string> ours = vlp16_turns(4), theirs = vlp16_turns(4, 50);
+  Pace pace(*source);
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    pace.send(sender, std::string_view(ours[i]));
+    pace.send(other, std::string_view(theirs[i]));
+  }
+  ASSERT_TRUE(catcher.wait_for_frames(3));
+  EXPECT_TRUE(becomes_true([&] { return source->health().summary.find("127.0.0.2") != std::string::npos; }))
+      << source->health().summary;
+  source->stop();
+  for (std::uint32_t turn = 0; turn < 3; ++turn) {
+    const RangeImage seen = image_of(16, 1800, turn);
+    EXPECT_NEAR(range_at(catcher.frames()[turn].frame, 0), seen.range_m[0], 0.012) << turn;
+  }
+}
+
+// It is mounted elsewhere: its walls would be measured from where the first one stands.
+TEST(UdpSource, ASecondSensorDoesNotTakeThePlaceOfOneThatFellSilent) {
+  const std::uint16_t port = free_udp_port();
+  const auto source = make_udp_source(live_config(port));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender sender(port), other(port, "127.0.0.2");
+  const std::vector<std::string> ours = vlp16_turns(4), theirs = vlp16_turns(4, 50);
+  Pace pace(*source);
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    pace.send(sender, std::string_view(ours[i]));
+    pace.send(other, std::string_view(theirs[i]));
+  }
+  ASSERT_TRUE(catcher.wait_for_frames(3));
+  ASSERT_TRUE(becomes_true([&] { return source->health().summary == "the sensor is silent"; }));
+  const std::string frames = fact(source->health(), "frames");
+  pace.send(other, vlp16_turns(4, 60));
+  EXPECT_EQ(fact(source->health(), "frames"), frames);
+  pace.send(sender, vlp16_turns(4, 4));
+  EXPECT_TRUE(becomes_true([&] { return fact(source->health(), "frames") != frames; })) << source->health().summary;
+  source->stop();
+}
+
+// Angles and returns of a RoboSense come by a port of its own.
+TEST(UdpSource, WhatARoboSenseSaysOfItselfIsHeardAtItsOtherPort) {
+  const std::uint16_t port = free_udp_port(), device_port = free_udp_port();
+  const auto source =
+      make_udp_source(live_config(port, {"sensor=robosense_rs16", "udp_device_port=" + std::to_string(device_port)}));
+  FrameCatcher catcher;
+  source->start(catcher);
+  RoboSenseEncoder encoder(robosense_rs16());
+  const LoopbackSender sender(port), device_sender(device_port);
+  Pace pace(*source);
+  for (std::uint32_t turn = 0; turn < 4; ++turn) {
+    pace.send(sender, encoder.packets(image_of(16, 1800, turn), turn * kTurn_ns, kTurn_ns));
+    if (turn == 0) {
+      EXPECT_EQ(fact(source->health(), "frames"), "0");
+    }
+    ASSERT_TRUE(device_sender.send(encoder.device_packet(kTurn_ns)));
+  }
+  EXPECT_TRUE(catcher.wait_for_frames(2)) << source->health().summary;
+  source->stop();
+  EXPECT_EQ(catcher.frames()[0].frame.cloud.height, 16U);
 }
 
 TEST(UdpSource, HalfATurnBeforeASilenceIsNotJoinedToHalfOfOneAfterIt) {
@@ -350,6 +419,85 @@ TEST(UdpSource, AnOusterThatIsSetUpAnewIsAskedAnew) {
   })) << source->health().summary;
   source->stop();
   EXPECT_EQ(catcher.frames()[0].frame.cloud.width * catcher.frames()[0].frame.cloud.height, 64U * 1024U);
+}
+#endif
+
+// The cable, or the file, is of the other of two machines.
+TEST(UdpSource, AnOusterOfAnotherSerialNumberThanItsMetadataIsToldAndNotMeasured) {
+  const test::TempFolder folder;
+  const std::uint16_t port = free_udp_port();
+  test::OusterDescription told;
+  told.more = test::ouster_serial_told(test::kOusterSerial);
+  const std::string file = folder.write("o.json", test::ouster_json(told));
+  const auto source = make_udp_source(live_config(port, {"sensor_metadata=" + file}));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender sender(port);
+  Pace pace(*source);
+  test::OusterPacket packet;
+  const auto send_turns = [&](std::uint64_t serial) {
+    packet.serial = serial;
+    for (const test::OusterPacket& one : test::turns_of(packet, 3)) pace.send(sender, test::payload_of(one));
+    packet.frame += 3;
+  };
+  ASSERT_TRUE(becomes_true([&] {
+    send_turns(test::kOtherOusterSerial);
+    const std::string summary = source->health().summary;
+    return summary.find("122201000222") != std::string::npos && summary.find("122201000111") != std::string::npos;
+  })) << source->health().summary;
+  EXPECT_EQ(source->health().grade, Grade::kBad);
+  EXPECT_EQ(catcher.frames().size(), 0U);
+  ASSERT_TRUE(becomes_true([&] {
+    send_turns(test::kOusterSerial);
+    return source->health().summary == "receives";
+  })) << source->health().summary;
+  source->stop();
+  EXPECT_GE(catcher.frames().size(), 2U);
+}
+
+#ifdef POSE_WALL_LIVE_HAS_HTTP
+// Another sensor is put in place of the first: its metadata is asked for once the first is silent. Firmware 3.2 tells
+// a head of another kind.
+TEST(UdpSource, AnOusterThatReplacesAnotherIsReadByItsOwnMetadata) {
+  const std::string web = fmt::format("127.0.0.1:{}", pose_wall::test::free_tcp_port());
+  const std::uint16_t port = free_udp_port();
+  test::OusterDescription first, second;
+  first.more = test::ouster_serial_told(test::kOusterSerial);
+  second.more = test::ouster_serial_told(test::kOtherOusterSerial);
+  second.more_of_format = ", \"header_type\": \"FUSA\", \"column_window\": [8, 15]";
+  auto server = std::make_unique<MetadataServer>(web, test::ouster_json(first));
+  const auto source = make_udp_source(live_config(port, {"sensor_metadata=http://" + web}));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender sender(port);
+  Pace pace(*source);
+  test::OusterPacket packet;
+  packet.serial = test::kOusterSerial;
+  const auto send_turns = [&] {
+    for (const test::OusterPacket& one : test::turns_of(packet, 3)) {
+      if (!packet.is_fusa || one.first_column >= 8) pace.send(sender, test::payload_of(one));
+    }
+    packet.frame += 3;
+  };
+  const auto frames = [&] { return std::stoull(fact(source->health(), "frames")); };
+  ASSERT_TRUE(becomes_true([&] {
+    send_turns();
+    return frames() > 0;
+  })) << source->health().summary;
+  server.reset();
+  server = std::make_unique<MetadataServer>(web, test::ouster_json(second));
+  ASSERT_TRUE(becomes_true([&] { return source->health().summary == "the sensor is silent"; }));
+  const auto of_first = frames();
+  packet.serial = test::kOtherOusterSerial;
+  packet.is_fusa = true;
+  packet.frame = 1'000'000;
+  const std::int64_t of_second_ns = 1'000'000LL * test::kOusterColumnsOfTurn * test::kOusterColumn_ns;
+  ASSERT_TRUE(becomes_true([&] {
+    send_turns();
+    return frames() > of_first + 5;
+  })) << source->health().summary;
+  source->stop();
+  EXPECT_GE(catcher.frames().back().stamp_ns, of_second_ns);
 }
 #endif
 

@@ -90,7 +90,9 @@ class Written(unittest.TestCase):
             self.assertEqual(self.read(comment.encode() + body).stamp_ns, expected)
         by_name = self.read(b"# stamp_ns 7\n" + body, "1700000000123456789.pcd")
         self.assertEqual(by_name.stamp_ns, 1700000000123456789)
-        for name in ("170000000012345", "17000000001234567890", "9999999999999999999", "a1234567890123456"):
+        self.assertEqual(self.read(body, "1700000000123456.pcd").stamp_ns, 1700000000123456000)
+        for name in ("170000000012345", "0000000000000012", "20240131235959123", "17000000001234567890",
+                     "9999999999999999999", "a1234567890123456"):
             self.assertIsNone(self.read(body, f"{name}.pcd").stamp_ns)
 
     def test_rows_of_frames(self):

@@ -58,7 +58,7 @@ struct Road {
   TempFolder folder;
 };
 
-// The fields behind x y z by hand: PCD label residual rgb, PLY label residual red green blue.
+// The fields behind x y z by hand: PCD label residual rgb, PLY red green blue label residual, both as floats.
 struct Row {
   Eigen::Vector3d p_base_m;
   std::uint32_t label;
@@ -74,9 +74,15 @@ std::vector<Row> rows_of(const std::string& file) {
   for (std::uint32_t i = 0; i < frame.cloud.width; ++i) {
     Row row{point_position(frame.cloud, 0, i), 0, 0, 0};
     const auto* point = static_cast<const char*>(frame.cloud.data) + std::size_t{i} * frame.cloud.point_step;
-    std::memcpy(&row.label, point + 12, 4);
-    std::memcpy(&row.residual_m, point + 16, 4);
-    const auto* colour = reinterpret_cast<const unsigned char*>(point + 20);
+    std::memcpy(&row.residual_m, point + (is_ply ? 19 : 16), 4);
+    const auto* colour = reinterpret_cast<const unsigned char*>(point + (is_ply ? 12 : 20));
+    if (is_ply) {
+      float label = -1.0F;
+      std::memcpy(&label, point + 15, 4);
+      row.label = static_cast<std::uint32_t>(label);
+    } else {
+      std::memcpy(&row.label, point + 12, 4);
+    }
     row.rgb = is_ply ? static_cast<std::uint32_t>(colour[0] << 16 | colour[1] << 8 | colour[2])
                      : static_cast<std::uint32_t>(colour[2] << 16 | colour[1] << 8 | colour[0]);
     rows.push_back(row);
@@ -115,6 +121,10 @@ TEST(Annotate, PlyHoldsTheSame) {
   const std::vector<Row> a = rows_of(road.folder.file("pcd/000002.pcd")),
                          b = rows_of(road.folder.file("ply/000002.ply"));
   ASSERT_EQ(a.size(), b.size());
+  const std::string head = text_of(road.folder.file("ply/000002.ply")).substr(0, 1000);
+  for (const char* property : {"float scalar_label\n", "float scalar_residual_m\n", "uchar red\n"}) {
+    EXPECT_TRUE(contains(head, std::string("property ") + property)) << "CloudCompare and Open3D pass others over";
+  }
   for (std::size_t i = 0; i < a.size(); ++i) {
     ASSERT_EQ(a[i].p_base_m, b[i].p_base_m);
     ASSERT_EQ(a[i].label, b[i].label);

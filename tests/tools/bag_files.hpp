@@ -11,6 +11,10 @@
 #include <utility>
 #include <vector>
 
+#if POSE_WALL_HAS_SQLITE
+#include <sqlite3.h>
+#endif
+
 #include "test_files.hpp"
 
 namespace pose_wall::tools::test {
@@ -23,14 +27,16 @@ inline std::string with_length(const std::string& text) {
 struct CloudMessage {
   std::uint32_t sec = 1700000000, nsec = 0;
   std::uint32_t height = 1, width = 2;
-  std::uint32_t row_step = 0;  // 0: width * 16
+  std::uint32_t row_step = 0;     // 0: width * point_step
+  std::uint32_t point_step = 16;  // another one needs data
   bool big_endian_data = false;
   std::string data;  // empty: points (i, 2, 3)
   std::vector<std::string> names = {"x", "y", "z", "ring"};
   std::vector<std::uint8_t> types = {7, 7, 7, 4};
   std::vector<std::uint32_t> offsets = {0, 4, 8, 12};
+  std::string frame_id = "lidar";
 
-  std::uint32_t rows_step() const { return row_step != 0 ? row_step : width * 16; }
+  std::uint32_t rows_step() const { return row_step != 0 ? row_step : width * point_step; }
   std::string bytes() const {
     if (!data.empty()) return data;
     std::string points;
@@ -48,12 +54,12 @@ struct CloudMessage {
 };
 
 inline std::string ros1_message(const CloudMessage& cloud) {
-  std::string text = raw(std::uint32_t{9}) + raw(cloud.sec) + raw(cloud.nsec) + with_length("lidar") +
+  std::string text = raw(std::uint32_t{9}) + raw(cloud.sec) + raw(cloud.nsec) + with_length(cloud.frame_id) +
                      raw(cloud.height) + raw(cloud.width) + raw(static_cast<std::uint32_t>(cloud.names.size()));
   for (std::size_t i = 0; i < cloud.names.size(); ++i) {
     text += with_length(cloud.names[i]) + raw(cloud.offsets[i]) + raw(cloud.types[i]) + raw(std::uint32_t{1});
   }
-  return text + raw(std::uint8_t{cloud.big_endian_data}) + raw(std::uint32_t{16}) + raw(cloud.rows_step()) +
+  return text + raw(std::uint8_t{cloud.big_endian_data}) + raw(cloud.point_step) + raw(cloud.rows_step()) +
          with_length(cloud.bytes()) + raw(std::uint8_t{1});
 }
 
@@ -87,7 +93,7 @@ inline std::string cdr_message(const CloudMessage& cloud, bool big_endian = fals
   CdrWriter out(big_endian);
   out.put(static_cast<std::int32_t>(cloud.sec));
   out.put(cloud.nsec);
-  out.put_text("lidar");
+  out.put_text(cloud.frame_id);
   out.put(cloud.height);
   out.put(cloud.width);
   out.put(static_cast<std::uint32_t>(cloud.names.size()));
@@ -98,7 +104,7 @@ inline std::string cdr_message(const CloudMessage& cloud, bool big_endian = fals
     out.put(std::uint32_t{1});
   }
   out.put(std::uint8_t{cloud.big_endian_data});
-  out.put(std::uint32_t{16});
+  out.put(cloud.point_step);
   out.put(cloud.rows_step());
   out.put_block(cloud.bytes());
   out.put(std::uint8_t{1});
@@ -199,5 +205,42 @@ inline std::string mcap(const std::vector<std::pair<std::string, std::string>>& 
   return text + mcap_record(15, raw(std::uint32_t{0})) + channels +
          mcap_record(2, raw(std::uint64_t{0}) + raw(std::uint64_t{0}) + raw(std::uint32_t{0})) + magic;
 }
+
+#if POSE_WALL_HAS_SQLITE
+
+// As rosbag2 writes it, by SQLite itself.
+inline void write_sqlite_bag(const std::string& file, const std::vector<std::pair<std::string, std::string>>& topics,
+                             const std::vector<WrittenMessage>& messages, const std::string& format = "cdr") {
+  sqlite3* db = nullptr;
+  sqlite3_open(file.c_str(), &db);
+  const auto insert = [db](const char* text, const std::vector<std::string>& texts, const std::string* blob,
+                           int topic) {
+    sqlite3_stmt* row = nullptr;
+    sqlite3_prepare_v2(db, text, -1, &row, nullptr);
+    sqlite3_bind_int(row, 1, topic);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      sqlite3_bind_text(row, static_cast<int>(i) + 2, texts[i].data(), static_cast<int>(texts[i].size()),
+                        SQLITE_TRANSIENT);
+    }
+    if (blob != nullptr) sqlite3_bind_blob(row, 2, blob->data(), static_cast<int>(blob->size()), SQLITE_TRANSIENT);
+    sqlite3_step(row);
+    sqlite3_finalize(row);
+  };
+  sqlite3_exec(db,
+               "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT);"
+               "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB);",
+               nullptr, nullptr, nullptr);
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    insert("INSERT INTO topics VALUES(?, ?, ?, ?)", {topics[i].first, topics[i].second, format}, nullptr,
+           static_cast<int>(i) + 1);
+  }
+  for (const WrittenMessage& message : messages) {
+    insert("INSERT INTO messages(topic_id, timestamp, data) VALUES(?, 1700000000000000007, ?)", {}, &message.data,
+           static_cast<int>(message.topic) + 1);
+  }
+  sqlite3_close(db);
+}
+
+#endif
 
 }  // namespace pose_wall::tools::test

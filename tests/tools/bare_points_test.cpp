@@ -108,6 +108,58 @@ TEST(BareGuess, EveryLayoutIsFoundInAnyOrderAndPlace) {
   }
 }
 
+// A turn of a sensor with 16 rings in a road, in the order of measurement: x y z intensity ring time and padding.
+std::string turn(const std::string& word, bool shuffled) {
+  std::vector<std::string> points;
+  for (int step = 0; step < 600; ++step) {
+    for (int ring = 0; ring < 16; ++ring) {
+      const double azimuth = step * M_PI / 300.0, elevation = (2 * ring - 15) * M_PI / 180.0;
+      const double side = 2.5 / std::max(std::fabs(std::sin(azimuth)), 0.05), up = 1.5 / std::fabs(std::tan(elevation));
+      const double across = std::min(side, up);
+      std::string point;
+      for (const char letter : word) {
+        const double value = letter == 'x'   ? across * std::cos(azimuth)
+                             : letter == 'y' ? across * std::sin(azimuth)
+                             : letter == 'z' ? across * std::tan(elevation)
+                             : letter == 'i' ? (step * 7919 + ring * 104729) % 251
+                             : letter == 'r' ? ring
+                             : letter == 't' ? step * 166e-6 + ring * 2e-6
+                             : letter == 'n' ? std::sin(step * 7.0 + ring)
+                             : letter == '1' ? 1.0
+                                             : 0.0;
+        point += raw(static_cast<float>(value));
+      }
+      points.push_back(point);
+    }
+  }
+  if (shuffled) std::shuffle(points.begin(), points.end(), std::mt19937(2));
+  std::string text;
+  for (const std::string& point : points) text += point;
+  return text;
+}
+
+TEST(BareGuess, PointsThatAreHalvesOfOthersAreNotTaken) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"xyz", "xyz"},       {"xyzi", "xyzi"},         {"xyzir", "xyzir"},       {"xyzit", "xyzit"},
+      {"xyzirt", "xyzirt"}, {"xyzitr", "xyzitr"},     {"xyz1irt0", "xyz_irt_"}, {"xyz1itr0", "xyz_itr_"},
+      {"xyz1", "xyzi"},     {"xyz1i000", "xyz_i___"}, {"xyzi01", "xyzi__"}};
+  for (const bool shuffled : {false, true}) {
+    for (const auto& [word, right] : cases) {
+      const BareGuess guess = guess_bare_layout(bytes_of(turn(word, shuffled)));
+      ASSERT_FALSE(guess.possible.empty()) << word;
+      EXPECT_TRUE(guess.is_clear) << word << (shuffled ? " shuffled" : "");
+      EXPECT_EQ(bare_layout_word(guess.possible.front()), right) << word << (shuffled ? " shuffled" : "");
+    }
+  }
+}
+
+TEST(BareGuess, LayoutsThatNobodyKnowsAreAskedAbout) {
+  for (const char* word : {"xyznnn", "xyz1nnn0i000", "xyzt"}) {
+    const std::string said = refusal(read_guessed_points, turn(word, false));
+    EXPECT_TRUE(contains(said, "--layout")) << word << ": " << said;
+  }
+}
+
 TEST(BareGuess, IntensitiesOfAByteAndMillimetresAreFoundToo) {
   const std::vector<Point> points = road(9600, 0.0, true);
   EXPECT_EQ(bare_layout_word(guess_bare_layout(bytes_of(written(points, "xyzi", 255.0))).possible.front()), "xyzi");

@@ -116,8 +116,9 @@ TEST(FileContent, WhatIsNotReadSaysWhatItIsAndWhatToDo) {
       {"\x04\x22\x4D\x18" + zeros, {"lz4", "unlz4"}},
       {"7z\xBC\xAF\x27\x1C" + zeros, {"7-Zip", "7z x"}},
       {tar, {"tar", "tar xf"}},
-      {"LASF" + zeros, {"LAS", "pdal translate"}},
-      {"ASTM-E57" + zeros, {"E57", "pdal translate"}},
+      {"LASF" + zeros, {"LAS", "pdal translate FILE out.pcd --writers.pcd.compression=binary"}},
+      {"ASTM-E57" + zeros, {"E57", "pdal translate FILE out.pcd --writers.pcd.compression=binary"}},
+      {"CCB2" + zeros, {"CloudCompare", "as PLY"}},
       {"\x93NUMPY" + zeros, {"NumPy", "--layout"}},
       {"\x89HDF\r\n\x1A\n" + zeros, {"HDF5", "PCD"}},
       {std::string("\xFF\xFE"

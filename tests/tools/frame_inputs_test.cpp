@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 
+#include "frames/file_source.hpp"
 #include "frames/frame_stamps.hpp"
 #include "frames/input_list.hpp"
 #include "frames/load_frame.hpp"
@@ -162,14 +163,48 @@ TEST(InputList, AnEmptyFolderIsAnErrorThatNamesTheEndings) {
   EXPECT_NE(inputs.errors.front().find(".pcd, .bin, .ply, .xyz"), std::string::npos);
 }
 
-TEST(FrameStamps, OnlyNamesOfSixteenToNineteenDigitsAreStamps) {
+TEST(FrameStamps, NamesOfDigitsAreStampsInTheUnitOfTheirLength) {
   EXPECT_EQ(stamp_from_name("a/1700000000123456789.pcd"), 1700000000123456789);
-  EXPECT_EQ(stamp_from_name("1700000000123456.bin"), 1700000000123456);
+  EXPECT_EQ(stamp_from_name("1700000000123456.bin"), 1700000000123456000);
+  EXPECT_EQ(stamp_from_name("1700000000123.bin"), 1700000000123000000);
+  EXPECT_EQ(stamp_from_name("100000000000000001.bin"), 100000000000000001);
+  EXPECT_EQ(stamp_from_name("0000000000100000000.bin"), 100000000) << "padded nanoseconds";
+  for (const char* counter : {"0000000000012.pcd", "0000000000000012.pcd", "1700000000.pcd", "20240131235959123.pcd"}) {
+    EXPECT_FALSE(stamp_from_name(counter)) << counter;
+  }
   EXPECT_FALSE(stamp_from_name("170000000012345.pcd"));
   EXPECT_FALSE(stamp_from_name("99999999999999999999.pcd"));
   EXPECT_FALSE(stamp_from_name("9999999999999999999.pcd")) << "does not fit 63 bits";
   EXPECT_FALSE(stamp_from_name("1700000000123456789a.pcd"));
   EXPECT_FALSE(stamp_from_name(""));
+}
+
+// The stamps of files of one folder behind 1700000000 s, in the order in which they are read; -1: none.
+std::vector<std::int64_t> stamps_of(const std::vector<std::string>& names) {
+  const TempFolder folder;
+  for (const std::string& name : names) folder.write("f/" + name + ".bin", "");
+  FileSource source(collect_inputs({folder.file("f")}).files);
+  std::vector<std::int64_t> stamps_ns;
+  while (const std::optional<SourcedFrame> frame = source.next()) {
+    stamps_ns.push_back(frame->stamp_ns ? *frame->stamp_ns - 1'700'000'000'000'000'000 : -1);
+  }
+  return stamps_ns;
+}
+
+TEST(FrameStamps, SecondsWithAFractionAreReadAsTheNamesTellTogether) {
+  using Stamps = std::vector<std::int64_t>;
+  EXPECT_EQ(stamps_of({"1700000000.000000000", "1700000000.100000000"}), (Stamps{0, 100'000'000})) << "padded";
+  EXPECT_EQ(stamps_of({"1700000000.25", "1700000000.5", "1700000000.125"}),
+            (Stamps{125'000'000, 250'000'000, 500'000'000}))
+      << "floats";
+  EXPECT_EQ(stamps_of({"1700000000.05", "1700000000.123456789"}), (Stamps{50'000'000, 123'456'789})) << "decimals";
+  EXPECT_EQ(stamps_of({"1700000000.50000000", "1700000000.150000000", "1700000000.999"}),
+            (Stamps{999, 50'000'000, 150'000'000}))
+      << "nanoseconds that are not padded";
+  EXPECT_EQ(stamps_of({"1700000000000000", "1700000000100000", "1700000000200000"}),
+            (Stamps{0, 100'000'000, 200'000'000}))
+      << "microseconds";
+  EXPECT_EQ(stamps_of({"1.5", "1.10"}), (Stamps{-1, -1})) << "numbers of parts";
 }
 
 TEST(FrameStamps, OtherFramesFollowAtTheRateWithoutDrift) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: packets of Hesai's XT32, 40P and QT64 give points and times where the manuals put them (worked out by hand),
-// of two returns the farther whatever their order, angles of a table where one is given; what does not fit is not taken
-// or refused with its reason. Real packets are looked at in tests/real.
+// Proves: packets of Hesai's XT32, XT16, 40P and QT64 give points and times where the manuals put them (worked out by
+// hand), of two returns the farther whatever their order, angles of a table where one is given; what does not fit is
+// not taken or refused with its reason. Real packets are looked at in tests/real.
 
 #include <gtest/gtest.h>
 
@@ -44,6 +44,35 @@ TEST(Hesai, PointsOfAnXt32LieWhereTheManualPutsThem) {
   EXPECT_EQ(scan.stamp_ns, kCaptured_ns + 5'632 - 350'000 + 368);
   EXPECT_EQ(point_at(scan, 31, 2).t_ns, 100'000U);
   EXPECT_EQ(point_at(scan, 0, 2).t_ns, 100'000U + 31U * 1'512U);
+}
+
+TEST(Hesai, PointsOfAnXt16LieWhereTheManualPutsThem) {
+  HesaiPacket packet;
+  packet.lasers = 16;
+  const Scan scan = one_turn(packet);
+  ASSERT_EQ(scan.rings, 16U);
+  ASSERT_EQ(scan.points.size(), 16U * 8U);
+  // Block 2 at 90 degrees is to the right; channel 1 is the highest, at 15 degrees, channel 16 at -15; 10 m.
+  expect_at(point_at(scan, 15, 2), 0.0, -9.659258, 2.588190);
+  expect_at(point_at(scan, 0, 2), 0.0, -9.659258, -2.588190);
+  // Channel 9 is the first below the horizon, at -1 degree.
+  expect_at(point_at(scan, 7, 2), 0.0, -9.998477, -0.174524);
+  // As of an XT32, but one laser each 3.024 us: the SDK counts 6 us to the first and 51.36 us to the last.
+  EXPECT_EQ(scan.stamp_ns, kCaptured_ns + 6'000 - 350'000);
+  EXPECT_EQ(point_at(scan, 15, 2).t_ns, 100'000U);
+  EXPECT_EQ(point_at(scan, 0, 2).t_ns, 100'000U + 51'360U - 6'000U);
+}
+
+// Sixteen lasers in eight blocks are an XT16's only by its protocol.
+TEST(Hesai, AnotherProtocolIsNoXt) {
+  for (const std::size_t lasers : {16U, 32U}) {
+    HesaiPacket packet;
+    packet.lasers = lasers;
+    std::string other = payload_of(packet);
+    other[3] = '\x02';
+    EXPECT_FALSE(hesai_model_of(test::view_of(other))) << lasers;
+    EXPECT_EQ(unread_hesai(test::view_of(other)), "a Hesai of " + std::to_string(lasers) + " lasers in 8 blocks");
+  }
 }
 
 TEST(Hesai, PointsOfA40pLieWhereTheManualPutsThem) {
@@ -151,12 +180,13 @@ TEST(Hesai, FaultsOfATableOfAnglesAreNamed) {
 }
 
 TEST(Hesai, WhatDoesNotFitIsNotTaken) {
-  HesaiPacket of_40p, of_qt;
+  HesaiPacket of_40p, of_qt, of_xt16;
+  of_xt16.lasers = 16;
   of_40p.lasers = 40;
   of_40p.blocks = 10;
   of_qt.lasers = 64;
   of_qt.blocks = 4;
-  for (const HesaiPacket& packet : {HesaiPacket{}, of_40p, of_qt}) {
+  for (const HesaiPacket& packet : {HesaiPacket{}, of_40p, of_qt, of_xt16}) {
     const std::string good = payload_of(packet);
     ASSERT_TRUE(hesai_model_of(test::view_of(good)));
     for (std::size_t size = 0; size < good.size(); ++size) {

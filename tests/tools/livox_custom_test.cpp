@@ -74,7 +74,7 @@ std::string refusal(MessageEncoding encoding, const std::string& bytes) {
 
 void expect_points(const DecodedCloud& decoded) {
   EXPECT_EQ(decoded.stamp_ns, 1'700'000'000'000'000'007);
-  EXPECT_EQ(decoded.frame_id, "livox");
+  EXPECT_EQ(decoded.source.frame_id, "livox");
   const pose_wall_cloud& cloud = decoded.frame.cloud;
   ASSERT_EQ(cloud.width, 3U);
   EXPECT_EQ(cloud.data_bytes, std::uint64_t{3} * cloud.point_step);

@@ -102,6 +102,14 @@ TEST(Mid360, AClockThatJumpsBeginsAnotherFrame) {
   EXPECT_FALSE(complete[0]) << "the clock went back before it was full";
 }
 
+TEST(Mid360, APacketThatComesLateBeginsNoFrame) {
+  std::vector<std::uint64_t> times_ns;
+  for (std::uint64_t i = 0; i < 20; ++i) times_ns.push_back(kStart_ns + i * 10 * kMs);
+  times_ns.insert(times_ns.begin() + 11,
+                  kStart_ns + 100 * kMs - kMs / 2);  // of the first frame, behind the second's first
+  EXPECT_EQ(frames_of(times_ns, kMid360Frame_ns), (std::vector<std::size_t>{10, 10}));
+}
+
 TEST(Mid360, FramesOfNoLengthAreRefused) {
   for (const std::int64_t frame_ns : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{10'000'000'001}}) {
     EXPECT_THROW(Mid360Assembler{frame_ns}, FrameError) << frame_ns;
@@ -123,7 +131,6 @@ TEST(Mid360, WhatIsNoDataIsNotTaken) {
   assembler.finish();
   EXPECT_FALSE(assembler.take());
   EXPECT_TRUE(add(assembler, good));
-  EXPECT_FALSE(assembler.add({0, 2, test::view_of(good)})) << "another address";
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ inline ByteView view_of(const std::string& bytes) {
 }
 
 inline bool add(ScanAssembler& assembler, const std::string& payload, std::int64_t captured_ns = 0) {
-  return assembler.add({captured_ns, 1, view_of(payload)});
+  return assembler.add({captured_ns, {}, view_of(payload)});
 }
 
 inline void expect_at(const ScanPoint& point, double x_m, double y_m, double z_m) {

@@ -8,6 +8,7 @@
 
 #include "bag_files.hpp"
 #include "bags/packet_message.hpp"
+#include "ouster_packets.hpp"
 #include "packet_files.hpp"
 
 namespace pose_wall::tools {
@@ -175,6 +176,35 @@ TEST(PacketBag, AMessageThatCannotBeReadIsSaidAndTheOthersAreRead) {
   ASSERT_EQ(bag.errors.size(), 1U);
   EXPECT_TRUE(contains(bag.errors.front(), "data of a packet takes 1206 bytes"));
   EXPECT_EQ(bag.announced, 4U);
+}
+
+// Its driver records its metadata as a text beside its packets.
+TEST(PacketBag, MetadataOfAnOusterIsThatOfTheBag) {
+  const TempFolder folder;
+  const std::string type = "nebula_msgs/NebulaPackets", text = test::ouster_json({});
+  std::vector<std::string> payloads;
+  for (const test::OusterPacket& packet : test::turns_of({}, 3)) payloads.push_back(test::payload_of(packet));
+  CdrWriter cdr(false);
+  cdr.put_text(text);
+  const auto ros1 = [&](const std::string& topic, const std::string& metadata) {
+    return read_of_bag(
+        folder, "a.bag",
+        test::ros1_bag({{topic, "std_msgs/String"}, {"/ouster/lidar_packets", type}},
+                       {{1, message(type, MessageEncoding::kRos1, payloads)}, {0, with_length(metadata)}}));
+  };
+  const test::ReadCapture mcap =
+      read_of_bag(folder, "a.mcap",
+                  test::mcap({{"/ouster/metadata", "std_msgs/msg/String"}, {"/ouster/lidar_packets", ros2_name(type)}},
+                             {{0, cdr.text()}, {1, message(type, MessageEncoding::kCdr, payloads)}}, nullptr));
+  const test::ReadCapture of_ros1 = ros1("/ouster/metadata", text);
+  for (const test::ReadCapture* bag : {&of_ros1, &mcap}) {
+    ASSERT_TRUE(bag->errors.empty()) << bag->errors.front();
+    EXPECT_EQ(bag->frames.size(), 3U);
+    EXPECT_TRUE(contains(bag->about.kind, "packets of an Ouster OS-test")) << bag->about.kind;
+  }
+  const std::string elsewhere = test::refusal_of(ros1("/other/metadata", text));
+  EXPECT_TRUE(contains(elsewhere, "--metadata") && contains(elsewhere, "/ouster/metadata")) << elsewhere;
+  EXPECT_TRUE(contains(test::refusal_of(ros1("/ouster/metadata", "{}")), "metadata of topic /ouster/metadata: "));
 }
 
 // A driver that records both made the clouds of the packets.

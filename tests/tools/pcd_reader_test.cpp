@@ -106,6 +106,19 @@ TEST(PcdReader, CrlfHeadersAndOldVersionsAreRead) {
   EXPECT_EQ(number_at(frame, frame.cloud.z, 0), 3.0);
 }
 
+TEST(PcdReader, BoolsAndSmallLettersAreRead) {
+  const std::string body = xyz(1, 2, 3) + "\x01" + xyz(4, 5, 6) + std::string("\x00", 1);
+  EXPECT_EQ(
+      read_pcd(bytes_of(header("x y z valid", "4 4 4 1", "F F F B", "1 1 1 1", "2", "binary") + body)).cloud.width, 2U);
+  const Frame frame = read_pcd(bytes_of(
+      "version 0.7\nfields x y z ring\nsize 4 4 4 1\ntype f f f u\ncount 1 1 1 1\nwidth 2\nheight 1\npoints 2\n"
+      "data Binary\n" +
+      body));
+  EXPECT_EQ(number_at(frame, frame.cloud.x, 1), 4.0);
+  EXPECT_EQ(frame.cloud.ring.type, static_cast<std::uint32_t>(POSE_WALL_FIELD_UINT8));
+  EXPECT_TRUE(contains(refusal(read_pcd, header("x y z b", "4 4 4 4", "F F F B", "1 1 1 1", "0", "binary")), "SIZE 4"));
+}
+
 TEST(PcdReader, MoreBytesThanPointsAreIgnoredAndZeroPointsAreCountedByBytes) {
   const std::string body = xyz(1, 2, 3) + xyz(4, 5, 6);
   EXPECT_EQ(read_pcd(bytes_of(xyz_header("1", "binary") + body)).cloud.width, 1U);

@@ -35,6 +35,9 @@ std::string front(const std::string& stamp, double x = 1.0, int beams = 4, const
   return line + fmt::format(" {0} 0.5 0.25 {0} 0.5 0.25 {1} nohost 0.1\n", x, stamp);
 }
 
+// Few beams, as the tests write them, are of no field of view by themselves.
+const std::string kView = "PARAM laser_front_laser_fov 180 nohost 0\n";
+
 std::string robot(const std::string& stamp) {
   return "ROBOTLASER1 0 -1.5 3.0 1.0 81.9 0.01 0 4 1 2 3 81.9 2 7 8 1.2 0 0 1 0 0 0.1 0.2 0 0 0 " + stamp + " h 0.5\n";
 }
@@ -54,10 +57,10 @@ std::int64_t stamp_of(const std::string& word) {
 }
 
 TEST(PlanarCarmen, ReadsTheFrontLaser) {
-  const CarmenLog log = parse_carmen_log(front("976052857.436207", 3.5));
+  const CarmenLog log = parse_carmen_log(kView + front("976052857.436207", 3.5));
   ASSERT_EQ(log.scans.size(), 1U);
   const CarmenScan& scan = log.scans[0];
-  EXPECT_EQ(scan.line, 1U);
+  EXPECT_EQ(scan.line, 2U);
   EXPECT_EQ(scan.stamp_ns, 976'052'857'436'207'000);
   EXPECT_EQ(scan.logger_s, 0.1);
   EXPECT_EQ(scan.range_m, std::vector<float>(4, 2.5F));
@@ -73,6 +76,32 @@ TEST(PlanarCarmen, BeamsSpanHalfATurn) {
   EXPECT_DOUBLE_EQ(angles(181).angle_step_rad, kPi / 180);
   EXPECT_DOUBLE_EQ(angles(360).angle_step_rad, kPi / 360);
   EXPECT_DOUBLE_EQ(angles(361).angle_step_rad, kPi / 360);
+}
+
+TEST(PlanarCarmen, ParametersSayAnotherFieldOfView) {
+  const auto scan_of = [](const std::string& params, int beams) {
+    return parse_carmen_log(params + front("1", 0, beams)).scans[0];
+  };
+  const std::string fov = "PARAM laser_front_laser_fov 270 host 0\n";
+  const std::string step = "PARAM laser_front_laser_resolution 0.5 host 0\n";
+  for (const std::string& params : {fov, step, fov + step, std::string("PARAM front_laser_fov 270.0\n")}) {
+    const CarmenScan scan = scan_of(params, 541);
+    EXPECT_NEAR(scan.angle_min_rad, -0.75 * kPi, 1e-12) << params;
+    EXPECT_NEAR(scan.angle_step_rad, kPi / 360, 1e-12) << params;
+  }
+  EXPECT_NEAR(scan_of(fov, 540).angle_min_rad, -0.75 * kPi, 1e-12);
+  EXPECT_NEAR(scan_of("PARAM laser_front_laser_fov 240\n", 181).angle_step_rad, kPi / 135, 1e-12) << "not half a turn";
+}
+
+TEST(PlanarCarmen, BeamsWhoseFieldOfViewNobodyTellsAreRefused) {
+  const std::string unclear = refusal(front("1", 0, 541));
+  EXPECT_TRUE(contains(unclear, "line 1: 541 beams: 180, 181, 360 and 361 are taken for 180")) << unclear;
+  EXPECT_TRUE(contains(unclear, "PARAM laser_front_laser_fov DEGREES")) << unclear;
+  const std::string other = refusal(
+      "PARAM laser_front_laser_fov 180 host 0\nPARAM laser_front_laser_resolution 0.5 host 0\n" + front("1", 0, 541));
+  EXPECT_TRUE(contains(other, "541 beams do not fit the log's parameters: a field of view of 180")) << other;
+  EXPECT_TRUE(contains(refusal("PARAM laser_front_laser_resolution 1 host 0\n" + front("1", 0, 541)), "do not fit"));
+  EXPECT_TRUE(contains(refusal("PARAM laser_front_laser_fov wide host 0\n" + front("1", 0, 541)), "the log must tell"));
 }
 
 TEST(PlanarCarmen, ReadsTheRobotLaser) {
@@ -103,19 +132,20 @@ TEST(PlanarCarmen, StampsKeepAllDigits) {
 }
 
 TEST(PlanarCarmen, EachLineCountsOnce) {
-  const std::string text = "# a comment\n\nPARAM robot_frontlaser_offset 0.22 nohost 0\nODOM 0 0 0 0 0 0 1 nohost 0\n" +
-                           front("1") + "ODOM 0 0 0 0 0 0 1 nohost 0\nSYNC x\n" + front("nan") +
-                           front("2", 1, 4, "far") + front("3", std::nan("")) + robot("4") + "FLASER 4 1 2";
+  const std::string text = "# a comment\n\n" + kView +
+                           "PARAM robot_frontlaser_offset 0.22 nohost 0\nODOM 0 0 0 0 0 0 1 nohost 0\n" + front("1") +
+                           "ODOM 0 0 0 0 0 0 1 nohost 0\nSYNC x\n" + front("nan") + front("2", 1, 4, "far") +
+                           front("3", std::nan("")) + robot("4") + "FLASER 4 1 2";
   const CarmenLog log = parse_carmen_log(text);
-  EXPECT_EQ(log.lines, 12U);
+  EXPECT_EQ(log.lines, 13U);
   EXPECT_EQ(log.scans.size(), 2U);
   EXPECT_EQ(log.skip(CarmenSkip::kComment).lines, 1U);
   EXPECT_EQ(log.skip(CarmenSkip::kEmpty).first_line, 2U);
-  EXPECT_EQ(log.skip(CarmenSkip::kParam).lines, 1U);
+  EXPECT_EQ(log.skip(CarmenSkip::kParam).lines, 2U);
   EXPECT_EQ(log.skip(CarmenSkip::kOtherMessage).lines, 3U);
   EXPECT_EQ(log.other_messages.at("ODOM"), 2U);
   EXPECT_EQ(log.skip(CarmenSkip::kBadLine).lines, 3U);
-  EXPECT_EQ(log.skip(CarmenSkip::kBadLine).first_line, 8U);
+  EXPECT_EQ(log.skip(CarmenSkip::kBadLine).first_line, 9U);
   EXPECT_TRUE(contains(log.skip(CarmenSkip::kBadLine).first_fault, "ipc_timestamp is no number: 'nan'"));
   EXPECT_EQ(log.skip(CarmenSkip::kNotFinite).lines, 1U);
   std::size_t counted = log.scans.size();
@@ -135,7 +165,8 @@ TEST(PlanarCarmen, NamesTheLineOfTheFirstFault) {
 }
 
 TEST(PlanarCarmen, KeepsTheOrderOfTheLogWhereStampsJumpBack) {
-  const CarmenLog log = parse_carmen_log(front("10.5", 1) + front("10.1", 2) + front("10.5", 3) + front("10.6", 4));
+  const CarmenLog log =
+      parse_carmen_log(kView + front("10.5", 1) + front("10.1", 2) + front("10.5", 3) + front("10.6", 4));
   ASSERT_EQ(log.scans.size(), 4U);
   EXPECT_EQ(log.stamps_back, 1U);
   EXPECT_EQ(log.scans[1].stamp_ns, 10'100'000'000);
@@ -147,7 +178,7 @@ TEST(PlanarCarmen, KeepsTheOrderOfTheLogWhereStampsJumpBack) {
 
 TEST(PlanarCarmen, FindsWhereNothingCameBack) {
   const auto range_max = [](const std::string& far, int scans, double step_m = 0.1) {
-    std::string text;
+    std::string text = kView;
     for (int i = 0; i < scans; ++i) {
       text += front(std::to_string(3 * i + 1), step_m * i, 4, fmt::format("{:.2f}", 1.0 + 0.01 * i));
       text += front(std::to_string(3 * i + 2), step_m * i, 2, far);
@@ -163,7 +194,7 @@ TEST(PlanarCarmen, FindsWhereNothingCameBack) {
 }
 
 TEST(PlanarCarmen, ARangeWithoutAReturnIsUnknown) {
-  std::string text = "PARAM robot_frontlaser_offset 0.04 nohost 0\n";
+  std::string text = kView + "PARAM robot_frontlaser_offset 0.04 nohost 0\n";
   for (int i = 0; i < 30; ++i) text += front(std::to_string(i), i, 4, "50.00");
   text += "FLASER 6 0 -1 nan 44.00 50.00 50.10 0 0 0 0 0 0 99 h 1\n";
   const CarmenLog log = parse_carmen_log(text);
@@ -179,7 +210,7 @@ TEST(PlanarCarmen, ARangeWithoutAReturnIsUnknown) {
 }
 
 TEST(PlanarCarmen, SurvivesDamage) {
-  std::string text = "PARAM a b\n";
+  std::string text = kView + "PARAM a b\n";
   for (int i = 0; i < 4; ++i) text += front(fmt::format("{}.25", i)) + robot(fmt::format("{}.75", i));
   std::mt19937 random(3);
   std::size_t read = 0;

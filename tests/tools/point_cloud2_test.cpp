@@ -8,6 +8,7 @@
 
 #include "bag_files.hpp"
 #include "bags/point_cloud2.hpp"
+#include "frames/field_value.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -54,7 +55,7 @@ TEST(PointCloud2, BothSerialisationsGiveTheSamePoints) {
          {decode(MessageEncoding::kRos1, ros1_message(cloud)), decode(MessageEncoding::kCdr, cdr_message(cloud, false)),
           decode(MessageEncoding::kCdr, cdr_message(cloud, true))}) {
       EXPECT_EQ(decoded.stamp_ns, 1700000000000000005);
-      EXPECT_EQ(decoded.frame_id, "lidar");
+      EXPECT_EQ(decoded.source.frame_id, "lidar");
       const pose_wall_cloud& made = decoded.frame.cloud;
       EXPECT_EQ(made.width, 3U);
       EXPECT_EQ(made.height, 2U);
@@ -78,6 +79,50 @@ TEST(PointCloud2, AliasesOfIntensityAndTimeAreUnderstood) {
     cloud.names[3] = name;
     EXPECT_EQ(decode(MessageEncoding::kCdr, cdr_message(cloud)).frame.cloud.time.offset, 12U) << name;
   }
+}
+
+// Rows with a gap between them, so that a time is not looked for where none is.
+CloudMessage with_wide_field(const std::string& name, std::uint8_t type, bool big_endian_data) {
+  CloudMessage cloud;
+  cloud.height = cloud.width = 2;
+  cloud.point_step = 24;
+  cloud.row_step = 53;
+  cloud.big_endian_data = big_endian_data;
+  cloud.names = {"x", "y", "z", name, "valid"};
+  cloud.types = {7, 7, 7, type, 11};
+  cloud.offsets = {0, 4, 8, 12, 20};
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    cloud.data += test::raw(static_cast<float>(i), big_endian_data) + test::raw(2.0F, big_endian_data) +
+                  test::raw(3.0F, big_endian_data) +
+                  test::raw(std::uint64_t{1'700'000'000'000'000'000} + i * 1'048'576, big_endian_data) + "\1---";
+    if (i % 2 == 1) cloud.data += "#####";
+  }
+  return cloud;
+}
+
+TEST(PointCloud2, WholeNumbersOf64BitsAndBooleansAreReadAndMayBeTimes) {
+  for (const std::uint8_t type : {std::uint8_t{9}, std::uint8_t{10}}) {
+    for (const bool big_endian_data : {false, true}) {
+      const CloudMessage cloud = with_wide_field("timestamp", type, big_endian_data);
+      for (const DecodedCloud& decoded :
+           {decode(MessageEncoding::kRos1, ros1_message(cloud)), decode(MessageEncoding::kCdr, cdr_message(cloud))}) {
+        const pose_wall_cloud& made = decoded.frame.cloud;
+        ASSERT_EQ(made.time.type, static_cast<std::uint32_t>(POSE_WALL_FIELD_FLOAT64));
+        EXPECT_EQ(pose_wall_cloud_check(&made), POSE_WALL_OK);
+        for (std::uint32_t i = 0; i < 4; ++i) {
+          EXPECT_EQ(field_value(made, i / 2, i % 2, made.x), i);
+          EXPECT_EQ(field_value(made, i / 2, i % 2, made.time), 1.7e18 + 1'048'576.0 * i) << "a power of two: exact";
+        }
+      }
+    }
+  }
+}
+
+TEST(PointCloud2, FieldsThatTheEngineDoesNotTakeRefuseNoCloud) {
+  const CloudMessage cloud = with_wide_field("label", 10, false);
+  const DecodedCloud decoded = decode(MessageEncoding::kCdr, cdr_message(cloud));
+  EXPECT_EQ(decoded.frame.cloud.time.type, static_cast<std::uint32_t>(POSE_WALL_FIELD_NONE));
+  EXPECT_EQ(field_value(decoded.frame.cloud, 1, 1, decoded.frame.cloud.x), 3.0);
 }
 
 TEST(PointCloud2, EveryCutIsRefused) {
@@ -112,8 +157,14 @@ TEST(PointCloud2, WhatDoesNotFitIsRefusedWithItsFigures) {
   cloud.offsets[3] = 0xFFFFFFFF;
   expect_part(refusal(cloud), "field 'ring' ends at byte 4294967297");
   cloud = {};
-  cloud.types[3] = 9;
-  expect_part(refusal(cloud), "field 'ring' is of type 9; 1 to 8 are allowed");
+  cloud.types[3] = 12;
+  expect_part(refusal(cloud), "field 'ring' is of type 12; 1 to 11 are allowed");
+  cloud = {};
+  cloud.types[3] = 10;
+  expect_part(refusal(cloud), "field 'ring' ends at byte 20 of points of 16 bytes");
+  cloud = {};
+  cloud.types[0] = 10;
+  expect_part(refusal(cloud), "field 'x' must be a float");
   cloud = {};
   cloud.types[0] = 5;
   expect_part(refusal(cloud), "field 'x' must be a float");

@@ -124,7 +124,7 @@ TEST(SurveyLine, GoesAlongTheMiddleOfABoxToBothEnds) {
 }
 
 // Between two circles, once round: it ends where it began.
-class Ring final : public sim::RockSurface {
+class RingRoad final : public sim::RockSurface {
  public:
   Hit trace(const Ray& ray, double t_max_m) const override {
     Hit best;
@@ -146,7 +146,7 @@ class Ring final : public sim::RockSurface {
 };
 
 TEST(SurveyLine, FollowsABendAndEndsWhereItBegan) {
-  const auto path = sim::propose_path(Ring(), {-22.0, -22.0, 0.0}, {22.0, 22.0, kHigh_m}, 1.0, 1.3);
+  const auto path = sim::propose_path(RingRoad(), {-22.0, -22.0, 0.0}, {22.0, 22.0, kHigh_m}, 1.0, 1.3);
   ASSERT_GT(path.size(), 115U);
   EXPECT_LT(path.size(), 135U) << "a circle of 20 m is 126 m long";
   for (const Placement& p : path) EXPECT_NEAR(p.origin_road.head<2>().norm(), 20.0, 0.3);

@@ -62,7 +62,7 @@ std::string columns() {
 const char* const kAscii = "1.25 2.5 3.75\n-4.25 5.5 6.75\n7.25 -8.5 9.75\n";
 
 // LZF of runs of literal bytes alone.
-std::string packed(const std::string& plain) {
+std::string lzf_packed(const std::string& plain) {
   std::string body;
   for (std::size_t at = 0; at < plain.size(); at += 32) {
     const std::string run = plain.substr(at, 32);
@@ -92,7 +92,7 @@ Format text_format(const char* name, Frame (*read)(Bytes), const std::string& wh
 std::vector<Format> formats() {
   return {text_format("pcd_ascii", read_pcd, pcd("ascii") + kAscii),
           {"pcd_binary", read_pcd, pcd("binary") + points(), {}},
-          {"pcd_binary_compressed", read_pcd, pcd("binary_compressed") + packed(columns()), {}},
+          {"pcd_binary_compressed", read_pcd, pcd("binary_compressed") + lzf_packed(columns()), {}},
           text_format("ply_ascii", read_ply, ply("ascii") + kAscii),
           {"ply_binary_little_endian", read_ply, ply("binary_little_endian") + points(), {}},
           {"ply_binary_big_endian", read_ply, ply("binary_big_endian") + points(true), {}},

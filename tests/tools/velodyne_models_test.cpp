@@ -160,6 +160,48 @@ TEST(VelodyneModels, TheSensorThatWasNamedAndTheClockOutvoteTheProductByte) {
   EXPECT_EQ(told(packets_of(0x21, 1327), VelodyneModel::kVlp16), "packets of a Velodyne VLP-16");
 }
 
+// LSLidar's packets have this layout, and a Puck's order of lasers, in steps of 2.5 mm instead of 2.
+TEST(VelodyneModels, AnLslidarIsNoVelodyneWhateverItIsSaidToBe) {
+  for (const auto& [product, title] :
+       {std::pair<std::uint8_t, const char*>{0x10, "LSLidar C16"}, {0x20, "LSLidar C32"}}) {
+    EXPECT_TRUE(contains(told(packets_of(product, 1200)), title)) << title;
+    for (const std::uint32_t packet_us : {1200U, 600U, 0U, 1327U}) {
+      for (const VelodyneModel model : {VelodyneModel::kVlp16, VelodyneModel::kHdl32e, VelodyneModel::kVlp32c}) {
+        EXPECT_TRUE(contains(told(packets_of(product, packet_us), model), title)) << title << ' ' << packet_us;
+      }
+    }
+  }
+}
+
+TEST(VelodyneModels, ANameThatNeitherProductByteNorClockConfirmsIsRefused) {
+  const std::string strange = told(packets_of(0, 1200), VelodyneModel::kVlp16);
+  EXPECT_TRUE(contains(strange, "nothing in its packets confirms it")) << strange;
+  EXPECT_TRUE(contains(strange, "their clock (1200 us a packet) is no Velodyne's")) << strange;
+  EXPECT_TRUE(contains(strange, "LSLidar")) << strange;
+  EXPECT_TRUE(contains(told(packets_of(0, 600, 8, 0x39), VelodyneModel::kVlp16), "confirms"));
+  EXPECT_TRUE(contains(told(packets_of(0, 0), VelodyneModel::kVlp16), "their clock stands still"));
+  EXPECT_TRUE(contains(told(packets_of(0, 1327, 1), VelodyneModel::kVlp16), "confirms")) << "one packet has no pace";
+  for (std::size_t lost = 2; lost < 7; ++lost) {
+    EXPECT_TRUE(
+        contains(told(packets_of(0, static_cast<std::uint32_t>(1200 * lost)), VelodyneModel::kVlp16), "confirms"))
+        << lost;
+  }
+  // Where naming cannot help nobody is asked for a name.
+  EXPECT_FALSE(contains(told(packets_of(0, 1200)), "name the sensor"));
+  EXPECT_FALSE(contains(told(packets_of(0, 0)), "name the sensor"));
+  EXPECT_FALSE(contains(told(packets_of(0x10, 1200)), "name the sensor"));
+}
+
+TEST(VelodyneModels, PacketsLostBetweenAnyTwoDoNotRefuteTheName) {
+  EXPECT_EQ(told(packets_of(0, 2654), VelodyneModel::kVlp16), "packets of a Velodyne VLP-16");
+  EXPECT_EQ(told(packets_of(0, 1659), VelodyneModel::kHdl32e), "packets of a Velodyne HDL-32E");
+  std::vector<VelodynePacket> packets = packets_of(0, 1327, 12);
+  packets.erase(packets.begin() + 1);
+  packets.erase(packets.begin() + 2, packets.begin() + 4);
+  packets.erase(packets.begin() + 3);
+  EXPECT_EQ(told(packets, VelodyneModel::kVlp16), "packets of a Velodyne VLP-16");
+}
+
 TEST(VelodyneModels, SensorsThatAreNotReadAreNamed) {
   EXPECT_TRUE(contains(told(packets_of(0x63, 0)), "VLS-128"));
   EXPECT_TRUE(contains(told(packets_of(0x23, 664)), "VLP-32A or B"));
@@ -182,7 +224,6 @@ TEST(VelodyneModels, WhatIsNoDataIsNotTaken) {
   VelodynePacket other;
   other.product = 0x21;
   EXPECT_FALSE(add(assembler, payload_of(other))) << "another sensor behind the same address";
-  EXPECT_FALSE(assembler.add({0, 2, test::view_of(good)})) << "another address";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,8 +54,9 @@ class BagReader {
   // Those met so far; all after survey().
   virtual const std::vector<BagTopic>& topics() const = 0;
 
-  // Goes through the recording once and rewinds.
-  virtual BagSurvey survey();
+  // Goes through the recording once, shows each message, and rewinds. What `look` throws as FrameError is no fault of
+  // the recording: the reading finds it again.
+  virtual BagSurvey survey(const std::function<void(const BagMessage&)>& look = {});
 };
 
 }  // namespace pose_wall::tools

@@ -32,7 +32,7 @@ std::string list_of(const std::vector<SourceTopic>& topics, bool with_type) {
 
 }  // namespace
 
-Bag::Bag(const std::vector<std::filesystem::path>& files) {
+Bag::Bag(const std::vector<std::filesystem::path>& files, std::string source) : source_(std::move(source)) {
   for (const std::filesystem::path& file : files) add(file);
 }
 
@@ -46,7 +46,8 @@ void Bag::add(const std::filesystem::path& path) {
   BagSurvey survey;
   try {
     file.reader = open_bag(path, *kind);
-    survey = file.reader->survey();
+    survey =
+        file.reader->survey([&](const BagMessage& message) { hear(file.reader->topics()[message.topic], message); });
   } catch (const FrameError& fault) {
     throw FrameError(fmt::format("{}: {}", path.string(), fault.what()));
   }
@@ -65,6 +66,14 @@ void Bag::add(const std::filesystem::path& path) {
   files_.push_back(std::move(file));
 }
 
+void Bag::hear(const BagTopic& topic, const BagMessage& message) {
+  if (!is_cloud_type(topic.type)) return;
+  const SourceIdentity source = source_of_cloud(topic.type, topic.encoding, message.data, message.place);
+  if (!sources_.try_emplace(topic.name, source_).first->second.admits(source)) return;
+  const std::optional<ScanSpan> span = span_of_cloud(topic.type, topic.encoding, message.data, message.place);
+  if (span) overlaps_[topic.name].add(*span);
+}
+
 std::vector<SourceTopic> Bag::frame_topics() const {
   std::vector<SourceTopic> topics;
   std::copy_if(topics_.begin(), topics_.end(), std::back_inserter(topics),
@@ -73,7 +82,7 @@ std::vector<SourceTopic> Bag::frame_topics() const {
   if (topics.empty() && faults_ == 0) {
     throw FrameError(
         say("no topic of sensor_msgs/PointCloud2, of Livox's CustomMsg, or of packets (VelodyneScan, "
-            "NebulaPackets, PandarScan); topics: {}",
+            "NebulaPackets, PandarScan, PacketMsg, RslidarPacket, rslidarScan, LslidarPacket); topics: {}",
             topics_.empty() ? tr("none") : list_of(topics_, true)));
   }
   return topics;
@@ -87,6 +96,7 @@ std::vector<SourceTopic> Bag::preferred_topics() const {
   };
   // A driver that records both has made the clouds of the packets.
   keep([](const SourceTopic& topic) { return topic.has_clouds && topic.messages > 0; });
+  keep([](const SourceTopic& topic) { return topic.messages > 0 && !is_side_topic(topic.name); });
   keep([](const SourceTopic& topic) { return topic.messages > 0; });
   keep([](const SourceTopic&) { return true; });
   return preferred;
@@ -122,16 +132,52 @@ bool Bag::has_packets(const std::string& name) const {
                      [&](const SourceTopic& topic) { return topic.name == name && topic.has_packets; });
 }
 
+const SourceGate& Bag::sources(const std::string& topic) const {
+  static const SourceGate none;
+  const auto found = sources_.find(topic);
+  return found != sources_.end() ? found->second : none;
+}
+
+std::string Bag::choose_source(const std::string& topic) const {
+  const SourceGate& gate = sources(topic);
+  const std::string where = say("on {}", topic);
+  const std::string fault = gate.fault(where, "message");
+  if (!fault.empty()) throw std::invalid_argument(fault);
+  const auto overlap = overlaps_.find(topic);
+  if (overlap != overlaps_.end() && overlap->second.is_of_several()) {
+    throw FrameError(
+        say("the scans of {} {} overlap in time: they are of several sensors that nothing tells apart. Record a topic "
+            "for each (livox_ros_driver2: multi_topic 1)",
+            gate.chosen()->text(), where));
+  }
+  return gate.note(where, "message");
+}
+
 SourceAbout Bag::about(const std::string& topic) const {
   std::string kind(bag_kind_name(kind_));
   if (files_.size() > 1) kind += say(" of {} files", files_.size());
-  return {std::move(kind), topics_, topic};
+  const SourceGate& gate = sources(topic);
+  std::vector<SourceSender> senders;
+  for (const HeardSource& heard : gate.heard()) {
+    senders.push_back({gate.name_of(heard.who), heard.count, heard.who == gate.chosen()});
+  }
+  return {std::move(kind), topics_, topic, std::move(senders)};
 }
 
 BagSource::BagSource(std::unique_ptr<Bag> bag, std::string topic) : bag_(std::move(bag)), topic_(std::move(topic)) {
   frames_ = bag_->faults();
   for (const SourceTopic& known : bag_->topics()) {
     if (known.name == topic_) frames_ += static_cast<std::size_t>(known.messages);
+  }
+  frames_ -= static_cast<std::size_t>(bag_->sources(topic_).refused());
+}
+
+// One whose sender cannot be read is not passed over: it is an unreadable frame.
+bool BagSource::is_of_another(const BagTopic& topic, const BagMessage& message) const {
+  try {
+    return !bag_->sources(topic_).may_be(source_of_cloud(topic.type, topic.encoding, message.data, message.place));
+  } catch (const FrameError&) {
+    return false;
   }
 }
 
@@ -156,7 +202,9 @@ std::optional<SourcedFrame> BagSource::next() {
     try {
       while (const std::optional<BagMessage> message = file.reader->next()) {
         const BagTopic& topic = file.reader->topics()[message->topic];
-        if (topic.name == topic_ && is_cloud_type(topic.type)) return frame_of(file, *message);
+        if (topic.name != topic_ || !is_cloud_type(topic.type)) continue;
+        if (!is_of_another(topic, *message)) return frame_of(file, *message);
+        ++next_message_;
       }
     } catch (const FrameError& fault) {
       SourcedFrame sourced;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The clouds of one topic of a bag, one frame per message. A bag may be split into several files.
+// The clouds that one sensor sent on one topic of a bag, one frame per message. A bag may be split into several files.
 
 #pragma once
 
@@ -14,15 +14,18 @@
 
 #include "bags/bag_reader.hpp"
 #include "bags/open_bag.hpp"
+#include "bags/scan_overlap.hpp"
 #include "frames/frame_source.hpp"
+#include "frames/source_identity.hpp"
 
 namespace pose_wall::tools {
 
 // What the files of a bag hold; goes through them once.
 class Bag {
  public:
-  // Throws FrameError or std::runtime_error for a file that cannot be opened, with its name.
-  explicit Bag(const std::vector<std::filesystem::path>& files);
+  // `source` names the one that is read where a topic has several; empty: the first. Throws FrameError or
+  // std::runtime_error for a file that cannot be opened, with its name.
+  explicit Bag(const std::vector<std::filesystem::path>& files, std::string source = "");
 
   struct File {
     std::filesystem::path path;
@@ -45,15 +48,26 @@ class Bag {
   // Frames have to be put together of what this topic holds.
   bool has_packets(const std::string& name) const;
 
+  // Those who sent the clouds of this topic, the one that is read among them.
+  const SourceGate& sources(const std::string& topic) const;
+
+  // Which of them is read, where there are several; else empty. Throws std::invalid_argument when `source` means none
+  // of them, and FrameError when its clouds are of several sensors that nothing tells apart.
+  std::string choose_source(const std::string& topic) const;
+
   SourceAbout about(const std::string& topic) const;
 
  private:
   std::vector<SourceTopic> frame_topics() const;
   std::vector<SourceTopic> preferred_topics() const;  // where none is named
   void add(const std::filesystem::path& path);
+  void hear(const BagTopic& topic, const BagMessage& message);
 
   std::vector<File> files_;
   std::vector<SourceTopic> topics_;
+  std::string source_;
+  std::map<std::string, SourceGate> sources_;    // of topics with clouds
+  std::map<std::string, ScanOverlap> overlaps_;  // of the source that is read
   std::size_t faults_ = 0;
   BagKind kind_ = BagKind::kRos1;
 };
@@ -69,6 +83,7 @@ class BagSource : public FrameSource {
 
  private:
   SourcedFrame frame_of(const Bag::File& file, const BagMessage& message);
+  bool is_of_another(const BagTopic& topic, const BagMessage& message) const;
 
   std::unique_ptr<Bag> bag_;
   std::string topic_;

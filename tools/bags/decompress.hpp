@@ -23,6 +23,9 @@ Bytes decompress_lz4(ByteView compressed, std::uint64_t size);
 Bytes decompress_zstd(ByteView compressed, std::uint64_t size);
 Bytes decompress_bzip2(ByteView compressed, std::uint64_t size);
 
+// What comes out of the frame of zstd at the beginning, by its own head. Throws FrameError where that does not say it.
+std::uint64_t zstd_content_bytes(ByteView compressed);
+
 // "this build cannot read WHAT: install PACKAGE, configure with -DOPTION=ON and build again"
 std::string missing_support(std::string_view what, std::string_view package, std::string_view option);
 

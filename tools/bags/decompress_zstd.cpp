@@ -35,6 +35,13 @@ Bytes decompress_zstd(ByteView compressed, std::uint64_t size) {
   return block.take();
 }
 
+std::uint64_t zstd_content_bytes(ByteView compressed) {
+  const unsigned long long bytes = ZSTD_getFrameContentSize(compressed.data, compressed.size);
+  if (bytes == ZSTD_CONTENTSIZE_ERROR) throw FrameError(tr("zstd: the head of its frame is damaged"));
+  if (bytes == ZSTD_CONTENTSIZE_UNKNOWN) throw FrameError(tr("zstd: its frame does not say how much it holds"));
+  return bytes;
+}
+
 }  // namespace pose_wall::tools
 
 #else
@@ -42,6 +49,10 @@ Bytes decompress_zstd(ByteView compressed, std::uint64_t size) {
 namespace pose_wall::tools {
 
 Bytes decompress_zstd(ByteView /*compressed*/, std::uint64_t /*size*/) {
+  throw FrameError(missing_support("zstd", "libzstd-dev", "POSE_WALL_READ_ZSTD"));
+}
+
+std::uint64_t zstd_content_bytes(ByteView /*compressed*/) {
   throw FrameError(missing_support("zstd", "libzstd-dev", "POSE_WALL_READ_ZSTD"));
 }
 

@@ -13,4 +13,10 @@ namespace pose_wall::tools {
 // the header has no stamp, the time of the first point is it. Throws FrameError that names the place.
 DecodedCloud decode_livox_custom(MessageEncoding encoding, ByteView message, const Place& place);
 
+// As span_of_cloud().
+ScanSpan span_of_livox_custom(MessageEncoding encoding, ByteView message, const Place& place);
+
+// As source_of_cloud().
+SourceIdentity source_of_livox_custom(MessageEncoding encoding, ByteView message, const Place& place);
+
 }  // namespace pose_wall::tools

@@ -137,7 +137,7 @@ void McapBag::read_chunk(BagRecord& record) {
   }
 }
 
-BagMessage McapBag::message_of(ByteCursor& data) const {
+BagMessage McapBag::message_of(ByteCursor& data) {
   const auto channel = data.number<std::uint16_t>("channel of a message");
   const auto topic = topic_of_channel_.find(channel);
   if (topic == topic_of_channel_.end()) {
@@ -149,7 +149,9 @@ BagMessage McapBag::message_of(ByteCursor& data) const {
   const Place place = data.place_at(data.position());
   // A time beyond the year 2262 is no stamp: the clouds carry their own.
   const auto bounded_ns = std::min<std::uint64_t>(recorded_ns, std::numeric_limits<std::int64_t>::max());
-  return {topic->second, static_cast<std::int64_t>(bounded_ns), data.bytes(data.left(), "message"), place};
+  BagMessage message{topic->second, static_cast<std::int64_t>(bounded_ns), data.bytes(data.left(), "message"), place};
+  packed_.unpack(topics_[topic->second], &message);
+  return message;
 }
 
 void McapBag::finish(const ByteCursor& cursor) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "bags/packed_message.hpp"
 #include "bags/record_reader.hpp"
 
 namespace pose_wall::tools {
@@ -29,8 +30,9 @@ class McapBag : public RecordReader {
   void note_schema(ByteCursor& data);
   void note_channel(ByteCursor& data);
   void read_chunk(BagRecord& record);
-  BagMessage message_of(ByteCursor& data) const;
+  BagMessage message_of(ByteCursor& data);
 
+  PackedMessage packed_;
   std::map<std::uint16_t, std::string> schema_names_;
   std::map<std::uint16_t, std::size_t> topic_of_channel_;
   bool footer_seen_ = false;

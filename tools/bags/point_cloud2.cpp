@@ -9,18 +9,15 @@
 #include <vector>
 
 #include "bags/message_cursor.hpp"
+#include "frames/wide_times.hpp"
 #include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
-// Types of PointField and of pose_wall_field are numbered alike: 1 INT8 to 8 FLOAT64.
-constexpr std::uint8_t kTypeMax = POSE_WALL_FIELD_FLOAT64;
-
-std::uint32_t bytes_of_type(std::uint8_t type) {
-  constexpr std::uint32_t kBytes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
-  return kBytes[type];
-}
+// Types of PointField and of pose_wall_field are numbered alike: 1 INT8 to 8 FLOAT64. 9 INT64, 10 UINT64 and 11 BOOLEAN
+// came to sensor_msgs later.
+constexpr std::uint8_t kTypeMax = kFieldBool;
 
 struct CloudHead {
   std::uint32_t height = 0, width = 0;
@@ -40,7 +37,7 @@ void read_fields(MessageCursor& message, CloudHead& head) {
       message.refuse(say("field '{}' is of type {}; 1 to {} are allowed", name, type, kTypeMax));
     }
     head.layout.fields.push_back({name, {offset, type}});
-    head.field_ends.push_back(offset + std::uint64_t{bytes_of_type(type)} * std::max<std::uint32_t>(elements, 1));
+    head.field_ends.push_back(offset + std::uint64_t{field_type_bytes(type)} * std::max<std::uint32_t>(elements, 1));
   }
 }
 
@@ -76,6 +73,10 @@ Frame frame_of(const MessageCursor& message, CloudHead& head, ByteView data) {
   }
   head.layout.point_step = head.point_step;
   head.layout.count = static_cast<std::uint32_t>(points);
+  if (head.height > 1) {
+    head.layout.rows = head.height;
+    head.layout.row_step = head.row_step;
+  }
   Frame frame;
   try {
     frame = describe_frame(Bytes(data.data, data.data + data.size), head.layout);
@@ -98,7 +99,7 @@ DecodedCloud decode_point_cloud2(MessageEncoding encoding, ByteView message_byte
   DecodedCloud cloud;
   const MessageHeader header = read_header(message);
   cloud.stamp_ns = header.stamp_ns;
-  cloud.frame_id = header.frame_id;
+  cloud.source.frame_id = frame_id_of(header.frame_id);
   CloudHead head;
   head.height = message.number<std::uint32_t>("height");
   head.width = message.number<std::uint32_t>("width");
@@ -111,6 +112,13 @@ DecodedCloud decode_point_cloud2(MessageEncoding encoding, ByteView message_byte
   message.number<std::uint8_t>("is_dense");
   cloud.frame = frame_of(message, head, data);
   return cloud;
+}
+
+SourceIdentity source_of_point_cloud2(MessageEncoding encoding, ByteView message_bytes, const Place& place) {
+  MessageCursor message(encoding, message_bytes, place);
+  SourceIdentity source;
+  source.frame_id = frame_id_of(read_header(message).frame_id);
+  return source;
 }
 
 }  // namespace pose_wall::tools

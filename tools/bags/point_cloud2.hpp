@@ -12,4 +12,7 @@ namespace pose_wall::tools {
 // The points stay as they lie in the message. Throws FrameError that names the place.
 DecodedCloud decode_point_cloud2(MessageEncoding encoding, ByteView message, const Place& place);
 
+// As source_of_cloud().
+SourceIdentity source_of_point_cloud2(MessageEncoding encoding, ByteView message, const Place& place);
+
 }  // namespace pose_wall::tools

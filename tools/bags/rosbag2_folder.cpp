@@ -27,7 +27,7 @@ std::string metadata_of(const std::filesystem::path& folder) {
 
 struct Metadata {
   std::vector<std::string> files;
-  std::string compression_mode;
+  std::string compression_mode, compression_format;
 };
 
 // Scalars of the document one by one; of the mapping only what follows two keys matters.
@@ -52,6 +52,8 @@ class MetadataParser {
         while (next(word) == YAML_SCALAR_EVENT) metadata.files.push_back(word);
       } else if (word == "compression_mode") {
         next(metadata.compression_mode);
+      } else if (word == "compression_format") {
+        next(metadata.compression_format);
       }
     }
     return metadata;
@@ -75,9 +77,15 @@ class MetadataParser {
   yaml_parser_t parser_{};
 };
 
-bool is_compressed(std::string mode) {
-  for (char& c : mode) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return mode == "file" || mode == "message";
+std::string in_small_letters(std::string word) {
+  for (char& c : word) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return word;
+}
+
+// Messages that zstd compressed one by one are read; whole files, and what other plugins compress, are not.
+bool is_unread_compression(const Metadata& metadata) {
+  const std::string mode = in_small_letters(metadata.compression_mode);
+  return mode == "file" || (mode == "message" && in_small_letters(metadata.compression_format) != "zstd");
 }
 
 }  // namespace
@@ -88,11 +96,11 @@ bool is_rosbag2_folder(const std::filesystem::path& folder) {
 
 std::vector<std::filesystem::path> rosbag2_files(const std::filesystem::path& folder) {
   const Metadata metadata = MetadataParser(metadata_of(folder)).parse();
-  if (is_compressed(metadata.compression_mode)) {
+  if (is_unread_compression(metadata)) {
     throw FrameError(
-        say("metadata.yaml: compression_mode {}: rosbag2's own compression is not read; convert "
-            "it with `ros2 bag convert`, or record with the compression of MCAP",
-            metadata.compression_mode));
+        say("metadata.yaml: compression_mode {}, compression_format {}: of rosbag2's own compression MESSAGE with zstd "
+            "is read; convert it with `ros2 bag convert`, or record with the compression of MCAP",
+            metadata.compression_mode, metadata.compression_format));
   }
   if (metadata.files.empty()) throw FrameError(tr("metadata.yaml: relative_file_paths names no file"));
   std::vector<std::filesystem::path> files;

@@ -4,6 +4,7 @@
 #include "bags/sqlite_bag.hpp"
 
 #include "bags/decompress.hpp"
+#include "bags/packed_message.hpp"
 #include "language/language.hpp"
 
 #if POSE_WALL_HAS_SQLITE
@@ -105,6 +106,7 @@ class SqliteBag : public BagReader {
   bool has_ahead_ = false;
   BagMessage ahead_;
   Bytes ahead_bytes_, given_bytes_;
+  PackedMessage packed_;
   std::vector<BagTopic> topics_;
   std::map<std::int64_t, std::size_t> topic_of_id_;
 };
@@ -114,7 +116,9 @@ void SqliteBag::read_topics() {
   int status = sqlite3_step(rows.get());
   for (; status == SQLITE_ROW; status = sqlite3_step(rows.get())) {
     topic_of_id_[sqlite3_column_int64(rows.get(), 0)] = topics_.size();
-    const bool is_cdr = text_column(rows, 3) == "cdr";
+    // Converters leave the format empty. ROS 2 has no other than CDR, and each message's head is checked.
+    const std::string format = text_column(rows, 3);
+    const bool is_cdr = format == "cdr" || format.empty();
     topics_.push_back(
         {text_column(rows, 1), text_column(rows, 2), is_cdr ? MessageEncoding::kCdr : MessageEncoding::kOther});
   }
@@ -136,6 +140,7 @@ BagMessage SqliteBag::message_of_row() {
   message.data.data = static_cast<const std::byte*>(sqlite3_column_blob(rows_.get(), 3));
   message.data.size = static_cast<std::size_t>(sqlite3_column_bytes(rows_.get(), 3));
   if (sqlite3_errcode(database_.get()) == SQLITE_NOMEM) refuse(database_.get());
+  packed_.unpack(topics_[message.topic], &message);
   return message;
 }
 

@@ -83,6 +83,7 @@ const BeamTable& velodyne_vlp32c();
 const BeamTable& hesai_xt32();
 const BeamTable& hesai_pandar40p();
 const BeamTable& hesai_qt64();
+const BeamTable& hesai_xt16();
 // The revisions of one kind differ in where their light leaves.
 const BeamTable& ouster_os0_128();
 const BeamTable& ouster_os0_128_rev7();
@@ -92,7 +93,10 @@ const BeamTable& ouster_os1_64_rev7();
 const BeamTable& ouster_os2_128();
 const BeamTable& ouster_os2_128_rev7();
 const BeamTable& robosense_rs16();
+const BeamTable& robosense_rs32();
 const BeamTable& robosense_helios32();
+const BeamTable& robosense_bpearl();
+const BeamTable& robosense_airy();
 const BeamTable& lslidar_c16_v3();
 const BeamTable& lslidar_c16_v4();
 

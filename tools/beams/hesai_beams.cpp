@@ -39,6 +39,24 @@ BeamTable xt32() {
   return table;
 }
 
+// PandarXT-16 user manual: appendix I (design values; PandarXT-16_Angle Correction File.csv of HesaiLidar_SDK_2.0) and
+// II (times; PandarXT-16_Firetime Correction File.csv of the same). Accuracy 1 cm.
+BeamTable xt16() {
+  BeamTable table{SensorMaker::kHesai,
+                  "hesai-xt16",
+                  "Hesai PandarXT-16",
+                  "HesaiLidar_SDK_2.0, angle and firetime correction files of PandarXT-16",
+                  {},
+                  2000,
+                  50'000.0,
+                  false,
+                  {},
+                  {kHesaiUnit_m, 0.01, 0.05, 120.0, 0.0}};
+  for (int i = 0; i < 16; ++i) table.lasers.push_back({15.0 - 2.0 * i, 0.0, 0.0, 3'024.0 * i, 0});
+  number_rings(&table.lasers);
+  return table;
+}
+
 constexpr std::array<std::int32_t, 40> kPandar40pTimes_ns = {
     -42220, -28470, -16040, -3620,  -45490, -31740, -47460, -54670, -20620, -33710, -40910, -8190,  -20620, -27160,
     -50730, -8190,  -14740, -36980, -45490, -52700, -23890, -31740, -38950, -11470, -18650, -25190, -48760, -6230,
@@ -115,6 +133,11 @@ BeamTable qt64() {
 
 const BeamTable& hesai_xt32() {
   static const BeamTable table = xt32();
+  return table;
+}
+
+const BeamTable& hesai_xt16() {
+  static const BeamTable table = xt16();
   return table;
 }
 

@@ -11,6 +11,7 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr double kC16Firing_ns = 50'000.0, kC16Laser_ns = kC16Firing_ns / 16.0;
+constexpr std::uint32_t kC16Columns = 1992;                    // of 2,000 those that fill packets of 24
 constexpr double kC16Nearest_m = 0.3, kC16Farthest_m = 150.0;  // judgement, 2026-11-28: no sheet was at hand
 
 // Lasers of the lower and of the upper half in turn, two degrees apart in each.
@@ -20,7 +21,7 @@ BeamTable c16(const char* word, const char* title, double lowest_deg, const Lens
                   title,
                   "Lslidar_ROS1_driver f29e947a",
                   {},
-                  2000,
+                  kC16Columns,
                   kC16Firing_ns,
                   true,
                   lens,

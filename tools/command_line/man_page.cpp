@@ -4,6 +4,7 @@
 #include "command_line/man_page.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdint>
 #include <sstream>
@@ -33,15 +34,20 @@ std::string italic(const std::string& text) {
   return "\\fI" + roff_text(text) + "\\fR";
 }
 
+// So many letters of "a|b|c" stand beside an option's name; more fill no line of a page.
+constexpr std::size_t kBesideMost = 60;
+
 std::string option_entry(const OptionGrammar& option) {
   std::string names;
   for (const std::string& name : option.names) {
     names += (names.empty() ? "" : ", ") + (option.is_positional ? italic(name) : bold(name));
   }
-  if (option.kind != ValueKind::kNone && !option.is_positional) names += " " + italic(option.value);
+  const bool is_long = option.value.size() > kBesideMost && !option.choices.empty();
+  if (option.kind != ValueKind::kNone && !option.is_positional) names += " " + italic(is_long ? "NAME" : option.value);
   if (option.is_positional && option.is_repeatable) names += "...";
   std::string help = roff_text(option.help) + ".";
   if (option.is_positional && !option.choices.empty()) help = "One of " + roff_text(option.value) + ".";
+  if (is_long) help += roff_text(fmt::format(" One of {}.", fmt::join(option.choices, ", ")));
   if (!option.default_text.empty()) help += roff_text(fmt::format(" Default: {}.", option.default_text));
   return ".TP\n" + names + "\n" + help + "\n";
 }

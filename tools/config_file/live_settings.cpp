@@ -46,9 +46,9 @@ const std::vector<Row>& rows() {
             "refused")},
        &LiveSettings::sensor},
       {{"sensor_metadata", kSources, Type::kText, "", 0, 0, "",
-        translatable(
-            "metadata of the sensor: a file (JSON of an Ouster, table of angles of a Hesai), or http://SENSOR for an "
-            "Ouster; empty: not needed")},
+        translatable("metadata of the sensor: a file (JSON of an Ouster, table of angles of a Hesai, device packet of "
+                     "a RoboSense), "
+                     "or http://SENSOR for an Ouster; empty: not needed")},
        &LiveSettings::sensor_metadata},
       {{"udp_address", kSources, Type::kIpv4, "", 0, 0, "",
         translatable("this machine's address on the sensor's network. 0.0.0.0 listens on all networks, and anybody "
@@ -58,9 +58,18 @@ const std::vector<Row>& rows() {
       {{"udp_port", kSources, Type::kInteger, "1", 0, 65535, "",
         translatable("destination port of the sensor's packets; 0: its usual port")},
        &LiveSettings::udp_port},
+      {{"udp_device_port", kSources, Type::kInteger, "1", 0, 65535, "",
+        translatable(
+            "destination port of the packets in which a RoboSense or an LSLidar describes itself; 0: its usual "
+            "port, where 'sensor' names it")},
+       &LiveSettings::udp_device_port},
       {{"udp_sender", kSources, Type::kIpv4OrNone, "", 0, 0, "",
         translatable("address of the sensor; packets from others are counted and dropped. Empty: the first sender")},
        &LiveSettings::udp_sender},
+      {{"ros_source", kSources, Type::kText, "", 0, 0, "",
+        translatable("sensor of pointcloud_topic where several send on it: its frame_id or lidar_id, as frame_id "
+                     "front; the others are counted and dropped. Empty: the first")},
+       &LiveSettings::ros_source},
       {{"frame_points_max", kSources, Type::kInteger, "points", 1, 67108864, "",
         translatable("most points of one cloud; decides the memory. Larger clouds are refused")},
        &LiveSettings::frame_points_max},

@@ -20,8 +20,9 @@ struct LiveSettings {
   std::string sensor = "auto";
   std::string sensor_metadata;
   std::string udp_address = "127.0.0.1";
-  double udp_port = 0;
+  double udp_port = 0, udp_device_port = 0;
   std::string udp_sender;
+  std::string ros_source;
   double frame_points_max = 262144;
   bool ros1 = false, ros2 = false;
   std::string ros_distro = "humble";
@@ -55,7 +56,7 @@ struct HostPort {
 };
 std::optional<HostPort> parse_host_port(const std::string& text);
 
-// "192.168.1.201" as captures number it (Datagram::source_address); nothing where it is no IPv4 address.
+// "192.168.1.201" as captures number it (Sender::address); nothing where it is no IPv4 address.
 std::optional<std::uint32_t> parse_ipv4(const std::string& text);
 
 // "localhost" and addresses of 127.0.0.0/8 and ::1. A name that begins as such an address is none.

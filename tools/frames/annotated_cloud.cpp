@@ -51,13 +51,15 @@ void append(std::string& bytes, Number number) {
 
 void append_point(std::string& bytes, const AnnotatedPoint& p, CloudFormat format) {
   for (const float coordinate_m : {p.x_base_m, p.y_base_m, p.z_base_m}) append(bytes, coordinate_m);
-  append(bytes, p.label);
-  append(bytes, p.residual_m);
   if (format == CloudFormat::kPcd) {
+    append(bytes, p.label);
+    append(bytes, p.residual_m);
     append(bytes, p.rgb);
-  } else {
-    for (const int shift : {16, 8, 0}) bytes += static_cast<char>(p.rgb >> shift & 255U);
+    return;
   }
+  for (const int shift : {16, 8, 0}) bytes += static_cast<char>(p.rgb >> shift & 255U);
+  append(bytes, static_cast<float>(p.label));
+  append(bytes, p.residual_m);
 }
 
 // PCL keeps colours in the bytes of a float; viewers look for just that.
@@ -68,11 +70,12 @@ std::string pcd_head(std::size_t count, const std::string& comment) {
       kMark, comment, count);
 }
 
+// Of a PLY CloudCompare opens with what is called scalar_, and Open3D drops a label that is no float.
 std::string ply_head(std::size_t count, const std::string& comment) {
   return fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment {}\ncomment {}\nelement vertex {}\nproperty float x\n"
-      "property float y\nproperty float z\nproperty uint label\nproperty float residual_m\nproperty uchar red\n"
-      "property uchar green\nproperty uchar blue\nend_header\n",
+      "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property float scalar_label\nproperty float scalar_residual_m\nend_header\n",
       kMark, comment, count);
 }
 

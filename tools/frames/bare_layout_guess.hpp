@@ -6,6 +6,9 @@
 // Under the right layout each column holds one kind of value: x, y, z and intensity differ in size. Under a wrong one
 // every column holds a mixture of all of them. So the share of the variance of log2|value| that the columns explain is
 // large for the right layout and nearly zero for the others. This does not depend on the order of the points.
+//
+// A layout whose points are parts of the right one's has columns of one kind, too, or nearly so: every second point is
+// then intensity, ring and time. So the same column of neighbouring points must hold values of one kind.
 
 #pragma once
 

@@ -32,8 +32,13 @@ constexpr const char* kZstd = translatable("this is a zstd archive; unpack it fi
 constexpr const char* kLz4 = translatable("this is an lz4 archive; unpack it first: unlz4 FILE");
 constexpr const char* kSevenZip = translatable("this is a 7-Zip archive; unpack it first: 7z x FILE");
 constexpr const char* kTar = translatable("this is a tar archive; unpack it first: tar xf FILE");
-constexpr const char* kLas = translatable("this is LAS or LAZ; PDAL makes a PCD of it: pdal translate FILE out.pcd");
-constexpr const char* kE57 = translatable("this is E57; PDAL makes a PCD of it: pdal translate FILE out.pcd");
+// PDAL writes text of two decimals unless it is told otherwise.
+constexpr const char* kLas = translatable(
+    "this is LAS or LAZ; PDAL makes a PCD of it: pdal translate FILE out.pcd --writers.pcd.compression=binary");
+constexpr const char* kE57 =
+    translatable("this is E57; PDAL makes a PCD of it: pdal translate FILE out.pcd --writers.pcd.compression=binary");
+constexpr const char* kCloudCompare =
+    translatable("this is a project of CloudCompare; save its cloud there as PLY: File > Save");
 constexpr const char* kOldBag =
     translatable("this is a ROS 1 bag of an old format; rosbag fix or rosbag reindex makes 2.0 of it");
 constexpr const char* kNumpy = translatable(
@@ -70,6 +75,7 @@ constexpr Signature kSignatures[] = {
     {"ustar"sv, 257, FileContent::kForeign, kTar},
     {"LASF"sv, 0, FileContent::kForeign, kLas},
     {"ASTM-E57"sv, 0, FileContent::kForeign, kE57},
+    {"CCB2"sv, 0, FileContent::kForeign, kCloudCompare},
     {"\x93NUMPY"sv, 0, FileContent::kForeign, kNumpy},
     {"\x89HDF\r\n"sv, 0, FileContent::kForeign, kHdf5},
     {"\xFF\xFE"sv, 0, FileContent::kForeign, kUtf16},
@@ -96,12 +102,18 @@ bool is_cut_signature(std::string_view beginning) {
   });
 }
 
+// Capitals and small letters alike.
+bool is_word(std::string_view word, std::string_view capitals) {
+  return std::equal(word.begin(), word.end(), capitals.begin(), capitals.end(),
+                    [](unsigned char c, char capital) { return std::toupper(c) == capital; });
+}
+
 // Others than PCL begin a header with comments of their own.
 bool is_pcd_header(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
-    if (word == "VERSION" || word == "FIELDS") return true;
+    if (is_word(word, "VERSION") || is_word(word, "FIELDS")) return true;
     if (!word.empty() && word.front() != '#') return false;
     text.remove_prefix(std::min(line.size() + 1, text.size()));
   }

@@ -12,7 +12,7 @@
 
 #include "frames/bare_layout_guess.hpp"
 #include "frames/file_content.hpp"
-#include "frames/frame_stamps.hpp"
+#include "frames/text_points.hpp"
 #include "language/language.hpp"
 
 namespace pose_wall::tools {
@@ -22,17 +22,24 @@ constexpr std::size_t kLookedAtMax = 8;  // files without a header
 
 }  // namespace
 
-FileSource::FileSource(std::vector<std::filesystem::path> files, std::optional<BareLayout> points)
-    : files_(std::move(files)), bare_{std::move(points), std::nullopt} {}
+FileSource::FileSource(const std::vector<std::filesystem::path>& files, std::optional<BareLayout> points)
+    : bare_{std::move(points), std::nullopt, std::nullopt} {
+  append(files);
+}
 
 void FileSource::append(const std::vector<std::filesystem::path>& files) {
   files_.insert(files_.end(), files.begin(), files.end());
+  for (const std::filesystem::path& file : files) names_.add(file);
 }
 
 void FileSource::choose_layout() {
   std::size_t looked_at = 0;
   for (const std::filesystem::path& file : files_) {
     if (looked_at == kLookedAtMax || !note_.empty()) return;
+    if (!bare_.given && has_text_ending(file)) {
+      ++looked_at;
+      look_at_text(file);
+    }
     if (!bare_.given && !has_bare_ending(file)) continue;
     const FileContent content = content_of(beginning_of(file));
     if (bare_.given && content == FileContent::kText) uses_points_ = true;
@@ -58,12 +65,25 @@ void FileSource::look_at_bare(const std::filesystem::path& file) {
   }
 }
 
+void FileSource::look_at_text(const std::filesystem::path& file) {
+  try {
+    if (content_of(beginning_of(file)) != FileContent::kText) return;
+    bare_.text_of_others = text_layout_shown(read_frame_bytes(file));
+    if (!bare_.text_of_others) return;
+    std::string names;
+    for (const char letter : bare_.text_of_others->columns) names += " " + std::string(bare_column_name(letter));
+    note_ =
+        say("{}: no line names the columns; by their values read as{}. --layout says otherwise", file.string(), names);
+  } catch (const FrameError&) {  // its own frame says why
+  }
+}
+
 std::optional<SourcedFrame> FileSource::next() {
   if (next_ == files_.size()) return std::nullopt;
   const std::filesystem::path& file = files_[next_++];
   SourcedFrame sourced;
   sourced.name = file.string();
-  sourced.stamp_ns = stamp_from_name(file);
+  sourced.stamp_ns = names_.of(file);
   try {
     sourced.frame = load_frame(file, bare_);
     if (!sourced.stamp_ns) sourced.stamp_ns = sourced.frame->stamp_ns;

@@ -13,6 +13,7 @@
 
 #include "frames/bare_points.hpp"
 #include "frames/frame_source.hpp"
+#include "frames/frame_stamps.hpp"
 #include "frames/load_frame.hpp"
 
 namespace pose_wall::tools {
@@ -20,7 +21,7 @@ namespace pose_wall::tools {
 class FileSource : public FrameSource {
  public:
   // `points`: how points without a header are read, where the user says.
-  explicit FileSource(std::vector<std::filesystem::path> files, std::optional<BareLayout> points = std::nullopt);
+  explicit FileSource(const std::vector<std::filesystem::path>& files, std::optional<BareLayout> points = std::nullopt);
 
   // More files behind those there are.
   void append(const std::vector<std::filesystem::path>& files);
@@ -30,7 +31,7 @@ class FileSource : public FrameSource {
   void choose_layout();
 
   // How points without a header are read, for a person; empty where no file needs it.
-  const std::string& note() const { return note_; }
+  std::string note() const override { return note_; }
 
   // Whether a file was seen that `points` goes for.
   bool uses_points() const { return uses_points_; }
@@ -41,8 +42,10 @@ class FileSource : public FrameSource {
 
  private:
   void look_at_bare(const std::filesystem::path& file);
+  void look_at_text(const std::filesystem::path& file);
 
   std::vector<std::filesystem::path> files_;
+  NameStamps names_;
   BareChoice bare_;
   std::string note_;
   bool uses_points_ = false;

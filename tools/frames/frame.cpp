@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "frames/field_aliases.hpp"
+#include "frames/wide_times.hpp"
 #include "language/language.hpp"
 
 namespace pose_wall::tools {
@@ -72,9 +73,10 @@ void require_coordinates(const std::vector<std::string_view>& names) {
   }
 }
 
-Frame describe_frame(Bytes bytes, const PointLayout& layout) {
+Frame describe_frame(Bytes bytes, PointLayout layout) {
   Frame frame;
   frame.bytes = std::move(bytes);
+  narrow_wide_fields(frame.bytes.data() + layout.data_offset, &layout);
   pose_wall_cloud& cloud = frame.cloud;
   cloud.struct_size = sizeof cloud;
   cloud.big_endian = layout.big_endian ? 1U : 0U;

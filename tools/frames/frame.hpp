@@ -58,14 +58,16 @@ struct PointLayout {
   std::uint32_t count = 0;
   std::uint32_t point_step = 0;
   bool big_endian = false;
-  std::vector<PointField> fields;
+  std::vector<PointField> fields;  // also of the types in wide_times.hpp
+  std::uint32_t rows = 1;          // of count / rows points each
+  std::size_t row_step = 0;        // bytes from row to row; 0: one follows the other
 };
 
 // Throws FrameError, with all the names there are, unless x, y and z are among them.
 void require_coordinates(const std::vector<std::string_view>& names);
 
 // Takes the bytes over and describes them. Throws FrameError when x, y or z is missing, appears twice or is no float.
-Frame describe_frame(Bytes bytes, const PointLayout& layout);
+Frame describe_frame(Bytes bytes, PointLayout layout);
 
 // Points that `available` bytes can hold against what a header declares; the header loses. Throws FrameError when
 // bytes are missing.

@@ -31,10 +31,25 @@ struct SourceTopic {
   bool has_packets = false;  // messages hold packets, of which frames are put together
 };
 
+// What packets tell of their sender, in English: "turn rate", "600 rpm".
+struct SourceFact {
+  std::string word, found;
+};
+
+// One of those who sent what an input holds.
+struct SourceSender {
+  std::string name;  // what tells it apart, as --source takes it
+  std::uint64_t count = 0;
+  bool is_read = false;
+  std::vector<SourceFact> facts = {};
+  std::vector<std::string> oddities = {};  // a sentence each, for people
+};
+
 struct SourceAbout {
-  std::string kind;                 // "ROS 1 bag"
-  std::vector<SourceTopic> topics;  // of a bag
-  std::string topic;                // the one whose clouds are the frames
+  std::string kind;                        // "ROS 1 bag"
+  std::vector<SourceTopic> topics;         // of a bag
+  std::string topic;                       // the one whose clouds are the frames
+  std::vector<SourceSender> senders = {};  // of these clouds or packets, where the input tells them
 };
 
 // Frames of one input, in its own order. What cannot be read is a frame with an error, and the ones after it follow
@@ -53,6 +68,9 @@ class FrameSource {
   virtual std::size_t frames() const = 0;
 
   virtual SourceAbout about() const = 0;
+
+  // A choice that was made of what the input holds, for people; "" where there was none.
+  virtual std::string note() const { return ""; }
 };
 
 }  // namespace pose_wall::tools

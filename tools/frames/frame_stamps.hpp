@@ -5,14 +5,31 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 
 namespace pose_wall::tools {
 
-// Formats of single frames have no stamp. A file name (without ending) of 16 to 19 digits and nothing else is a stamp
-// in nanoseconds; any other name gives none.
+// Stamps by the names of a recording's files: formats of single frames have none. A name (without ending) is a stamp
+// where it is digits and nothing else: 13 are milliseconds since 1970, 16 microseconds, 17 to 19 nanoseconds; a number
+// padded with zeros is one in nanoseconds from 17 digits on. So are 10 digits, a point, and digits: seconds since 1970
+// with a fraction, or with nanoseconds that are not padded. Which of them, all names tell together. Other names give
+// none, as do calendar dates.
+class NameStamps {
+ public:
+  void add(const std::filesystem::path& path);
+  std::optional<std::int64_t> of(const std::filesystem::path& path) const;
+
+ private:
+  bool are_unpadded() const;
+
+  std::size_t shortest_ = 0, longest_ = 0;  // fraction behind the point, digits
+  bool begins_with_zero_ = false, ends_with_zero_ = false;
+};
+
+// Of one name alone.
 std::optional<std::int64_t> stamp_from_name(const std::filesystem::path& path);
 
 // By whole nanoseconds, of which a double holds too few for stamps of the epoch; where a damaged stamp lies further off

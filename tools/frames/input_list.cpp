@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "frames/file_content.hpp"
+#include "frames/frame_stamps.hpp"
 #include "frames/load_frame.hpp"
 #include "frames/natural_order.hpp"
 #include "frames/text_points.hpp"
@@ -24,6 +25,16 @@ namespace fs = std::filesystem;
 
 // What is no frame and has many.
 constexpr std::array<std::string_view, 5> kRecordingEndings = {".pcap", ".pcapng", ".bag", ".mcap", ".db3"};
+
+// Fractions of seconds of unequal length are in no natural order: 0.5 comes behind 0.25.
+void sort_by_stamps(std::vector<fs::path>* files) {
+  NameStamps names;
+  for (const fs::path& file : *files) names.add(file);
+  const auto has_stamp = [&names](const fs::path& file) { return names.of(file).has_value(); };
+  if (!std::all_of(files->begin(), files->end(), has_stamp)) return;
+  std::stable_sort(files->begin(), files->end(),
+                   [&names](const fs::path& a, const fs::path& b) { return *names.of(a) < *names.of(b); });
+}
 
 // Whatever is called like a frame and is no folder: load_frame says of a link that leads nowhere what is wrong with it.
 std::vector<fs::path> frames_in(const fs::path& folder, std::error_code& error) {
@@ -40,6 +51,7 @@ std::vector<fs::path> frames_in(const fs::path& folder, std::error_code& error) 
   }
   std::sort(files.begin(), files.end(),
             [](const fs::path& a, const fs::path& b) { return natural_less(a.native(), b.native()); });
+  sort_by_stamps(&files);
   return files;
 }
 

@@ -74,7 +74,8 @@ Frame read_bare(Bytes bytes, const BareChoice& choice) {
 }
 
 Frame read_text(const Bytes& bytes, const BareChoice& choice) {
-  return read_text_points(bytes, choice.given ? &*choice.given : nullptr);
+  return read_text_points(bytes, choice.given ? &*choice.given : nullptr,
+                          choice.text_of_others ? &*choice.text_of_others : nullptr);
 }
 
 // The bytes do not say what they are.

@@ -18,6 +18,7 @@ namespace pose_wall::tools {
 struct BareChoice {
   std::optional<BareLayout> given;      // by the user; goes for bare numbers and text
   std::optional<BareLayout> of_others;  // as other files of the recording are read; for bare numbers that do not tell
+  std::optional<BareLayout> text_of_others;  // the same for text of five columns
 };
 
 // ".pcd, .bin, .ply, .xyz, .asc, .txt, .csv"

@@ -5,27 +5,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
 
 #include "frames/text_cursor.hpp"
+#include "frames/wide_times.hpp"
 #include "language/language.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 // Far above any real header, so that a binary file without a header is refused quickly.
-constexpr std::size_t kHeaderBytesMax = 64 * 1024;
+constexpr std::size_t kPcdHeaderBytesMax = 64 * 1024;
 // A point of more bytes than this is a lying COUNT.
 constexpr std::uint64_t kPointStepMax = 1024 * 1024;
 
 using Words = std::vector<std::string_view>;
 
 struct RawHeader {
-  std::map<std::string_view, Words> entries;
+  std::map<std::string, Words, std::less<>> entries;  // by names in capitals
   std::size_t data_offset = 0;
   std::size_t lines = 0;
   std::optional<std::int64_t> stamp_ns;
@@ -37,16 +41,24 @@ Words split_words(std::string_view line) {
   return words;
 }
 
+// Some write the words of a header small.
+std::string in_capitals(std::string_view word) {
+  std::string capitals(word);
+  std::transform(capitals.begin(), capitals.end(), capitals.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return capitals;
+}
+
 RawHeader read_entries(const Bytes& bytes) {
   RawHeader raw;
-  TextCursor cursor(as_text(bytes).substr(0, kHeaderBytesMax));
+  TextCursor cursor(as_text(bytes).substr(0, kPcdHeaderBytesMax));
   while (const std::optional<std::string_view> line = cursor.next_line()) {
     Words words = split_words(*line);
     if (words.size() == 3 && words[0] == "#" && words[1] == "stamp_ns") {
       raw.stamp_ns = parse_number<std::int64_t>(words[2]);
     }
     if (words.empty() || words.front().front() == '#') continue;
-    std::string_view name = words.front();
+    std::string name = in_capitals(words.front());
     if (name == "COLUMNS") name = "FIELDS";
     words.erase(words.begin());
     if (!raw.entries.emplace(name, words).second) {
@@ -60,7 +72,7 @@ RawHeader read_entries(const Bytes& bytes) {
   }
   if (bytes.empty()) throw FrameError(tr("no PCD header: the file is empty"));
   throw FrameError(
-      say("no PCD header: no DATA line within the first {} bytes", std::min(kHeaderBytesMax, bytes.size())));
+      say("no PCD header: no DATA line within the first {} bytes", std::min(kPcdHeaderBytesMax, bytes.size())));
 }
 
 std::uint64_t whole_number(std::string_view entry, std::string_view word, std::uint64_t minimum,
@@ -100,9 +112,10 @@ void check_type(const PcdField& field, std::string_view type) {
   const bool is_float = type == "F" && (field.size == 4 || field.size == 8);
   const bool is_integer =
       (type == "I" || type == "U") && (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8);
-  if (is_float || is_integer) return;
+  const bool is_bool = type == "B" && field.size == 1;  // PCL's, since its version 1.12
+  if (is_float || is_integer || is_bool) return;
   throw FrameError(
-      say("PCD header: field '{}' has TYPE '{}' SIZE {}; F of 4 or 8, I and U of 1, 2, 4 or 8 bytes "
+      say("PCD header: field '{}' has TYPE '{}' SIZE {}; F of 4 or 8, I and U of 1, 2, 4 or 8 bytes, B of 1 byte "
           "are allowed",
           field.name, type, field.size));
 }
@@ -118,8 +131,9 @@ std::vector<PcdField> parse_fields(const RawHeader& raw) {
     PcdField field;
     field.name = names[i];
     field.size = static_cast<std::uint32_t>(whole_number("SIZE", sizes[i], 1, 8));
-    check_type(field, types[i]);
-    field.type = types[i].front();
+    const std::string type = in_capitals(types[i]);
+    check_type(field, type);
+    field.type = type.front();
     if (counted) {
       const Words& counts = entry_per_field(raw, "COUNT", names.size());
       field.count = static_cast<std::uint32_t>(whole_number("COUNT", counts[i], 1, kPointStepMax));
@@ -150,9 +164,10 @@ std::uint64_t declared_points(const RawHeader& raw) {
 PcdEncoding parse_encoding(const RawHeader& raw) {
   const Words& words = required_entry(raw, "DATA");
   const std::string_view word = words.empty() ? std::string_view{} : words.front();
-  if (word == "ascii") return PcdEncoding::kAscii;
-  if (word == "binary") return PcdEncoding::kBinary;
-  if (word == "binary_compressed") return PcdEncoding::kBinaryCompressed;
+  const std::string capitals = in_capitals(word);
+  if (capitals == "ASCII") return PcdEncoding::kAscii;
+  if (capitals == "BINARY") return PcdEncoding::kBinary;
+  if (capitals == "BINARY_COMPRESSED") return PcdEncoding::kBinaryCompressed;
   throw FrameError(say("PCD header: DATA is '{}'; ascii, binary and binary_compressed are allowed", word));
 }
 
@@ -177,22 +192,27 @@ std::uint64_t points_or_held(const PcdHeader& header, std::uint64_t available) {
   return header.points;
 }
 
-std::uint32_t engine_field_type(const PcdField& field) {
+std::uint32_t field_type_of(const PcdField& field) {
   if (field.count != 1) return POSE_WALL_FIELD_NONE;
-  switch (field.type) {
-    case 'F':
-      return field.size == 4 ? POSE_WALL_FIELD_FLOAT32 : POSE_WALL_FIELD_FLOAT64;
-    case 'I':
-      return field.size == 1   ? POSE_WALL_FIELD_INT8
-             : field.size == 2 ? POSE_WALL_FIELD_INT16
-             : field.size == 4 ? POSE_WALL_FIELD_INT32
-                               : POSE_WALL_FIELD_NONE;
-    default:
-      return field.size == 1   ? POSE_WALL_FIELD_UINT8
-             : field.size == 2 ? POSE_WALL_FIELD_UINT16
-             : field.size == 4 ? POSE_WALL_FIELD_UINT32
-                               : POSE_WALL_FIELD_NONE;
-  }
+  struct Known {
+    char type;
+    std::uint32_t size, field_type;
+  };
+  static constexpr Known kKnown[] = {{'F', 4, POSE_WALL_FIELD_FLOAT32},
+                                     {'F', 8, POSE_WALL_FIELD_FLOAT64},
+                                     {'I', 1, POSE_WALL_FIELD_INT8},
+                                     {'I', 2, POSE_WALL_FIELD_INT16},
+                                     {'I', 4, POSE_WALL_FIELD_INT32},
+                                     {'I', 8, kFieldInt64},
+                                     {'U', 1, POSE_WALL_FIELD_UINT8},
+                                     {'U', 2, POSE_WALL_FIELD_UINT16},
+                                     {'U', 4, POSE_WALL_FIELD_UINT32},
+                                     {'U', 8, kFieldUint64},
+                                     {'B', 1, kFieldBool}};
+  const Known* const found = std::find_if(std::begin(kKnown), std::end(kKnown), [&field](const Known& known) {
+    return known.type == field.type && known.size == field.size;
+  });
+  return found != std::end(kKnown) ? found->field_type : static_cast<std::uint32_t>(POSE_WALL_FIELD_NONE);
 }
 
 }  // namespace pose_wall::tools

@@ -19,7 +19,7 @@ enum class PcdEncoding { kAscii, kBinary, kBinaryCompressed };
 
 struct PcdField {
   std::string name;
-  char type = 'F';           // F, I or U
+  char type = 'F';           // F, I, U or B
   std::uint32_t size = 4;    // bytes of one element
   std::uint32_t count = 1;   // elements
   std::uint32_t offset = 0;  // bytes from the start of a point
@@ -42,7 +42,7 @@ PcdHeader parse_pcd_header(const Bytes& bytes);
 // writers stream and leave every count at zero.
 std::uint64_t points_or_held(const PcdHeader& header, std::uint64_t available);
 
-// The engine's number for a field of one element; POSE_WALL_FIELD_NONE for what the engine does not read.
-std::uint32_t engine_field_type(const PcdField& field);
+// The type of a field of one element, also of those in wide_times.hpp; POSE_WALL_FIELD_NONE where it has several.
+std::uint32_t field_type_of(const PcdField& field);
 
 }  // namespace pose_wall::tools

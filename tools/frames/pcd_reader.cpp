@@ -20,7 +20,7 @@ PointLayout layout_of(const PcdHeader& header) {
   PointLayout layout;
   layout.point_step = header.point_step;
   for (const PcdField& field : header.fields) {
-    if (field.name != "_") layout.fields.push_back({field.name, {field.offset, engine_field_type(field)}});
+    if (field.name != "_") layout.fields.push_back({field.name, {field.offset, field_type_of(field)}});
   }
   return layout;
 }

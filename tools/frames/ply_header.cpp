@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "frames/text_cursor.hpp"
+#include "frames/wide_times.hpp"
 #include "language/language.hpp"
 
 namespace pose_wall::tools {
@@ -21,7 +22,7 @@ constexpr std::size_t kHeaderBytesMax = 64 * 1024;
 
 std::uint32_t parse_type(std::string_view word) {
   using Name = std::pair<std::string_view, std::uint32_t>;
-  static constexpr std::array<Name, 16> kTypes = {{{"char", POSE_WALL_FIELD_INT8},
+  static constexpr std::array<Name, 18> kTypes = {{{"char", POSE_WALL_FIELD_INT8},
                                                    {"int8", POSE_WALL_FIELD_INT8},
                                                    {"uchar", POSE_WALL_FIELD_UINT8},
                                                    {"uint8", POSE_WALL_FIELD_UINT8},
@@ -33,6 +34,8 @@ std::uint32_t parse_type(std::string_view word) {
                                                    {"int32", POSE_WALL_FIELD_INT32},
                                                    {"uint", POSE_WALL_FIELD_UINT32},
                                                    {"uint32", POSE_WALL_FIELD_UINT32},
+                                                   {"int64", kFieldInt64},
+                                                   {"uint64", kFieldUint64},
                                                    {"float", POSE_WALL_FIELD_FLOAT32},
                                                    {"float32", POSE_WALL_FIELD_FLOAT32},
                                                    {"double", POSE_WALL_FIELD_FLOAT64},
@@ -114,21 +117,6 @@ PlyHeader parse_ply_header(const Bytes& bytes) {
     return header;
   }
   throw FrameError(say("PLY header: no end_header within the first {} bytes", std::min(kHeaderBytesMax, bytes.size())));
-}
-
-std::uint32_t field_bytes(std::uint32_t type) {
-  switch (type) {
-    case POSE_WALL_FIELD_INT8:
-    case POSE_WALL_FIELD_UINT8:
-      return 1;
-    case POSE_WALL_FIELD_INT16:
-    case POSE_WALL_FIELD_UINT16:
-      return 2;
-    case POSE_WALL_FIELD_FLOAT64:
-      return 8;
-    default:
-      return 4;
-  }
 }
 
 }  // namespace pose_wall::tools

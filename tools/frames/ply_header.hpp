@@ -18,7 +18,8 @@ enum class PlyEncoding { kAscii, kBinaryLittleEndian, kBinaryBigEndian };
 
 struct PlyProperty {
   std::string name;
-  std::uint32_t type = POSE_WALL_FIELD_FLOAT32;      // of the value, or of each item of a list
+  std::uint32_t type =
+      POSE_WALL_FIELD_FLOAT32;  // also those in wide_times.hpp; of the value, or of each item of a list
   std::uint32_t length_type = POSE_WALL_FIELD_NONE;  // of a list's length; NONE: not a list
   bool is_list() const { return length_type != POSE_WALL_FIELD_NONE; }
 };
@@ -38,8 +39,5 @@ struct PlyHeader {
 
 // Throws FrameError naming the line.
 PlyHeader parse_ply_header(const Bytes& bytes);
-
-// Bytes of a value of an engine field type.
-std::uint32_t field_bytes(std::uint32_t type);
 
 }  // namespace pose_wall::tools

@@ -6,13 +6,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "frames/ascii_points.hpp"
+#include "frames/field_aliases.hpp"
 #include "frames/ply_header.hpp"
 #include "frames/text_cursor.hpp"
+#include "frames/wide_times.hpp"
 #include "language/language.hpp"
 
 namespace pose_wall::tools {
@@ -31,6 +36,23 @@ std::size_t vertex_index(const PlyHeader& header) {
   return static_cast<std::size_t>(vertex - header.elements.begin());
 }
 
+// CloudCompare puts "scalar_" before what it writes and keeps capitals: "scalar_Time". Names that would be there twice
+// stay.
+std::vector<std::string> names_of(const std::vector<PlyProperty>& properties) {
+  constexpr std::string_view kMark = "scalar_";
+  std::vector<std::string> names;
+  for (const PlyProperty& property : properties) names.push_back(property.name);
+  for (std::string& name : names) {
+    if (name.rfind(kMark, 0) != 0) continue;
+    std::string bare = name.substr(kMark.size());
+    std::transform(bare.begin(), bare.end(), bare.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (field_role(bare) == FieldRole::kNone || field_role(bare) == FieldRole::kCoordinate) continue;
+    if (std::find(names.begin(), names.end(), bare) == names.end()) name = bare;
+  }
+  return names;
+}
+
 // Binary lists before the points: their lengths are data, so every step is checked against the end.
 class BinaryWalk {
  public:
@@ -42,7 +64,7 @@ class BinaryWalk {
       const std::size_t start = offset_;
       for (const PlyProperty& property : element.properties) {
         const std::uint64_t items = property.is_list() ? take_length(property.length_type) : 1;
-        advance(items * field_bytes(property.type));
+        advance(items * field_type_bytes(property.type));
       }
       if (offset_ == start) return;  // an element without properties takes no bytes, whatever its count
     }
@@ -58,7 +80,7 @@ class BinaryWalk {
 
   std::uint64_t take_length(std::uint32_t type) {
     const std::size_t start = offset_;
-    const std::uint32_t size = field_bytes(type);
+    const std::uint32_t size = field_type_bytes(type);
     advance(size);
     std::uint64_t length = 0;
     for (std::size_t i = 0; i < size; ++i) {
@@ -79,9 +101,12 @@ Frame read_binary(Bytes bytes, const PlyHeader& header, std::size_t vertex) {
   BinaryWalk walk(bytes, header.data_offset, layout.big_endian);
   for (std::size_t i = 0; i < vertex; ++i) walk.pass_element(header.elements[i]);
   layout.data_offset = walk.offset();
-  for (const PlyProperty& property : header.elements[vertex].properties) {
-    layout.fields.push_back({property.name, {layout.point_step, property.type}});
-    layout.point_step += field_bytes(property.type);
+  const std::vector<PlyProperty>& properties = header.elements[vertex].properties;
+  const std::vector<std::string> names = names_of(properties);
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    const PlyProperty& property = properties[i];
+    layout.fields.push_back({names[i], {layout.point_step, property.type}});
+    layout.point_step += field_type_bytes(property.type);
   }
   if (layout.point_step == 0) throw FrameError(tr("PLY: element vertex has no properties"));
   layout.count = count_points(header.elements[vertex].count, bytes.size() - layout.data_offset, layout.point_step);
@@ -96,10 +121,14 @@ Frame read_ascii(const Bytes& bytes, const PlyHeader& header, std::size_t vertex
     }
   }
   std::vector<AsciiColumn> columns;
-  for (const PlyProperty& property : header.elements[vertex].properties) {
-    const bool is_double = property.type == POSE_WALL_FIELD_FLOAT64 || property.type == POSE_WALL_FIELD_INT32 ||
-                           property.type == POSE_WALL_FIELD_UINT32;
-    columns.push_back({property.name, 1, is_double});
+  const std::vector<PlyProperty>& properties = header.elements[vertex].properties;
+  const std::vector<std::string> names = names_of(properties);
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    const PlyProperty& property = properties[i];
+    // Whole numbers of four bytes (a time in microseconds) do not fit a float32.
+    const bool is_double =
+        field_type_bytes(property.type) >= 4 && property.type != static_cast<std::uint32_t>(POSE_WALL_FIELD_FLOAT32);
+    columns.push_back({names[i], 1, is_double});
   }
   return parse_ascii_points(cursor, columns, header.elements[vertex].count);
 }

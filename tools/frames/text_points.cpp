@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "frames/ascii_points.hpp"
+#include "frames/column_kinds.hpp"
 #include "frames/field_aliases.hpp"
+#include "frames/field_value.hpp"
 #include "frames/text_cursor.hpp"
 #include "language/language.hpp"
 
@@ -75,7 +77,8 @@ struct TextHead {
   std::vector<AsciiColumn> columns;
   std::optional<std::uint64_t> announced;  // points
   std::size_t data_offset = 0;
-  std::size_t lines = 0;  // before the data
+  std::size_t lines = 0;       // before the data
+  bool is_fifth_open = false;  // nobody says what the fifth column is
 };
 
 std::vector<AsciiColumn> named_columns(const std::vector<std::string_view>& words) {
@@ -92,10 +95,10 @@ std::vector<AsciiColumn> columns_of(const BareLayout& layout) {
 
 std::vector<AsciiColumn> unnamed_columns(std::size_t count, std::size_t line) {
   if (count < 3 || count > kUnnamedColumnsMax) {
-    throw FrameError(
-        say("line {}: {} values; x y z [intensity] [time] are allowed, or a first line that names the columns, or "
-            "--layout",
-            line, count));
+    throw FrameError(say(
+        "line {}: {} values; x y z [intensity] [time or ring] are allowed, or a first line that names the columns, or "
+        "--layout",
+        line, count));
   }
   std::vector<AsciiColumn> columns;
   for (const char* name : {"x", "y", "z", "intensity", "time"}) {
@@ -133,6 +136,7 @@ TextHead read_head(std::string_view text, const BareLayout* given) {
     if (given != nullptr && head.columns.empty() && !are_numbers(words) && names_coordinates(words)) continue;
     refuse_decimal_commas(*line, cursor.line());
     if (head.columns.empty()) {
+      head.is_fifth_open = given == nullptr && words.size() == kUnnamedColumnsMax;
       head.columns = given != nullptr ? columns_of(*given) : unnamed_columns(words.size(), cursor.line());
     }
     return head;
@@ -147,19 +151,82 @@ std::string columns_text(const std::vector<AsciiColumn>& columns) {
   return text;
 }
 
+// What the fifth column is, by its values; nothing where they do not show it.
+std::optional<char> letter_of_fifth(const Frame& frame) {
+  ColumnLook look;
+  const pose_wall_cloud& cloud = frame.cloud;
+  for (std::uint32_t i = 0; i < cloud.width; ++i) {
+    const auto value = [&cloud, i](const pose_wall_field& field) { return field_value(cloud, 0, i, field); };
+    look.add(value(cloud.time), value(cloud.x), value(cloud.y), value(cloud.z));
+  }
+  switch (look.kind()) {
+    case ColumnKind::kConstant:
+      return '_';
+    case ColumnKind::kRing:
+      return 'r';
+    case ColumnKind::kTime:
+      return 't';
+    case ColumnKind::kOther:
+      break;
+  }
+  return std::nullopt;
+}
+
+// Read as a time so far.
+void name_fifth(Frame* frame, char letter) {
+  if (letter == 't') return;
+  if (letter == 'r') frame->cloud.ring = frame->cloud.time;
+  frame->cloud.time = {0, POSE_WALL_FIELD_NONE};
+  if (letter == 'r') {
+    frame->fields.back().name = bare_column_name(letter);
+  } else {
+    frame->fields.pop_back();
+  }
+}
+
+void settle_fifth(Frame* frame, const BareLayout* of_others) {
+  const std::optional<char> shown = letter_of_fifth(*frame);
+  const std::optional<char> others =
+      of_others != nullptr ? std::optional<char>(of_others->columns.back()) : std::nullopt;
+  if (!shown && !others) {
+    throw FrameError(
+        tr("no line names the columns, and the values of the fifth show neither times nor rings; --layout xyzit, "
+           "--layout xyzir or --layout xyzi_ says what it is"));
+  }
+  if (shown && others && *shown != *others && *shown != '_') {
+    throw FrameError(say("the values look like {}, those of the files before like {}; --layout says which",
+                         columns_text(columns_of(*parse_bare_layout(std::string("xyzi") + *shown))),
+                         columns_text(columns_of(*of_others))));
+  }
+  name_fifth(frame, others ? *others : *shown);
+}
+
 }  // namespace
 
-Frame read_text_points(const Bytes& bytes, const BareLayout* columns) {
+Frame read_text_points(const Bytes& bytes, const BareLayout* columns, const BareLayout* of_others) {
   const std::string_view text = as_text(bytes);
   const TextHead head = read_head(text, columns);
   TextCursor cursor(text, head.data_offset, head.lines);
+  Frame frame;
   try {
-    Frame frame = parse_ascii_points(cursor, head.columns, head.announced, AsciiStyle::kText);
-    return frame;
+    frame = parse_ascii_points(cursor, head.columns, head.announced, AsciiStyle::kText);
   } catch (const FrameError& fault) {
     throw FrameError(say("{}; a line holds {}, separated by spaces, tabs, commas or semicolons", fault.what(),
                          columns_text(head.columns)));
   }
+  if (head.is_fifth_open) settle_fifth(&frame, of_others);
+  return frame;
+}
+
+std::optional<BareLayout> text_layout_shown(const Bytes& bytes) {
+  const std::string_view text = as_text(bytes);
+  const TextHead head = read_head(text, nullptr);
+  if (!head.is_fifth_open) return std::nullopt;
+  TextCursor cursor(text, head.data_offset, head.lines);
+  const std::optional<char> letter =
+      letter_of_fifth(parse_ascii_points(cursor, head.columns, head.announced, AsciiStyle::kText));
+  if (!letter || *letter == '_') return std::nullopt;
+  return parse_bare_layout(std::string("xyzi") + *letter);
 }
 
 bool begins_like_points(std::string_view beginning) {

@@ -70,6 +70,16 @@ std::string layout_of(const std::optional<LayoutFacts>& layout) {
                      layout->is_big_endian ? "big" : "little");
 }
 
+Json sender_facts_json(const SourceSender& sender) {
+  Json facts = Json::object();
+  for (const SourceFact& fact : sender.facts) {
+    std::string key = fact.word;
+    std::replace(key.begin(), key.end(), ' ', '_');
+    facts[key] = fact.found;
+  }
+  return facts;
+}
+
 }  // namespace
 
 std::string facts_json(const std::string& input, const SourceAbout& about, const InputFacts& facts) {
@@ -80,6 +90,14 @@ std::string facts_json(const std::string& input, const SourceAbout& about, const
                               {"type", topic.type},
                               {"messages", topic.messages},
                               {"looked_at", topic.name == about.topic}});
+  }
+  page["sources"] = Json::array();
+  for (const SourceSender& sender : about.senders) {
+    page["sources"].push_back({{"name", sender.name},
+                               {"count", sender.count},
+                               {"read", sender.is_read},
+                               {"facts", sender_facts_json(sender)},
+                               {"oddities", sender.oddities}});
   }
   page["frames"] = facts.frames();
   page["unreadable"] = facts.unreadable();

@@ -108,6 +108,29 @@ std::string topics_text(const SourceAbout& about) {
   return table.text(3);
 }
 
+std::string senders_text(const SourceAbout& about) {
+  TextTable table({tr("source"), "", tr("messages")});
+  for (const SourceSender& sender : about.senders) {
+    table.add_row({sender.name, sender.is_read ? tr("looked at") : tr("not read"), std::to_string(sender.count)});
+  }
+  return table.text(2);
+}
+
+// What its packets tell of each sender.
+std::string sender_facts_text(const SourceAbout& about) {
+  std::string text;
+  for (const SourceSender& sender : about.senders) {
+    if (sender.facts.empty()) continue;
+    Facts rows;
+    rows.add(tr("source"),
+             say("{} ({}), {} packets", sender.name, sender.is_read ? tr("looked at") : tr("not read"), sender.count));
+    for (const SourceFact& fact : sender.facts) rows.add(tr(fact.word.c_str()), tr(fact.found.c_str()));
+    for (const std::string& oddity : sender.oddities) rows.add(tr("odd"), oddity);
+    text += '\n' + rows.text();
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string facts_text(const SourceAbout& about, const InputFacts& facts) {
@@ -127,6 +150,9 @@ std::string facts_text(const SourceAbout& about, const InputFacts& facts) {
   }
   std::string text = rows.text();
   if (!about.topics.empty()) text += '\n' + topics_text(about);
+  if (about.senders.size() > 1)
+    text += '\n' + senders_text(about) + tr("No sensor is mixed with another: --source chooses.") + '\n';
+  text += sender_facts_text(about);
   if (!facts.fields().empty()) text += '\n' + fields_text(facts);
   if (facts.other_layouts() > 0) text += say("frames with other fields than the first: {}\n", facts.other_layouts());
   return text;

@@ -45,6 +45,7 @@ std::vector<std::string> input_words(const std::vector<std::string>& inputs, con
     if (!value.empty()) words.insert(words.end(), {option, value});
   };
   add("--topic", options.topic);
+  add("--source", options.source);
   add("--sensor", options.packets.sensor);
   add("--metadata", options.packets.metadata);
   words.insert(words.end(), inputs.begin(), inputs.end());

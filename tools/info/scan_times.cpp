@@ -16,6 +16,7 @@
 #include "frames/told_rings.hpp"
 #include "info/scan_turn.hpp"
 #include "info/stamp_steps.hpp"
+#include "info/usable_times.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -145,7 +146,12 @@ bool is_span_wrong(const Note& note, double step_s) {
 }  // namespace
 
 void ScanTimeLook::add(const Frame& frame) {
-  if (frame.cloud.time.type == 0) return;
+  if (frame.cloud.time.type == 0) {
+    Note unread;
+    unread.is_type = unusable_times(frame) == TimeFault::kType;
+    if (unread.is_type) notes_.push_back(unread);
+    return;
+  }
   Returns returns = returns_with_times(frame);
   if (returns.all.size() < kReturnsLeast) return;
   double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -185,6 +191,7 @@ ScanTimeFacts ScanTimeLook::facts(const SensorFacts& sensor, const std::vector<s
   facts.turn_s = median_by(notes_, is_turn, &Note::turn_s);
   const bool turns = sensor.rings >= kRingsLeast && sensor.azimuth_span_deg >= kRoundLeast_deg;
   const std::pair<TimeFault, Rule> rules[] = {
+      {TimeFault::kType, [](const Note& n) { return n.is_type; }},
       {TimeFault::kOne, [](const Note& n) { return n.is_one; }},
       {TimeFault::kUnit, [](const Note& n) { return n.is_unit_unknown; }},
       {TimeFault::kNoTurn, [&](const Note& n) { return turns && !n.leans && n.off_moment > kOffMomentMost; }},

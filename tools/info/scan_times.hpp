@@ -18,6 +18,7 @@ namespace pose_wall::tools {
 
 enum class TimeFault {
   kNone,
+  kType,      // a field is called like a time, but is of no type that is read
   kOne,       // all points of a scan have one time
   kUnit,      // in no unit a scan of them takes 0.01 to 1 s
   kNoTurn,    // what is of one moment lies all round
@@ -40,7 +41,7 @@ struct ScanTimeFacts {
   double moved_m_s = 0.0;  // median speed that was taken out of the faulty ones
 
   // Taking out motion by such times does harm. (Without motion a scan keeps all of its own, which is as much.)
-  bool does_harm() const { return fault != TimeFault::kNone && fault != TimeFault::kOne && fault != TimeFault::kUnit; }
+  bool does_harm() const { return fault > TimeFault::kUnit; }
 };
 
 class ScanTimeLook {
@@ -54,7 +55,7 @@ class ScanTimeLook {
     double off_moment = 0.0, off_turn = 0.0;
     double order = 1.0;  // correlation of time and place in the cloud
     double moved_m_s = 0.0;
-    bool is_one = false, is_unit_unknown = false, has_rings = false, leans = false;
+    bool is_type = false, is_one = false, is_unit_unknown = false, has_rings = false, leans = false;
   };
 
  private:
@@ -65,7 +66,8 @@ class ScanTimeLook {
 std::string times_doubt(const ScanTimeFacts& facts);
 // What to do about it; empty where it does no harm.
 std::string times_advice(const ScanTimeFacts& facts);
-// For programs: "one_time", "unit", "no_turn", "by_row", "uneven", "backward", "span", "moved"; empty without a fault.
+// For programs: "type", "one_time", "unit", "no_turn", "by_row", "uneven", "backward", "span", "moved"; empty without a
+// fault.
 const char* time_fault_name(TimeFault fault);
 
 }  // namespace pose_wall::tools

@@ -16,6 +16,8 @@ std::string seen_text(const ScanTimeFacts& facts) {
   switch (facts.fault) {
     case TimeFault::kNone:
       return "";
+    case TimeFault::kType:
+      return tr("a field is called like a time, but is no single number of a type that is read as one.");
     case TimeFault::kOne:
       return tr("all points of a scan have the same time.");
     case TimeFault::kUnit:
@@ -66,6 +68,8 @@ const char* time_fault_name(TimeFault fault) {
   switch (fault) {
     case TimeFault::kNone:
       return "";
+    case TimeFault::kType:
+      return "type";
     case TimeFault::kOne:
       return "one_time";
     case TimeFault::kUnit:

@@ -37,6 +37,9 @@ void FrameSequence::expect_use(const InputOptions& options) const {
   if (!options.topic.empty() && !bag_seen_) {
     throw std::invalid_argument(say("--topic {}: no input is a bag", options.topic));
   }
+  if (!options.source.empty() && !bag_seen_ && !packets_seen_) {
+    throw std::invalid_argument(say("--source {}: no input is a bag or a capture of packets", options.source));
+  }
   if (!options.packets.metadata.empty() && !packets_seen_) {
     throw std::invalid_argument(say("--metadata {}: no input is a capture of packets", options.packets.metadata));
   }
@@ -54,6 +57,16 @@ void FrameSequence::expect_use(const InputOptions& options) const {
   }
 }
 
+namespace {
+
+SensorOptions packets_of(const InputOptions& options) {
+  SensorOptions packets = options.packets;
+  if (packets.source.empty()) packets.source = options.source;
+  return packets;
+}
+
+}  // namespace
+
 void FrameSequence::choose_layouts() {
   for (FileSource* source : file_sources_) {
     source->choose_layout();
@@ -61,11 +74,17 @@ void FrameSequence::choose_layouts() {
   }
 }
 
+void FrameSequence::add_note(const std::string& argument) {
+  const std::string note = sources_.back()->note();
+  if (!note.empty()) notes_.push_back(fmt::format("{}: {}", argument, note));
+}
+
 void FrameSequence::add(const std::string& argument, const InputOptions& options) {
   try {
     if (is_rosbag2_folder(argument)) return add_bag(argument, rosbag2_files(argument), options);
     if (is_packet_capture(argument)) {
-      sources_.push_back(open_packet_capture(argument, options.packets));
+      sources_.push_back(open_packet_capture(argument, packets_of(options)));
+      add_note(argument);
       files_.emplace_back(argument);
       packets_seen_ = true;
       open_files_ = nullptr;
@@ -101,14 +120,17 @@ void FrameSequence::add_bag(const std::string& argument, const std::vector<std::
                             const InputOptions& options) {
   files_.insert(files_.end(), files.begin(), files.end());
   open_files_ = nullptr;
-  auto bag = std::make_unique<Bag>(files);
+  auto bag = std::make_unique<Bag>(files, options.source);
   try {
     const bool fullest = options.fullest_topic && options.topic.empty();
     std::string topic = fullest ? bag->fullest_topic() : bag->choose_topic(options.topic);
     if (bag->has_packets(topic)) {
-      sources_.push_back(open_bag_packets(std::move(bag), topic, options.packets));
+      sources_.push_back(open_bag_packets(std::move(bag), topic, packets_of(options)));
+      add_note(argument);
       packets_seen_ = true;
     } else {
+      const std::string note = bag->choose_source(topic);
+      if (!note.empty()) notes_.push_back(fmt::format("{}: {}", argument, note));
       sources_.push_back(std::make_unique<BagSource>(std::move(bag), std::move(topic)));
     }
   } catch (const std::invalid_argument& fault) {

@@ -23,6 +23,7 @@ struct InputOptions {
   std::string topic;           // of bags; empty: the only one with clouds
   bool fullest_topic = false;  // where `topic` is empty and several topics have clouds: take the one with most messages
   SensorOptions packets;       // of captures and bags of packets
+  std::string source;          // the one sender that is read, of bags and captures; empty: the first
   std::string layout;          // of files without a header: one letter per value, "xyzi"; empty: by their values
   std::string unit;            // of coordinates, one of length_unit_names(); empty: m
   bool of_others = false;      // topic and packets may be meant for inputs that are opened elsewhere
@@ -50,6 +51,7 @@ class FrameSequence {
   void add_bag(const std::string& argument, const std::vector<std::filesystem::path>& files,
                const InputOptions& options);
   void add_files(const std::string& argument);
+  void add_note(const std::string& argument);
   void choose_layouts();
   void expect_use(const InputOptions& options) const;
 

@@ -32,10 +32,10 @@ struct RosEdge {
 
 struct ReplayPlan {
   std::vector<std::string> inputs;
-  std::string topic, metadata;  // as those of the command `pose_wall run`
-  double speed = 1.0;           // times real time; 0: as fast as frames are worked, none dropped
-  bool step = false;            // one frame for each line of standard input
-  bool repeat = false;          // from the start again at the end
+  std::string topic, source, metadata;  // as those of the command `pose_wall run`
+  double speed = 1.0;                   // times real time; 0: as fast as frames are worked, none dropped
+  bool step = false;                    // one frame for each line of standard input
+  bool repeat = false;                  // from the start again at the end
 };
 
 std::unique_ptr<Source> make_udp_source(const LoadedConfig& loaded);

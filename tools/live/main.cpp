@@ -125,6 +125,8 @@ void add_options(CLI::App* app, Words* words) {
   of_replay(app->add_flag("--step", replay->step, tr("One frame for each line of standard input")));
   of_replay(app->add_flag("--repeat", replay->repeat, tr("From the start again at the end")));
   of_replay(app->add_option("--topic", replay->topic, tr("Of bags: the topic with the clouds")));
+  of_replay(app->add_option("--source", replay->source,
+                            tr("Of bags and captures with several sensors: the one that is read; default: the first")));
   of_replay(app->add_option("--metadata", replay->metadata, tr("Of captures: what the sensor says of itself")));
   app->set_version_flag("--version", std::string("pose_walld ") + pose_wall_version(),
                         tr("Display program version information and exit"));

@@ -13,8 +13,9 @@
 
 namespace pose_wall::tools {
 
-// `topic` is one of packets that the bag holds. Times are those that its driver gave each packet. Throws FrameError as
-// PacketFrames does.
+// `topic` is one of packets that the bag holds. Where no metadata is named, that of an Ouster is the text that its
+// driver recorded on the topic `metadata` beside it. Times are those that its driver gave each packet. Throws
+// FrameError as PacketFrames does.
 std::unique_ptr<FrameSource> open_bag_packets(std::unique_ptr<Bag> bag, const std::string& topic,
                                               const SensorOptions& options);
 

@@ -7,14 +7,24 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "bags/byte_cursor.hpp"
 
 namespace pose_wall::tools {
 
+// Who sent a datagram, as far as its recording tells. Sensors leave the factory with one address for all of a kind:
+// then the port that one is told to send to, or the address of its network card, tells two of them apart.
+struct Sender {
+  std::uint32_t address = 0;            // of IPv4; 0: not told
+  std::uint16_t port = 0, to_port = 0;  // it is sent from, and to; 0: not told
+  std::uint64_t card = 0;               // of Ethernet, its lower 48 bits; 0: not told
+  std::string frame_id;                 // of a message in a bag
+};
+
 struct Datagram {
   std::int64_t captured_ns = 0;
-  std::uint32_t source_address = 0;
+  Sender from;
   ByteView payload;  // until the next call
 };
 

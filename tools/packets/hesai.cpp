@@ -44,18 +44,21 @@ void HesaiAssembler::set_model(HesaiModel model) {
 
 bool HesaiAssembler::add(const Datagram& datagram) {
   const std::optional<HesaiModel> model = hesai_model_of(datagram.payload);
-  if (!model || (traits_ != nullptr && traits_->model != *model) || !is_first_heard(datagram)) return false;
+  if (!model || (traits_ != nullptr && traits_->model != *model)) return false;
   if (traits_ == nullptr) set_model(*model);
   const bool is_dual = is_hesai_dual(*traits_, datagram.payload);
   const std::size_t step = is_dual ? 2 : 1;
+  std::vector<double> azimuths_deg;
   for (std::size_t block = 0; block < traits_->blocks; block += step) {
-    if (block + step < traits_->blocks) {
-      last_step_deg_ = turned_deg(azimuth_of(*traits_, datagram.payload, block),
-                                  azimuth_of(*traits_, datagram.payload, block + step));
-    }
-    fill_firing(datagram.payload, block, is_dual, datagram.captured_ns);
-    add_firing(firing_, last_step_deg_);
+    azimuths_deg.push_back(azimuth_of(*traits_, datagram.payload, block));
   }
+  const PacketSteps steps(azimuths_deg, last_step_deg_);
+  for (std::size_t k = 0; k < azimuths_deg.size(); ++k) {
+    const auto earlier_ns = std::llround(steps.earlier_ns(k, traits_->beams.cycle_ns));
+    fill_firing(datagram.payload, k * step, is_dual, datagram.captured_ns - earlier_ns);
+    add_firing(firing_, steps.after_deg(k));
+  }
+  last_step_deg_ = steps.after_deg(azimuths_deg.size());
   return true;
 }
 

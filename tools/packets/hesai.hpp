@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Hesai PandarXT-32, Pandar40P and PandarQT (64 lasers): packets of blocks, a firing of all lasers each.
+// Hesai PandarXT-32, PandarXT-16, Pandar40P and PandarQT (64 lasers): packets of blocks, a firing of all lasers each.
 
 #pragma once
 

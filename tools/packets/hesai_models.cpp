@@ -21,6 +21,7 @@ constexpr std::uint16_t kHesaiBlockFlag = 0xEEFF;   // bytes FF EE
 constexpr std::size_t kHesaiHeadBytes = 12;
 constexpr std::uint8_t kDistanceUnit_mm = 4;
 constexpr std::size_t kSequenceBytes = 4;
+constexpr std::uint16_t kXtProtocol = 0x0106;  // 6.1, as HesaiLidar_SDK_2.0 tells an XT from others
 constexpr double kElevationMax_deg = 90.0, kAzimuthMax_deg = 180.0;
 
 std::uint8_t byte_at(ByteView payload, std::size_t offset) {
@@ -47,6 +48,7 @@ bool has_head(ByteView payload) {
 // What says in its head how many lasers and blocks it has, and that a number ends it.
 bool fits_head(const HesaiTraits& traits, ByteView payload) {
   if (!has_head(payload)) return false;
+  if (traits.protocol != 0 && little_endian_at(payload, 2, 2) != traits.protocol) return false;
   const bool has_sequence = (byte_at(payload, 11) & 1U) != 0;
   return byte_at(payload, 6) == traits.lasers() && byte_at(payload, 7) == traits.blocks &&
          byte_at(payload, 9) == kDistanceUnit_mm &&
@@ -76,15 +78,16 @@ double HesaiTraits::firing_start_ns(std::size_t firing, std::size_t firings) con
 
 const HesaiTraits& hesai_traits(HesaiModel model) {
   // Appendix II of each manual has the times: of a packet, and the first one of a laser.
-  static const std::array<HesaiTraits, 3> traits = {
-      {{HesaiModel::kXt32, hesai_xt32(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 368.0, 5'632.0, true},
+  static const std::array<HesaiTraits, kHesaiModels.size()> traits = {
+      {{HesaiModel::kXt32, hesai_xt32(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 368.0, 5'632.0, true, kXtProtocol},
        {HesaiModel::kPandar40p, hesai_pandar40p(), 10, 0, 4, 3, 22, 14, -54'670.0, -28'580.0, true},
-       {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 12'310.0, 25'710.0, false}}};
+       {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 12'310.0, 25'710.0, false},
+       {HesaiModel::kXt16, hesai_xt16(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 368.0, 5'632.0, true, kXtProtocol}}};
   return traits[static_cast<std::size_t>(model)];
 }
 
 std::optional<HesaiModel> hesai_model_of(ByteView payload) {
-  for (const HesaiModel model : {HesaiModel::kXt32, HesaiModel::kPandar40p, HesaiModel::kQt64}) {
+  for (const HesaiModel model : kHesaiModels) {
     if (fits(hesai_traits(model), payload)) return model;
   }
   return std::nullopt;

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,7 +17,10 @@
 
 namespace pose_wall::tools {
 
-enum class HesaiModel { kXt32, kPandar40p, kQt64 };
+enum class HesaiModel { kXt32, kPandar40p, kQt64, kXt16 };
+
+constexpr std::array<HesaiModel, 4> kHesaiModels = {HesaiModel::kXt32, HesaiModel::kPandar40p, HesaiModel::kQt64,
+                                                    HesaiModel::kXt16};
 
 struct HesaiLaser {
   double elevation_deg = 0.0;
@@ -35,6 +39,7 @@ struct HesaiTraits {
   double first_laser_ns;    // from a firing's time to the first laser's
   double known_firing_ns;   // from a packet's time to its first firing, or to the last
   bool last_is_known;
+  std::uint16_t protocol = 0;  // version of its head, the lower byte first; 0: it is not looked at
 
   const std::string& title() const { return beams.title; }
   std::size_t lasers() const { return beams.lasers.size(); }
@@ -50,7 +55,7 @@ const HesaiTraits& hesai_traits(HesaiModel model);
 // The model whose data these bytes are, with lengths, counts, azimuths and return mode that fit it.
 std::optional<HesaiModel> hesai_model_of(ByteView payload);
 
-// What data of a Hesai is that is not read ("a Hesai of 16 lasers in 8 blocks"); "" for anything else.
+// What data of a Hesai is that is not read ("a Hesai of 128 lasers in 2 blocks"); "" for anything else.
 std::string unread_hesai(ByteView payload);
 
 bool is_hesai_dual(const HesaiTraits& traits, ByteView payload);

@@ -30,10 +30,13 @@ class IpPackets {
     std::map<std::uint32_t, Bytes> parts;  // by offset
     std::uint32_t size = 0;                // 0: the last part has not come
     std::uint64_t age = 0;
+    std::int64_t began_ns = 0;
+    std::size_t bytes = 0;
   };
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint16_t>;  // source, destination, identification
 
-  std::optional<ByteView> add_fragment(const Key& key, ByteView part, std::uint32_t offset, bool is_last);
+  std::optional<ByteView> add_fragment(const Key& key, ByteView part, std::uint32_t offset, bool is_last,
+                                       std::int64_t captured_ns);
   bool put_together(const Fragments& fragments);
   void forget_oldest();
 

@@ -24,6 +24,8 @@ constexpr std::array<std::size_t, 4> kMid360PointBytes = {0, 14, 8, 10};
 constexpr std::uint32_t kCartesianMm = 1, kCartesianCm = 2;
 constexpr std::int64_t kIntervalUnit_ns = 100;
 constexpr std::uint32_t kLines = 4;
+// Four packets, one each 0.48 ms; a clock that is set jumps by more.
+constexpr std::int64_t kLateMost_ns = 2'000'000;
 // 200,000 points a second: more in one frame means that the sensor's clock stands still.
 constexpr std::size_t kPointsMax = 4'000'000;
 
@@ -91,10 +93,10 @@ Mid360Assembler::Mid360Assembler(std::int64_t frame_ns) : frame_ns_(frame_ns) {
 bool Mid360Assembler::add(const Datagram& datagram) {
   const ByteView payload = datagram.payload;
   if (!is_mid360_data(payload)) return false;
-  if (!sensor_) sensor_ = datagram.source_address;
-  if (*sensor_ != datagram.source_address) return false;  // of another sensor on the same wire
   const std::int64_t time_ns = time_of(payload);
   const bool is_later = time_ns >= scan_.stamp_ns;
+  // It came late, and its frame is gone.
+  if (!scan_.points.empty() && !is_later && scan_.stamp_ns - time_ns < kLateMost_ns) return true;
   // A clock that went back, or stands still, begins another frame as well.
   if (!scan_.points.empty() &&
       (!is_later || time_ns - scan_.stamp_ns >= frame_ns_ || scan_.points.size() >= kPointsMax)) {

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "packets/scan.hpp"
 
@@ -33,7 +32,6 @@ class Mid360Assembler : public ScanAssembler {
   void end_frame(bool is_complete);
 
   std::int64_t frame_ns_;
-  std::optional<std::uint32_t> sensor_;
   Scan scan_;
   std::int64_t last_ns_ = 0;  // of the packet added last
 };

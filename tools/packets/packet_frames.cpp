@@ -9,25 +9,32 @@
 #include <utility>
 
 #include "language/language.hpp"
+#include "packets/one_sender.hpp"
+#include "packets/sender_facts.hpp"
 
 namespace pose_wall::tools {
 
 // Scans of a recording one by one, the incomplete ones at its ends left out.
 class PacketFrames::ScanWalk {
  public:
-  ScanWalk(std::unique_ptr<DatagramSource> datagrams, std::unique_ptr<ScanAssembler> assembler)
-      : datagrams_(std::move(datagrams)), assembler_(std::move(assembler)) {}
+  // `facts`: is told of each datagram; may be none.
+  ScanWalk(std::unique_ptr<DatagramSource> datagrams, const SensorChoice& choice, SenderFacts* facts)
+      : datagrams_(std::move(datagrams)),
+        assembler_([choice] { return make_assembler(choice); }, choice.source),
+        facts_(facts) {}
 
-  // Throws FrameError where packets contradict themselves or the sensor that was chosen. What cannot be read is a
-  // fault.
+  // Throws FrameError where packets of the only sender contradict themselves or the sensor that was chosen. What cannot
+  // be read is a fault.
   std::optional<Scan> next() {
     while (true) {
       if (!ahead_) ahead_ = assembled_next();
+      if (!ahead_ && given_ == 0 && !refusal_.empty()) throw FrameError(refusal_);
       if (!ahead_) return std::nullopt;
       Scan scan = std::move(*ahead_);
       ahead_ = assembled_next();
       const bool at_an_end = given_ == 0 || !ahead_;
       const bool is_only = given_ == 0 && !ahead_;
+      if (!ahead_ && !refusal_.empty()) faults_.push_back(std::exchange(refusal_, ""));
       if (scan.is_complete || !at_an_end || is_only) {
         ++given_;
         return scan;
@@ -42,14 +49,14 @@ class PacketFrames::ScanWalk {
     return fault;
   }
 
-  const ScanAssembler& assembler() const { return *assembler_; }
+  const OneSender& assembler() const { return assembler_; }
   std::optional<SensorKind> other() const { return other_; }
   const std::string& unread() const { return unread_; }
 
  private:
   std::optional<Scan> assembled_next() {
     while (true) {
-      if (std::optional<Scan> scan = assembler_->take()) return scan;
+      if (std::optional<Scan> scan = assembler_.take()) return scan;
       if (ended_) return std::nullopt;
       std::optional<Datagram> datagram;
       try {
@@ -58,36 +65,65 @@ class PacketFrames::ScanWalk {
         faults_.emplace_back(fault.what());
         continue;
       }
-      if (!datagram) {
-        assembler_->finish();
-        ended_ = true;
-      } else if (!assembler_->add(*datagram)) {
-        if (!other_) other_ = recognise_sensor(datagram->payload);
-        if (unread_.empty()) unread_ = unread_sensor(datagram->payload);
+      try {
+        add_or_finish(datagram);
+      } catch (const FrameError& fault) {
+        refuse(fault.what());
       }
     }
   }
 
+  void add_or_finish(const std::optional<Datagram>& datagram) {
+    if (!datagram) {
+      ended_ = true;
+      assembler_.finish();
+      return;
+    }
+    if (facts_ != nullptr) facts_->hear(*datagram);
+    if (!assembler_.add(*datagram)) {
+      if (!other_) other_ = recognise_sensor(datagram->payload);
+      if (unread_.empty()) unread_ = unread_sensor(datagram->payload);
+    }
+  }
+
+  // It stands for all packets of its sender, so it is said once. Another sender's may follow.
+  void refuse(const std::string& why) {
+    if (refusal_.empty()) refusal_ = why;
+  }
+
   std::unique_ptr<DatagramSource> datagrams_;
-  std::unique_ptr<ScanAssembler> assembler_;
+  OneSender assembler_;
+  SenderFacts* facts_;
   std::optional<Scan> ahead_;
   std::deque<std::string> faults_;
   std::optional<SensorKind> other_;  // whose packets the assembler did not take
   std::string unread_;
+  std::string refusal_;  // of a sender's packets
   std::size_t given_ = 0;
   bool ended_ = false;
 };
 
 PacketFrames::PacketFrames(PacketRecording recording, const SensorChoice& choice) : recording_(std::move(recording)) {
   {
-    ScanWalk survey(recording_.open(), make_assembler(choice));
+    SenderFacts facts(choice.metadata);
+    ScanWalk survey(recording_.open(), choice, &facts);
     while (survey.next()) ++frames_;
     const std::size_t scans = frames_;
     while (survey.take_fault()) ++frames_;
+    const SourceGate& senders = survey.assembler().senders();
+    if (scans == 0 && !senders.heard().empty() && !senders.fault("", "packet").empty()) {
+      throw FrameError(senders.fault("", "packet"));
+    }
     if (scans == 0 && frames_ == 0) refuse_empty(survey, choice);
+    note_ = senders.note("", "packet");
+    for (const HeardSource& heard : senders.heard()) {
+      SourceSender sender{senders.name_of(heard.who), heard.count, heard.who == senders.chosen()};
+      facts.describe(heard.who, survey.assembler().kind(), &sender);
+      recording_.about.senders.push_back(std::move(sender));
+    }
     recording_.about.kind += (recording_.about.kind.empty() ? "" : ", ") + std::string(survey.assembler().kind());
   }
-  walk_ = std::make_unique<ScanWalk>(recording_.open(), make_assembler(choice));
+  walk_ = std::make_unique<ScanWalk>(recording_.open(), choice, nullptr);
 }
 
 PacketFrames::~PacketFrames() = default;

@@ -36,6 +36,7 @@ class PacketFrames : public FrameSource {
   std::optional<SourcedFrame> next() override;
   std::size_t frames() const override { return frames_; }
   SourceAbout about() const override { return recording_.about; }
+  std::string note() const override { return note_; }
 
  private:
   class ScanWalk;
@@ -44,6 +45,7 @@ class PacketFrames : public FrameSource {
 
   PacketRecording recording_;
   std::unique_ptr<ScanWalk> walk_;
+  std::string note_;
   std::size_t frames_ = 0;
   std::size_t next_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "frames/file_content.hpp"
+#include "packets/ouster_metadata.hpp"
 #include "packets/packet_frames.hpp"
 #include "packets/udp_capture.hpp"
 
@@ -21,7 +22,7 @@ bool is_packet_capture(const std::filesystem::path& file) {
 
 std::unique_ptr<FrameSource> open_packet_capture(const std::filesystem::path& file, const SensorOptions& options) {
   SensorOptions described = options;
-  const std::filesystem::path beside = std::filesystem::path(file).replace_extension(".json");
+  const std::filesystem::path beside = ouster_metadata_beside(file);
   const bool may_be_ouster = options.sensor.empty() || options.sensor == known_sensor(SensorKind::kAutomatic).name ||
                              options.sensor == known_sensor(SensorKind::kOuster).name;
   PacketRecording recording;

@@ -16,7 +16,13 @@
 #include "language/language.hpp"
 #include "language/system_errors.hpp"
 #include "packets/hesai.hpp"
+#include "packets/lslidar.hpp"
+#include "packets/lslidar_device.hpp"
+#include "packets/lslidar_hybrid.hpp"
 #include "packets/ouster.hpp"
+#include "packets/robosense.hpp"
+#include "packets/robosense_evidence.hpp"
+#include "packets/robosense_m1.hpp"
 #include "packets/velodyne.hpp"
 #include "terminal/did_you_mean.hpp"
 
@@ -48,9 +54,54 @@ std::optional<HesaiModel> hesai_model(SensorKind kind) {
       return HesaiModel::kPandar40p;
     case SensorKind::kHesaiQt64:
       return HesaiModel::kQt64;
+    case SensorKind::kHesaiXt16:
+      return HesaiModel::kXt16;
     default:
       return std::nullopt;
   }
+}
+
+// Of what is named the models that it may be; none for another maker's.
+std::vector<LslidarModel> lslidar_models(SensorKind kind) {
+  using Model = LslidarModel;
+  switch (kind) {
+    case SensorKind::kLslidarC16:
+      return {Model::kC16V3, Model::kC16V4, Model::kC16V4B, Model::kC16V5};
+    case SensorKind::kLslidarC16Of15:
+    case SensorKind::kLslidarC16Of10:
+      return {Model::kC16V3};
+    case SensorKind::kLslidarC32:
+      return {Model::kC32V3, Model::kC32V4, Model::kC32V5};
+    case SensorKind::kLslidarC32w:
+      return {Model::kC32W45, Model::kC32W46, Model::kC32W47, Model::kC32W48};
+    case SensorKind::kLslidarCh32r:
+      return {Model::kCh32r5a, Model::kCh32r5d};
+    case SensorKind::kLslidarC8:
+      return {Model::kC8, Model::kC8f, Model::kCkm8};
+    default:
+      return {};
+  }
+}
+
+LslidarChoice lslidar_choice(SensorKind kind) {
+  LslidarChoice choice;
+  choice.models = lslidar_models(kind);
+  if (kind == SensorKind::kLslidarC16Of15) choice.of_first_kind = &lslidar_traits(LslidarModel::kC16V3).beams;
+  if (kind == SensorKind::kLslidarC16Of10) choice.of_first_kind = &lslidar_c16_v3_narrow();
+  choice.title = known_sensor(kind).title;
+  choice.word = known_sensor(kind).name;
+  return choice;
+}
+
+std::optional<RoboSenseModel> robosense_model(SensorKind kind) {
+  for (const RoboSenseTraits& traits : robosense_sensors()) {
+    if (known_sensor(kind).name == std::string_view(traits.word)) return traits.model;
+  }
+  return std::nullopt;
+}
+
+bool is_robosense_metadata(const std::string& metadata) {
+  return is_robosense_device({reinterpret_cast<const std::byte*>(metadata.data()), metadata.size()});
 }
 
 // An assembler for whatever is heard first.
@@ -59,7 +110,17 @@ class AutomaticAssembler : public ScanAssembler {
   explicit AutomaticAssembler(SensorChoice choice) : choice_(std::move(choice)) {}
 
   bool add(const Datagram& datagram) override {
-    if (!inner_ && !begin(datagram.payload)) return false;
+    if (!inner_ && is_lslidar_device(datagram.payload)) {
+      // It says much of a sensor, but not which one: data does.
+      if (device_.empty()) device_.assign(datagram.payload.data, datagram.payload.data + datagram.payload.size);
+      return true;
+    }
+    if (!inner_) {
+      if (!begin(datagram.payload)) return false;
+      Datagram device = datagram;
+      device.payload = {device_.data(), device_.size()};
+      if (!device_.empty()) inner_->add(device);
+    }
     const bool is_data = inner_->add(datagram);
     pass_on();
     return is_data;
@@ -73,19 +134,41 @@ class AutomaticAssembler : public ScanAssembler {
 
   const char* kind() const override { return inner_ ? inner_->kind() : "packets of no known sensor"; }
   bool stamps_are_of_arrival() const override { return !inner_ || inner_->stamps_are_of_arrival(); }
+  std::string hint() const override {
+    if (inner_) return inner_->hint();
+    return device_.empty() ? "" : tr("there are device packets of an LSLidar, which say how its data is read");
+  }
 
  private:
   bool begin(ByteView payload) {
-    const bool is_other = is_velodyne_data(payload) || is_mid360_data(payload);
+    const bool is_lslidar = lslidar_model_of(payload).has_value();
+    const bool is_robosense = robosense_layout_of(payload) || is_robosense_device(payload);
+    const bool is_other =
+        is_velodyne_data(payload) || is_mid360_data(payload) || is_robosense_m1_data(payload) || is_lslidar;
+    const bool has_device = is_robosense_metadata(choice_.metadata);
+    if (has_device && (is_other || hesai_model_of(payload))) {
+      throw FrameError(
+          tr("a device packet of a RoboSense is given as metadata, but the packets are of another sensor"));
+    }
+    if (is_robosense && !has_device && !choice_.metadata.empty()) {
+      throw FrameError(tr("angles of a Hesai are given as metadata, but the packets are of a RoboSense"));
+    }
     if (is_other && !choice_.metadata.empty()) {
       throw FrameError(tr("angles of a Hesai are given as metadata, but the packets are of a sensor that has none"));
     }
-    if (is_velodyne_data(payload)) {
+    // Of firmware 2 and 3 they are laid out as a Velodyne's.
+    if (is_lslidar) {
+      inner_ = std::make_unique<LslidarAssembler>();
+    } else if (is_velodyne_data(payload)) {
       inner_ = std::make_unique<VelodyneAssembler>();
     } else if (hesai_model_of(payload)) {
       inner_ = std::make_unique<HesaiAssembler>(std::nullopt, choice_.metadata);
     } else if (is_mid360_data(payload)) {
       inner_ = std::make_unique<Mid360Assembler>(choice_.frame_ns);
+    } else if (is_robosense) {
+      inner_ = std::make_unique<RoboSenseAssembler>(std::nullopt, choice_.metadata);
+    } else if (is_robosense_m1_data(payload)) {
+      inner_ = std::make_unique<RoboSenseM1Assembler>();
     }
     return inner_ != nullptr;
   }
@@ -95,13 +178,14 @@ class AutomaticAssembler : public ScanAssembler {
   }
 
   SensorChoice choice_;
+  Bytes device_;  // the first of an LSLidar before its data
   std::unique_ptr<ScanAssembler> inner_;
 };
 
 // Angles for sensors of so many lasers are metadata; anything else is a mistake that is better told at once.
 void check_angles(const std::string& text) {
   std::string why;
-  for (const HesaiModel model : {HesaiModel::kXt32, HesaiModel::kPandar40p, HesaiModel::kQt64}) {
+  for (const HesaiModel model : kHesaiModels) {
     try {
       parse_hesai_angles(text, hesai_traits(model).lasers());
       return;
@@ -132,7 +216,7 @@ void check_metadata(const SensorChoice& choice) {
   }
   if (choice.metadata.empty()) return;
   if (choice.kind == SensorKind::kAutomatic) {
-    if (!is_ouster_metadata(choice.metadata)) check_angles(choice.metadata);
+    if (!is_ouster_metadata(choice.metadata) && !is_robosense_metadata(choice.metadata)) check_angles(choice.metadata);
     return;
   }
   if (sensor.metadata == SensorMetadata::kNone) {
@@ -140,6 +224,12 @@ void check_metadata(const SensorChoice& choice) {
   }
   if (sensor.metadata == SensorMetadata::kHesaiAngles && is_ouster_metadata(choice.metadata)) {
     throw FrameError(say("the metadata is JSON, as of an Ouster; a {} takes a table of angles", sensor.title));
+  }
+  if (sensor.metadata == SensorMetadata::kRoboSenseDevice && !is_robosense_metadata(choice.metadata)) {
+    throw FrameError(
+        say("the metadata of a {} is one of its device packets: {} bytes that begin with a5 ff 00 5a 11 11 "
+            "55 55; this is none",
+            sensor.title, kRoboSenseBytes));
   }
 }
 
@@ -162,7 +252,33 @@ const std::vector<KnownSensor>& known_sensors() {
       {SensorKind::kHesaiXt32, "hesai_xt32", "Hesai PandarXT-32", 2368, SensorMetadata::kHesaiAngles, false},
       {SensorKind::kHesai40p, "hesai_40p", "Hesai Pandar40P", 2368, SensorMetadata::kHesaiAngles, false},
       {SensorKind::kHesaiQt64, "hesai_qt64", "Hesai PandarQT", 2368, SensorMetadata::kHesaiAngles, false},
-      {SensorKind::kMid360, "mid360", "Livox Mid-360", 56301, SensorMetadata::kNone, false}};
+      {SensorKind::kMid360, "mid360", "Livox Mid-360", 56301, SensorMetadata::kNone, false},
+      {SensorKind::kLslidarC16, "lslidar_c16", "LSLidar C16", 2368, SensorMetadata::kNone, false, 2369},
+      {SensorKind::kLslidarC16Of15, "lslidar_c16_15deg", "LSLidar C16 of firmware 2 or 3, -15 to 15 degrees", 2368,
+       SensorMetadata::kNone, false, 2369},
+      {SensorKind::kLslidarC16Of10, "lslidar_c16_10deg", "LSLidar C16 of firmware 2 or 3, -10 to 10 degrees", 2368,
+       SensorMetadata::kNone, false, 2369},
+      {SensorKind::kLslidarC32, "lslidar_c32", "LSLidar C32", 2368, SensorMetadata::kNone, false, 2369},
+      {SensorKind::kLslidarC32w, "lslidar_c32w", "LSLidar C32W", 2368, SensorMetadata::kNone, false, 2369},
+      {SensorKind::kLslidarCh32r, "lslidar_ch32r", "LSLidar CH32R", 2368, SensorMetadata::kNone, false, 2369},
+      {SensorKind::kLslidarC8, "lslidar_c8", "LSLidar C8", 2368, SensorMetadata::kNone, false, 2369},
+      {SensorKind::kLslidarCh128x1, "lslidar_ch128x1", "LSLidar CH128X1", 2368, SensorMetadata::kNone, false, 2369},
+      {SensorKind::kRoboSense16, "robosense_rs16", "RoboSense RS-LiDAR-16", kRoboSensePort,
+       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
+      {SensorKind::kRoboSense32, "robosense_rs32", "RoboSense RS-LiDAR-32", kRoboSensePort,
+       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
+      {SensorKind::kRoboSenseHelios32, "robosense_helios32", "RoboSense RS-Helios", kRoboSensePort,
+       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
+      {SensorKind::kRoboSenseHelios16p, "robosense_helios16p", "RoboSense RS-Helios-16P", kRoboSensePort,
+       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
+      {SensorKind::kRoboSenseBpearl, "robosense_bpearl", "RoboSense RS-Bpearl", kRoboSensePort,
+       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
+      {SensorKind::kRoboSenseBpearl4, "robosense_bpearl4", "RoboSense RS-Bpearl 4", kRoboSensePort,
+       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
+      {SensorKind::kRoboSenseAiry, "robosense_airy", "RoboSense Airy", kRoboSensePort, SensorMetadata::kRoboSenseDevice,
+       false, kRoboSenseDevicePort},
+      {SensorKind::kRoboSenseM1, "robosense_m1", "RoboSense M1", kRoboSensePort, SensorMetadata::kNone, false},
+      {SensorKind::kHesaiXt16, "hesai_xt16", "Hesai PandarXT-16", 2368, SensorMetadata::kHesaiAngles, false}};
   return sensors;
 }
 
@@ -185,6 +301,7 @@ std::optional<SensorKind> sensor_by_name(std::string_view name) {
 
 SensorChoice choose_sensor(const SensorOptions& options) {
   SensorChoice choice;
+  choice.source = options.source;
   if (!options.sensor.empty()) {
     const std::optional<SensorKind> kind = sensor_by_name(options.sensor);
     if (!kind) {
@@ -211,7 +328,13 @@ std::unique_ptr<ScanAssembler> make_assembler(const SensorChoice& choice) {
   if (const std::optional<HesaiModel> model = hesai_model(choice.kind)) {
     return std::make_unique<HesaiAssembler>(model, choice.metadata);
   }
+  if (const std::optional<RoboSenseModel> model = robosense_model(choice.kind)) {
+    return std::make_unique<RoboSenseAssembler>(model, choice.metadata);
+  }
+  if (choice.kind == SensorKind::kRoboSenseM1) return std::make_unique<RoboSenseM1Assembler>();
   if (choice.kind == SensorKind::kMid360) return std::make_unique<Mid360Assembler>(choice.frame_ns);
+  if (!lslidar_models(choice.kind).empty()) return std::make_unique<LslidarAssembler>(lslidar_choice(choice.kind));
+  if (choice.kind == SensorKind::kLslidarCh128x1) return std::make_unique<LslidarHybridAssembler>();
   if (choice.kind == SensorKind::kOuster || is_ouster_metadata(choice.metadata)) {
     return std::make_unique<OusterAssembler>(parse_ouster_metadata(choice.metadata));
   }
@@ -230,7 +353,20 @@ std::optional<SensorKind> recognise_sensor(ByteView payload) {
       if (hesai_model(sensor.kind) == found) return sensor.kind;
     }
   }
+  if (const std::optional<RoboSenseLayout> layout = robosense_layout_of(payload)) {
+    const std::vector<RoboSenseModel> models = robosense_models_of_head(payload, *layout);
+    for (const KnownSensor& sensor : known_sensors()) {
+      if (models.size() == 1 && robosense_model(sensor.kind) == models.front()) return sensor.kind;
+    }
+  }
+  if (is_robosense_m1_data(payload)) return SensorKind::kRoboSenseM1;
   if (is_mid360_data(payload)) return SensorKind::kMid360;
+  if (const std::optional<LslidarModel> found = lslidar_model_of(payload)) {
+    for (const KnownSensor& sensor : known_sensors()) {
+      const std::vector<LslidarModel> models = lslidar_models(sensor.kind);
+      if (std::find(models.begin(), models.end(), *found) != models.end()) return sensor.kind;
+    }
+  }
   return std::nullopt;
 }
 
@@ -240,6 +376,10 @@ std::string unread_sensor(ByteView payload) {
       (little_endian_at(payload, 1, 1) == 0xEE || little_endian_at(payload, 1, 1) == 0xDD) &&
       little_endian_at(payload, kVelodyneBlockBytes, 2) == 0xDDFF) {
     return "a Velodyne of 64 or 128 lasers";
+  }
+  for (const std::string& other :
+       {unread_lslidar(payload), unread_lslidar_hybrid(payload), unread_robosense(payload)}) {
+    if (!other.empty()) return other;
   }
   return unread_hesai(payload);
 }

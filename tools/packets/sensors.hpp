@@ -28,10 +28,27 @@ enum class SensorKind {
   kHesaiXt32,
   kHesai40p,
   kHesaiQt64,
-  kMid360
+  kMid360,
+  kLslidarC16,
+  kLslidarC16Of15,
+  kLslidarC16Of10,
+  kLslidarC32,
+  kLslidarC32w,
+  kLslidarCh32r,
+  kLslidarC8,
+  kLslidarCh128x1,
+  kRoboSense16,
+  kRoboSense32,
+  kRoboSenseHelios32,
+  kRoboSenseHelios16p,
+  kRoboSenseBpearl,
+  kRoboSenseBpearl4,
+  kRoboSenseAiry,
+  kRoboSenseM1,
+  kHesaiXt16
 };
 
-enum class SensorMetadata { kNone, kOusterJson, kHesaiAngles };
+enum class SensorMetadata { kNone, kOusterJson, kHesaiAngles, kRoboSenseDevice };
 
 struct KnownSensor {
   SensorKind kind;
@@ -40,6 +57,7 @@ struct KnownSensor {
   std::uint16_t port;  // of data, as it leaves the factory; 0: none of its own
   SensorMetadata metadata;
   bool needs_metadata;
+  std::uint16_t device_port = 0;  // of what a sensor says of itself, where that comes by a port of its own
 };
 
 // All, kAutomatic ("auto") first.
@@ -53,14 +71,16 @@ bool is_ouster_metadata(const std::string& text);
 
 struct SensorChoice {
   SensorKind kind = SensorKind::kAutomatic;
-  std::string metadata;                     // text: JSON of an Ouster, table of angles of a Hesai; "": none
+  std::string metadata;  // JSON of an Ouster, table of angles of a Hesai, device packet of a RoboSense; "": none
   std::int64_t frame_ns = kMid360Frame_ns;  // of sensors without a turn
+  std::string source;                       // the sender to read; "": the first whose turn is whole
 };
 
 // The same as people write it, in options and settings.
 struct SensorOptions {
-  std::string sensor;    // a name of known_sensors(); "": automatic
-  std::string metadata;  // a file; "": none
+  std::string sensor;       // a name of known_sensors(); "": automatic
+  std::string metadata;     // a file; "": none
+  std::string source = {};  // a sender, as SourceIdentity::is_named takes it; "": the first whose turn is whole
 };
 
 // Reads the metadata. Throws FrameError for a name that is not known, with the one that was meant, and for a file that
@@ -77,7 +97,7 @@ std::unique_ptr<ScanAssembler> make_assembler(const SensorChoice& choice);
 // counts, which first VLP-16s had as an HDL-32E: make_assembler looks at more than one.
 std::optional<SensorKind> recognise_sensor(ByteView payload);
 
-// What these bytes are data of, where it is known and not read: "a Hesai of 16 lasers in 8 blocks"; else "".
+// What these bytes are data of, where it is known and not read: "a Hesai of 128 lasers in 2 blocks"; else "".
 std::string unread_sensor(ByteView payload);
 
 }  // namespace pose_wall::tools

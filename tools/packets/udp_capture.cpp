@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "language/language.hpp"
 #include "packets/ip_packets.hpp"
@@ -54,7 +55,7 @@ class PcapFile : public DatagramSource {
       const int status = pcap_next_ex(pcap_.get(), &header, &packet);
       if (status != 1) ended_ = true;
       if (status == PCAP_ERROR_BREAK) break;
-      if (status != 1) throw FrameError(say("offset {}: the capture is cut: {}", offset, pcap_geterr(pcap_.get())));
+      if (status != 1) refuse_rest(offset);
       // Opened with nanoseconds: tv_usec counts them.
       std::int64_t captured_ns = 0;
       if (__builtin_mul_overflow(std::int64_t{header->ts.tv_sec}, std::int64_t{1'000'000'000}, &captured_ns) ||
@@ -63,12 +64,40 @@ class PcapFile : public DatagramSource {
         throw FrameError(say("offset {}: a time of {} s", offset, std::int64_t{header->ts.tv_sec}));
       }
       const ByteView bytes{reinterpret_cast<const std::byte*>(packet), header->caplen};
-      if (std::optional<Datagram> datagram = packets_.add(bytes, captured_ns)) return datagram;
+      if (std::optional<Datagram> datagram = packets_.add(bytes, captured_ns)) {
+        is_any_whole_ = true;
+        return datagram;
+      }
+      if (header->caplen < header->len) cut_ = {cut_.packets + 1, header->caplen, header->len};
+    }
+    if (!is_any_whole_ && cut_.packets > 0) {
+      const Cut cut = std::exchange(cut_, Cut{});
+      throw FrameError(
+          say("the recording program cut packets: {} were kept to {} bytes of {} and less. Record them whole (a snap "
+              "length of 0, tcpdump -s 0)",
+              cut.packets, cut.kept_bytes, cut.sent_bytes));
     }
     return std::nullopt;
   }
 
  private:
+  struct Cut {
+    std::uint64_t packets = 0;
+    std::uint32_t kept_bytes = 0, sent_bytes = 0;  // of the last one
+  };
+
+  // libpcap hands out packets of one link layer only.
+  [[noreturn]] void refuse_rest(long offset) {
+    const std::string why = pcap_geterr(pcap_.get());
+    if (why.find("type of the first interface") != std::string::npos) {
+      throw FrameError(say(
+          "offset {}: the capture is of interfaces with different link layers, and only the first one's packets can "
+          "be read. Write each interface to a file of its own: tshark -r FILE -Y frame.interface_id==1 -w ONE.pcapng",
+          offset));
+    }
+    throw FrameError(say("offset {}: the capture is cut: {}", offset, why));
+  }
+
   using Pcap = std::unique_ptr<pcap_t, decltype(&pcap_close)>;
 
   static Pcap open(const std::string& path) {
@@ -81,6 +110,8 @@ class PcapFile : public DatagramSource {
 
   Pcap pcap_;
   IpPackets packets_;
+  Cut cut_;
+  bool is_any_whole_ = false;
   bool ended_ = false;
 };
 

@@ -21,7 +21,7 @@ double azimuth_of(ByteView payload, std::size_t block) {
 }  // namespace
 
 bool VelodyneAssembler::add(const Datagram& datagram) {
-  if (!is_velodyne_data(datagram.payload) || !is_first_heard(datagram)) return false;
+  if (!is_velodyne_data(datagram.payload)) return false;
   const ByteView payload = datagram.payload;
   if (traits_ == nullptr) {
     if (!held_.empty() && velodyne_product(payload) != product_) return false;
@@ -51,20 +51,24 @@ void VelodyneAssembler::add_blocks(ByteView payload, std::int64_t captured_ns) {
   // the last is the strongest: dust before a wall would be taken for the wall.
   const std::size_t step = is_velodyne_dual(payload) ? 2 : 1;
   const std::size_t firings = traits_->firings_per_block(), firing_bytes = 3 * traits_->lasers();
-  for (std::size_t block = 0; block < kVelodyneBlocks; block += step) {
-    const double azimuth_deg = azimuth_of(payload, block);
-    if (block + step < kVelodyneBlocks) last_turn_deg_ = turned_deg(azimuth_deg, azimuth_of(payload, block + step));
-    const std::byte* const lasers = payload.data + block * kVelodyneBlockBytes + 4;
-    const double block_ns = static_cast<double>(block / step * firings) * traits_->beams.cycle_ns;
+  const double block_ns = static_cast<double>(firings) * traits_->beams.cycle_ns;
+  std::vector<double> azimuths_deg;
+  for (std::size_t block = 0; block < kVelodyneBlocks; block += step)
+    azimuths_deg.push_back(azimuth_of(payload, block));
+  const PacketSteps steps(azimuths_deg, last_turn_deg_);
+  for (std::size_t k = 0; k < azimuths_deg.size(); ++k) {
+    const double turn_deg = steps.after_deg(k);
+    const std::byte* const lasers = payload.data + k * step * kVelodyneBlockBytes + 4;
+    const double began_ns = static_cast<double>(k) * block_ns - steps.earlier_ns(k, block_ns);
     for (std::size_t i = 0; i < firings; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(firings);
       const double firing_ns = static_cast<double>(i) * traits_->beams.cycle_ns;
-      const auto time_ns = captured_ns + std::llround(block_ns + firing_ns);
-      fill_firing({lasers + i * firing_bytes, firing_bytes}, azimuth_deg + part * last_turn_deg_, last_turn_deg_,
-                  time_ns);
-      add_firing(firing_, last_turn_deg_);
+      const auto time_ns = captured_ns + std::llround(began_ns + firing_ns);
+      fill_firing({lasers + i * firing_bytes, firing_bytes}, azimuths_deg[k] + part * turn_deg, turn_deg, time_ns);
+      add_firing(firing_, turn_deg);
     }
   }
+  last_turn_deg_ = steps.after_deg(azimuths_deg.size());
 }
 
 void VelodyneAssembler::fill_firing(ByteView lasers, double azimuth_deg, double turn_deg, std::int64_t time_ns) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -101,15 +102,51 @@ void read_stamps(Words* words, CarmenScan* scan) {
   words->end();
 }
 
-CarmenScan front_laser(Words words) {
+// What the log's parameters say of the front scanner, in degrees; 0: nothing.
+struct FrontView {
+  double field_deg = 0.0, step_deg = 0.0;
+};
+
+// The drivers' counts over half a turn: a beam for each degree or half a degree, with and without the last.
+bool is_half_turn_count(std::size_t beams) {
+  return beams == 180 || beams == 181 || beams == 360 || beams == 361;
+}
+
+// Throws LineFault where the log does not tell.
+double front_field_deg(std::size_t beams, double steps, const FrontView& view) {
+  constexpr double kSameShare = 0.02;  // parameters are written with few digits
+  const double told_deg = view.field_deg > 0.0 ? view.field_deg : view.step_deg * steps;
+  if (told_deg == 0.0) {
+    if (is_half_turn_count(beams)) return 180.0;
+    throw LineFault{CarmenSkip::kBadLine,
+                    say("{} beams: 180, 181, 360 and 361 are taken for 180°, of others the log must tell the field of "
+                        "view, in a line before: PARAM laser_front_laser_fov DEGREES",
+                        beams)};
+  }
+  const double step_deg = told_deg / steps;
+  // Logs of half a turn tell the scanner's own resolution, of which programs took every second beam.
+  const bool is_half_turn = told_deg == 180.0 && is_half_turn_count(beams);
+  const bool is_same =
+      view.step_deg == 0.0 || is_half_turn || std::abs(step_deg - view.step_deg) <= kSameShare * view.step_deg;
+  if (!is_same || told_deg > 360.0) {
+    throw LineFault{CarmenSkip::kBadLine,
+                    say("{} beams do not fit the log's parameters: a field of view of {:g}° and a resolution of {:g}°",
+                        beams, view.field_deg, view.step_deg)};
+  }
+  return told_deg;
+}
+
+CarmenScan front_laser(Words words, const FrontView& view) {
   CarmenScan scan;
   const std::size_t beams = words.count("num_readings", 2);
   scan.range_m = words.ranges(beams);
   scan.laser = words.pose("x y theta");
   scan.odometry = words.pose("odom_x odom_y odom_theta");
   read_stamps(&words, &scan);
-  scan.angle_min_rad = -0.5 * kHalfTurn_rad;
-  scan.angle_step_rad = kHalfTurn_rad / static_cast<double>(beams % 2 == 1 ? beams - 1 : beams);
+  const auto steps = static_cast<double>(beams % 2 == 1 ? beams - 1 : beams);
+  const double field_rad = front_field_deg(beams, steps, view) * kRadPerDeg;
+  scan.angle_min_rad = -0.5 * field_rad;
+  scan.angle_step_rad = field_rad / steps;
   return scan;
 }
 
@@ -212,11 +249,27 @@ class LogParser {
     const std::string_view kind = take_word(line);
     if (kind.empty()) return skip(CarmenSkip::kEmpty, number);
     if (kind.front() == '#') return skip(CarmenSkip::kComment, number);
-    if (kind == "FLASER") return keep(front_laser(Words(line)), number);
+    if (kind == "FLASER") return keep(front_laser(Words(line), front_view()), number);
     if (kind == "ROBOTLASER1") return keep(robot_laser(Words(line)), number);
     if (kind == "PARAM") return param(line, number);
     ++log_.other_messages[std::string(kind)];
     skip(CarmenSkip::kOtherMessage, number);
+  }
+
+  // CARMEN names the parameter of its module laser; a table of one module leaves that out.
+  FrontView front_view() const {
+    return {degrees_of({"laser_front_laser_fov", "front_laser_fov"}),
+            degrees_of({"laser_front_laser_resolution", "front_laser_resolution"})};
+  }
+
+  double degrees_of(std::initializer_list<const char*> names) const {
+    for (const char* name : names) {
+      const auto found = log_.params.find(name);
+      if (found == log_.params.end()) continue;
+      const std::optional<double> degrees = parse_number<double>(found->second.value);
+      if (degrees && std::isfinite(*degrees) && *degrees > 0.0) return *degrees;
+    }
+    return 0.0;
   }
 
   void param(std::string_view line, std::size_t number) {

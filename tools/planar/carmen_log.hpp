@@ -14,8 +14,10 @@
 // right (the Intel lab: 631 of 13631 scans; its odometry is 508 m long in the order of the log and 661 m in that of the
 // stamps).
 //
-// FLASER does not say its angles. Beams turn to the left over half a turn; the first one looks to the right, at -pi/2.
-// An odd number (181, 361) includes the last beam at +pi/2, an even number (180, 360) stops one step before.
+// FLASER does not say its angles. Beams turn to the left about straight ahead, over the field of view that a line
+// before tells (PARAM laser_front_laser_fov, laser_front_laser_resolution; degrees). Where none does, 180, 181, 360 and
+// 361 beams are half a turn, and other numbers are refused. The first beam looks to the right, at minus half the field.
+// An odd number includes the last beam at its other end, an even number stops one step before.
 //
 // FLASER does not say its range either. Scanners write a far number where nothing came back (50.00, 51.05
 // to 51.12, 81.83 to 81.91): where the ranges of the log pile up at their far end, the lower edge of the pile is the

@@ -51,6 +51,7 @@ struct ExplainOptions {
 // The command as it was given, but without a frame.
 std::string command_of(const FrameOptions& frames) {
   const std::pair<const char*, std::string> texts[] = {{"topic", frames.input.topic},
+                                                       {"source", frames.input.source},
                                                        {"sensor", frames.input.packets.sensor},
                                                        {"metadata", frames.input.packets.metadata}};
   std::string command = "pose_wall explain" + campaign::engine_words({frames.config_file, frames.settings});

@@ -76,6 +76,7 @@ std::string FrameOptions::shell_words() const {
   append(&words, "-c", config_file);
   for (const std::string& setting : settings) append(&words, "-s", setting);
   append(&words, "--topic", input.topic);
+  append(&words, "--source", input.source);
   append(&words, "--sensor", input.packets.sensor);
   append(&words, "--metadata", input.packets.metadata);
   append(&words, "--layout", input.layout);
@@ -88,6 +89,10 @@ std::string FrameOptions::shell_words() const {
 void add_input_options(CLI::App* verb, InputOptions* options) {
   verb->add_option("-t,--topic", options->topic, tr("Topic of a bag, where it has several with clouds"))
       ->type_name("TOPIC");
+  verb->add_option("--source", options->source,
+                   tr("The one sender that is read, where several sensors stand in a topic or a capture: its frame_id, "
+                      "lidar_id, address or serial number, as `info` names it. Default: the first"))
+      ->type_name("NAME");
   verb->add_option("--sensor", options->packets.sensor, tr("Sensor of packets, where they do not name it themselves"))
       ->check(one_of(sensor_names()))
       ->type_name("NAME");

@@ -41,14 +41,16 @@ struct Looked {
   std::string json;  // empty: nothing could be read
   bool complete = false;
   SensorFacts sensor;
-  std::string topic;  // of a bag, the one that was looked at
-  int restart_m = 0;  // of a log of CARMEN: worth trying; 0: it is none
+  std::string topic;   // of a bag with several, the one that was looked at
+  std::string source;  // of several that send on it, the one that was
+  int restart_m = 0;   // of a log of CARMEN: worth trying; 0: it is none
 };
 
-// Each input is looked at by itself; topic, sensor and metadata have to be of one of them, not of each.
+// Each input is looked at by itself; topic, source, sensor and metadata have to be of one of them, not of each.
 void expect_use(const InfoOptions& options) {
   const SensorOptions& packets = options.input.packets;
-  const bool has_words = !options.input.topic.empty() || !packets.sensor.empty() || !packets.metadata.empty();
+  const bool has_words = !options.input.topic.empty() || !options.input.source.empty() || !packets.sensor.empty() ||
+                         !packets.metadata.empty();
   if (has_words && options.inputs.size() > 1) FrameSequence(options.inputs, options.input);
 }
 
@@ -102,7 +104,15 @@ Looked look_at(const std::string& input, const InfoOptions& options) {
   const bool is_worth_a_table = !facts.points().empty() || !about.topics.empty() || facts.errors().empty();
   if (!options.json && is_worth_a_table) fmt::print("{}\n{}\n", input, facts_text(about, facts));
   const bool has_choice = about.topics.size() > 1;
-  return {facts_json(input, about, facts), facts.unreadable() == 0, facts.sensor(), has_choice ? about.topic : ""};
+  Looked looked;
+  looked.json = facts_json(input, about, facts);
+  looked.complete = facts.unreadable() == 0;
+  looked.sensor = facts.sensor();
+  if (has_choice) looked.topic = about.topic;
+  for (const SourceSender& sender : about.senders) {
+    if (sender.is_read && about.senders.size() > 1) looked.source = sender.name;
+  }
+  return looked;
 }
 
 std::string next_text_of_log(const std::string& log, int restart_m) {
@@ -120,11 +130,13 @@ std::string next_text(const InfoOptions& options, const std::vector<Looked>& loo
   }
   const auto is_like_first = [&looked](const Looked& other) {
     return other.complete && other.sensor.returns > 0.0 && other.sensor.config == looked.front().sensor.config &&
-           other.topic == looked.front().topic && !is_unit_doubtful(other.sensor.ranges);
+           other.topic == looked.front().topic && other.source == looked.front().source &&
+           !is_unit_doubtful(other.sensor.ranges);
   };
   if (looked.empty() || !std::all_of(looked.begin(), looked.end(), is_like_first)) return "";
   InputOptions input = options.input;
   if (input.topic.empty()) input.topic = looked.front().topic;
+  if (input.source.empty()) input.source = looked.front().source;
   const std::vector<std::string> words = input_words(options.inputs, input);
   const auto with_inputs = [&words](std::vector<std::string> verb) {
     verb.insert(verb.end(), words.begin(), words.end());

@@ -18,6 +18,7 @@
 #include "config_file/load_config.hpp"
 #include "config_file/resolved_frames.hpp"
 #include "csv/csv_table.hpp"
+#include "info/usable_times.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "motion/motion_rows.hpp"
 #include "motion/motion_runner.hpp"
@@ -77,13 +78,14 @@ void print_start(const MotionOptions& options, const LoadedConfig& loaded, const
 
 // What could not be written, or nothing. Ctrl-C ends it after the frame at work.
 std::string process_frames(const MotionOptions& options, FrameSequence& inputs, MotionRunner& runner,
-                           MotionOutputs& outputs, MotionSummary& summary) {
+                           MotionOutputs& outputs, MotionSummary& summary, UsableTimes& times) {
   // A bar between rows of the table on the same terminal would spoil both.
   const bool show_bar = !options.frames.quiet && is_terminal(2) && !(outputs.table.is_stdout() && is_terminal(1));
   ProgressBar bar(inputs.frames(), show_bar);
   while (!InterruptWatch::is_interrupted()) {
     std::optional<SourcedFrame> frame = inputs.next();
     if (!frame) break;
+    if (!options.frames.quiet && frame->frame) times.add(*frame->frame);
     const MotionOutcome outcome = runner.run(std::move(*frame));
     if (!outcome.result) bar.print_above(fmt::format("pose_wall motion: {}: {}", outcome.source, outcome.error));
     summary.add(outcome);
@@ -116,11 +118,13 @@ int motion(const MotionOptions& options) {
 
   const auto started = std::chrono::steady_clock::now();
   MotionSummary summary;
-  std::string fault = process_frames(options, inputs, runner, outputs, summary);
+  UsableTimes times;
+  std::string fault = process_frames(options, inputs, runner, outputs, summary, times);
   if (fault.empty()) fault = write_map(runner, outputs);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!fault.empty()) fmt::print(stderr, "pose_wall motion: {}\n", fault);
   if (!options.frames.quiet && summary.frames() > 0) fmt::print(stderr, "\n{}", summary.text(wall_s));
+  if (const std::string doubt = times.doubt(); !doubt.empty()) fmt::print(stderr, "{}\n", doubt);
   if (InterruptWatch::is_interrupted()) return tell_interrupted(summary.frames());
   return fault.empty() && inputs.errors().empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }

@@ -16,6 +16,7 @@
 
 #include "config_file/load_config.hpp"
 #include "config_file/resolved_frames.hpp"
+#include "info/usable_times.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "language/language.hpp"
 #include "results/frame_runner.hpp"
@@ -80,6 +81,7 @@ struct Outputs {
 struct Closing {
   RunSummary summary;
   NextSteps next;
+  UsableTimes times;
 
   void add(const FrameOutcome& outcome) {
     summary.add(outcome);
@@ -100,6 +102,7 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
   while (!InterruptWatch::is_interrupted()) {
     std::optional<SourcedFrame> frame = inputs.next();
     if (!frame) break;
+    if (!options.frames.quiet && frame->frame) closing.times.add(*frame->frame);
     const FrameOutcome outcome = runner.run(std::move(*frame), look);
     if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
     closing.add(outcome);
@@ -111,8 +114,9 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
 }
 
 void print_end(const Closing& closing, double wall_s) {
-  const std::string next = closing.next.text();
-  fmt::print(stderr, "\n{}{}{}", closing.summary.text(wall_s), next.empty() ? "" : "\n", next);
+  const std::string next = closing.next.text(), times = closing.times.doubt();
+  fmt::print(stderr, "\n{}{}{}{}{}", closing.summary.text(wall_s), times, times.empty() ? "" : "\n",
+             next.empty() ? "" : "\n", next);
 }
 
 int run(const RunOptions& options) {
@@ -129,7 +133,8 @@ int run(const RunOptions& options) {
 
   const auto started = std::chrono::steady_clock::now();
   Closing closing{RunSummary(alert_limits_of(loaded.config)),
-                  NextSteps(loaded.config, options.frames.config_file, options.frames.shell_words())};
+                  NextSteps(loaded.config, options.frames.config_file, options.frames.shell_words()),
+                  {}};
   const std::string fault = process_frames(options, inputs, runner, {output, annotated}, closing);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!fault.empty()) fmt::print(stderr, "pose_wall run: {}\n", fault);
@@ -157,19 +162,19 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::Option* annotate = verb->add_option(
       "--annotate", options->annotate,
       tr("Folder for the points of each frame: base frame, label (0 other, 1 floor, 2 left, 3 right wall), distance to "
-         "its plane, colour; for CloudCompare, pcl_viewer, Open3D"));
+         "its plane, colour; for pcl_viewer, and with --annotate-format ply for CloudCompare, Open3D, MeshLab"));
   verb->add_option("--annotate-format", options->annotate_format, tr("Format of these clouds, binary"))
       ->capture_default_str()
       ->check(one_of({"pcd", "ply"}))
       ->needs(annotate);
-  verb->footer(
-      tr("Examples:\n"
-         "  pose_wall run --config vlp16 --set forward_axis=+Y --output out.csv frames/\n"
-         "  pose_wall run -c vlp16 --format json -o out.jsonl --annotate labelled frames/\n"
-         "  pose_wall run --layout xyz --unit mm -o out.csv exported/\n"
-         "A file name of 16 to 19 digits is the frame's stamp in nanoseconds; other frames are 1/rate apart.\n"
-         "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config,\n130 "
-         "interrupted by Ctrl-C: whole rows and whole files are written."));
+  verb->footer(tr(
+      "Examples:\n"
+      "  pose_wall run --config vlp16 --set forward_axis=+Y --output out.csv frames/\n"
+      "  pose_wall run -c vlp16 --format json -o out.jsonl --annotate labelled frames/\n"
+      "  pose_wall run --layout xyz --unit mm -o out.csv exported/\n"
+      "A file name of digits is the frame's stamp: 13 in ms, 16 in us, 17 to 19 in ns; other frames are 1/rate apart.\n"
+      "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config,\n130 "
+      "interrupted by Ctrl-C: whole rows and whole files are written."));
   verb->callback([options, &exit_code] {
     if (options->output == "-") options->output.clear();
     exit_code = run(*options);

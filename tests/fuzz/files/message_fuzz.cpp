@@ -13,12 +13,19 @@
 namespace pose_wall::test {
 namespace {
 
-constexpr std::array<const char*, 5> kMessageTypes = {"sensor_msgs/PointCloud2", "livox_ros_driver2/CustomMsg",
-                                                      "velodyne_msgs/VelodyneScan", "nebula_msgs/NebulaPackets",
-                                                      "pandar_msgs/PandarScan"};
+constexpr std::array<const char*, 11> kMessageTypes = {
+    "sensor_msgs/PointCloud2",        "livox_ros_driver2/CustomMsg",
+    "velodyne_msgs/VelodyneScan",     "nebula_msgs/NebulaPackets",
+    "pandar_msgs/PandarScan",         "ouster_ros/PacketMsg",
+    "rslidar_msg/RslidarPacket",      "rslidar_msgs/rslidarScan",
+    "lslidar_msgs/LslidarPacket",     "lslidar_c16_msgs/LslidarC16ScanUnified",
+    "lslidar_ch_msgs/LslidarChPacket"};
 
 void decode(const char* type, tools::MessageEncoding encoding, const tools::ByteView& message) {
-  if (tools::is_cloud_type(type)) return take_frame(tools::decode_cloud(type, encoding, message).frame);
+  if (tools::is_cloud_type(type)) {
+    static_cast<void>(tools::source_of_cloud(type, encoding, message));
+    return take_frame(tools::decode_cloud(type, encoding, message).frame);
+  }
   std::size_t bytes = 0;
   for (const tools::MessagePacket& packet : tools::decode_packets(type, encoding, message).packets) {
     require(

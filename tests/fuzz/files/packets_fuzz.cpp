@@ -2,12 +2,14 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Fuzz target: bytes as datagrams of a sensor, as they come from the network. The first byte chooses the sensor, the
-// second how long frames without turns are; then come datagrams behind their length (two bytes) and the time since the
-// one before (one byte, signed, ms).
+// second how long frames without turns are, or what an Ouster's metadata tells. Then come datagrams behind their length
+// (two bytes) and the time since the one before (one byte, signed, ms).
 
 #include <algorithm>
+#include <string>
 
 #include "fuzz/files/reader_target.hpp"
+#include "packets/ouster_profiles.hpp"
 #include "packets/sensors.hpp"
 
 namespace pose_wall::test {
@@ -34,7 +36,7 @@ void feed(tools::ScanAssembler& assembler, const std::uint8_t* data, std::size_t
                                reinterpret_cast<const std::byte*>(data + 3 + length));
     tools::Datagram datagram;
     datagram.captured_ns = captured_ns;
-    datagram.source_address = 1;
+    datagram.from.address = 1;
     datagram.payload = {payload.data(), payload.size()};
     assembler.add(datagram);
     tools::recognise_sensor(datagram.payload);
@@ -48,6 +50,19 @@ void feed(tools::ScanAssembler& assembler, const std::uint8_t* data, std::size_t
   require(assembler.kind()[0] != '\0', "a name");
 }
 
+// Two rings, 64 columns a turn, four a packet. The byte chooses the profile, the head and a window.
+std::string ouster_metadata(std::uint8_t choice) {
+  const auto& profiles = tools::ouster_profiles();
+  std::string text =
+      R"({"prod_sn":"122201000111","beam_altitude_angles":[10,-10],"beam_azimuth_angles":[0,1],)"
+      R"("lidar_origin_to_beam_origin_mm":15.8,"lidar_to_sensor_transform":[1,0,0,0,0,1,0,0,0,0,1,36,0,0,0,1],)"
+      R"("data_format":{"pixels_per_column":2,"columns_per_frame":64,"columns_per_packet":4,"udp_profile_lidar":")";
+  text += profiles[choice % 16U % profiles.size()].name;
+  text += (choice & 16U) != 0 ? R"(","header_type":"FUSA)" : R"(","header_type":"STANDARD)";
+  text += (choice & 32U) != 0 ? R"(","column_window":[56,9]}})" : R"("}})";
+  return text;
+}
+
 }  // namespace
 }  // namespace pose_wall::test
 
@@ -56,6 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 2) return 0;
   tools::SensorChoice choice;
   choice.kind = tools::known_sensors()[data[0] % tools::known_sensors().size()].kind;
+  if (choice.kind == tools::SensorKind::kOuster) choice.metadata = test::ouster_metadata(data[1]);
   choice.frame_ns = (data[1] + 1) * std::int64_t{1'000'000};
   try {
     test::feed(*tools::make_assembler(choice), data + 2, size - 2);

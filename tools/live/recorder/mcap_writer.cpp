@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "bags/crc32.hpp"
 
@@ -25,6 +26,7 @@ enum Kind : std::uint8_t {
   kChannel = 0x04,
   kMessage = 0x05,
   kChunk = 0x06,
+  kMessageIndex = 0x07,
   kChunkIndex = 0x08,
   kStatistics = 0x0B,
   kDataEnd = 0x0F
@@ -47,6 +49,7 @@ class Record {
     bytes_.append(bytes);
     return *this;
   }
+  const std::string& bytes() const { return bytes_; }
   std::string as(Kind kind) const {
     return Record().number(static_cast<std::uint8_t>(kind)).number(std::uint64_t{bytes_.size()}).raw(bytes_).bytes_;
   }
@@ -58,6 +61,7 @@ class Record {
 constexpr std::uint64_t kRecordHead = 9, kMagicBytes = 8;
 // Kind and length, then what each holds.
 constexpr std::uint64_t kChunkHead = kRecordHead + 40, kChunkIndexBytes = kRecordHead + 64;
+constexpr std::uint64_t kIndexHead = kRecordHead + 6, kEntryBytes = 16, kIndexOffsetBytes = 10;
 constexpr std::uint64_t kDataEndBytes = kRecordHead + 4, kFooterBytes = kRecordHead + 20;
 
 [[noreturn]] void refuse(int why, const std::string& path) {
@@ -69,6 +73,7 @@ constexpr std::uint64_t kDataEndBytes = kRecordHead + 4, kFooterBytes = kRecordH
 McapWriter::McapWriter(const std::string& path, const std::vector<McapChannel>& channels)
     : path_(path),
       file_(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR | S_IRGRP)),
+      index_(channels.size()),
       messages_of_(channels.size(), 0) {
   if (file_ < 0) refuse(errno, path);
   for (std::uint16_t i = 0; i < channels.size(); ++i) {
@@ -130,9 +135,21 @@ void McapWriter::add(std::uint16_t channel, std::uint64_t time_ns, std::string_v
   if (chunk_.empty()) chunk_first_ns_ = chunk_last_ns_ = time_ns;
   chunk_first_ns_ = std::min(chunk_first_ns_, time_ns);
   chunk_last_ns_ = std::max(chunk_last_ns_, time_ns);
+  index_[channel].push_back({time_ns, chunk_.size()});
   const auto sequence = static_cast<std::uint32_t>(messages_of_[channel]++);
   chunk_ += Record().number(channel).number(sequence).number(time_ns).number(time_ns).raw(message).as(kMessage);
   ++messages_;
+}
+
+// Readers that do not go through the whole file (those of JavaScript, which Foxglove has) find messages by these alone.
+// Empty where the chunk holds no message of the channel.
+std::string McapWriter::index_of(std::size_t channel) const {
+  if (index_[channel].empty()) return "";
+  Record record;
+  record.number(static_cast<std::uint16_t>(channel));
+  record.number(static_cast<std::uint32_t>(kEntryBytes * index_[channel].size()));
+  for (const Entry& entry : index_[channel]) record.number(entry.time_ns).number(entry.offset);
+  return record.as(kMessageIndex);
 }
 
 void McapWriter::flush() {
@@ -148,15 +165,26 @@ void McapWriter::flush() {
                                  .raw(chunk_)
                                  .as(kChunk);
   require_in_place();
-  const Chunk chunk{chunk_first_ns_, chunk_last_ns_, bytes_, record.size(), chunk_.size()};
+  Chunk chunk{chunk_first_ns_, chunk_last_ns_, bytes_, record.size(), chunk_.size(), {}, 0};
+  std::string indexes;
+  for (std::size_t channel = 0; channel < index_.size(); ++channel) {
+    const bool is_there = !index_[channel].empty();
+    chunk.index_at.push_back(is_there ? bytes_ + record.size() + indexes.size() : 0);
+    indexes += index_of(channel);
+    index_[channel].clear();
+  }
+  chunk.index_bytes = indexes.size();
   chunk_.clear();
-  write(record);
-  chunks_.push_back(chunk);
+  write(record + indexes);
+  chunks_.push_back(std::move(chunk));
   if (fdatasync(file_) != 0) refuse(errno, path_);
 }
 
 std::uint64_t McapWriter::finished_bytes() const {
-  const std::uint64_t chunk = chunk_.empty() ? 0 : kChunkHead + chunk_.size() + kChunkIndexBytes;
+  std::uint64_t chunk = chunk_.empty() ? 0 : kChunkHead + chunk_.size() + kChunkIndexBytes;
+  for (const std::vector<Entry>& entries : index_) {
+    if (!entries.empty()) chunk += kIndexHead + kEntryBytes * entries.size() + kIndexOffsetBytes;
+  }
   return bytes_ + chunk + kDataEndBytes + summary().size() + kFooterBytes + kMagicBytes;
 }
 
@@ -166,13 +194,17 @@ std::string McapWriter::summary() const {
   for (const Chunk& c : chunks_) {
     first_ns = std::min(first_ns, c.first_ns);
     last_ns = std::max(last_ns, c.last_ns);
+    Record offsets;
+    for (std::uint16_t channel = 0; channel < c.index_at.size(); ++channel) {
+      if (c.index_at[channel] != 0) offsets.number(channel).number(c.index_at[channel]);
+    }
     records += Record()
                    .number(c.first_ns)
                    .number(c.last_ns)
                    .number(c.offset)
                    .number(c.bytes)
-                   .number(std::uint32_t{0})  // no message indexes
-                   .number(std::uint64_t{0})
+                   .text(offsets.bytes())
+                   .number(c.index_bytes)
                    .text("")
                    .number(c.content_bytes)
                    .number(c.content_bytes)

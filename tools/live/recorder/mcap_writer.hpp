@@ -46,12 +46,18 @@ class McapWriter {
  private:
   struct Chunk {
     std::uint64_t first_ns, last_ns, offset, bytes, content_bytes;
+    std::vector<std::uint64_t> index_at;  // by channel; 0: none of its messages is in the chunk
+    std::uint64_t index_bytes;
+  };
+  struct Entry {
+    std::uint64_t time_ns, offset;  // of a message, in the content of its chunk
   };
 
   void write(std::string_view bytes);
   void require_in_place() const;
   bool is_in_place() const;
   void close_file();
+  std::string index_of(std::size_t channel) const;
   std::string summary() const;
 
   std::string path_;
@@ -59,6 +65,7 @@ class McapWriter {
   std::string descriptions_;  // schemas and channels, which the summary repeats
   std::string chunk_;
   std::uint64_t chunk_first_ns_ = 0, chunk_last_ns_ = 0;
+  std::vector<std::vector<Entry>> index_;  // of the chunk that is gathered, by channel
   std::vector<Chunk> chunks_;
   std::vector<std::uint64_t> messages_of_;  // by channel
   std::uint64_t bytes_ = 0, messages_ = 0;

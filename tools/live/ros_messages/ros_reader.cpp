@@ -6,10 +6,12 @@
 #include "live/clocks.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "bags/cloud_message.hpp"
 #include "live/log.hpp"
@@ -37,7 +39,8 @@ RosReader::RosReader(const LoadedConfig& loaded, MessageEncoding encoding)
       topic_(config_text(*loaded.config.get(), "pointcloud_topic")),
       base_frame_(config_text(*loaded.config.get(), "base_frame")),
       lidar_frame_(config_text(*loaded.config.get(), "lidar_frame")),
-      wants_transforms_(loaded.live.extrinsic_from == "tf") {}
+      wants_transforms_(loaded.live.extrinsic_from == "tf"),
+      sources_(loaded.live.ros_source) {}
 
 void RosReader::deliver_to(FrameTaker* taker) {
   const std::lock_guard<std::mutex> locked(lock_);
@@ -63,34 +66,40 @@ void RosReader::take_cloud(const std::string& type, ByteView message) {
     return refuse(fmt::format("is of type {}; sensor_msgs/PointCloud2 and Livox's CustomMsg are read", type));
   }
   LiveFrame frame;
+  SourceIdentity source;
   try {
     DecodedCloud cloud = decode_cloud(known, encoding_, message);
     frame.frame = std::move(cloud.frame);
     frame.stamp_ns = cloud.stamp_ns;
-    // Frames of ROS 1 before 2012 began with a slash; tf2 knows none that do.
-    frame.frame_id = cloud.frame_id.substr(cloud.frame_id.rfind('/', 0) == 0 ? 1 : 0);
+    source = std::move(cloud.source);
+    frame.frame_id = source.frame_id.value_or("");
   } catch (const FrameError& fault) {
     return refuse(fault.what());
   }
   // Who stamps nothing gets the time of arrival, or the engine would take every cloud for the one before.
   if (frame.stamp_ns == 0) ++without_stamp_;
   frame.frame.cloud.stamp_ns = frame.stamp_ns != 0 ? frame.stamp_ns : last_cloud_ns_;
-  if (!is_of_this_sensor(frame.frame_id)) {
-    ++of_others_;
-    return;
-  }
+  if (!is_of_this_sensor(source)) return;
   if (wants_transforms_) tell_extrinsic();
   ++frames_;
   last_taken_ns_ = last_cloud_ns_;
   if (taker_ != nullptr) taker_->take(std::move(frame));
 }
 
-bool RosReader::is_of_this_sensor(const std::string& frame_id) {
-  const bool is_known = cloud_frame_seen_ns_ != 0 && frame_id == cloud_frame_;
-  if (!is_known && cloud_frame_seen_ns_ != 0 && last_cloud_ns_ - cloud_frame_seen_ns_ < kSilent_ns) return false;
-  cloud_frame_seen_ns_ = last_cloud_ns_;
-  if (is_known) return true;
-  cloud_frame_ = frame_id;
+// Of two that send at once the first is read for good: the other one is mounted elsewhere, and its walls would be
+// measured from where the first one stands. Who comes after a silence, and never beside the first, is its successor.
+bool RosReader::is_of_this_sensor(const SourceIdentity& source) {
+  const bool is_silent = last_taken_ns_ != 0 && last_cloud_ns_ - last_taken_ns_ > kSilent_ns;
+  if (is_silent && !are_two_ && sources_.chosen() && source != *sources_.chosen()) {
+    sources_ = SourceGate(sources_.wanted());
+  }
+  const bool is_first = !sources_.chosen();
+  const std::size_t known = sources_.heard().size();
+  const bool is_admitted = sources_.admits(source);
+  if (!is_admitted && sources_.heard().size() > known) log_line(Grade::kWarning, topic_, of_others_text());
+  if (is_admitted && sources_.refused() > 0) are_two_ = true;
+  if (!is_admitted || !is_first) return is_admitted;
+  cloud_frame_ = source.frame_id.value_or("");
   if (!cloud_frame_.empty() && cloud_frame_ != lidar_frame_) {
     log_line(Grade::kWarning, topic_,
              fmt::format("frame_id is '{}', lidar_frame is '{}': {}", cloud_frame_, lidar_frame_,
@@ -98,6 +107,13 @@ bool RosReader::is_of_this_sensor(const std::string& frame_id) {
                                            : "the extrinsic of the config is taken for it"));
   }
   return true;
+}
+
+std::string RosReader::of_others_text() const {
+  if (sources_.chosen()) return sources_.note(fmt::format("on {}", topic_), "cloud", "ros_source");
+  std::vector<std::string> names;
+  for (const HeardSource& heard : sources_.heard()) names.push_back(sources_.name_of(heard.who));
+  return fmt::format("ros_source is '{}'; clouds come from {}", sources_.wanted(), fmt::join(names, ", "));
 }
 
 void RosReader::take_transforms(ByteView message, bool is_static) {
@@ -135,7 +151,7 @@ PartHealth RosReader::health(const std::string& part) const {
   } else if (last_taken_ns_ == 0 || now_ns - last_taken_ns_ > kSilent_ns) {
     health.grade = Grade::kBad;
     health.summary = "messages come, and none is a cloud of this sensor: " +
-                     (last_refusal_.empty() ? "their frame_id is another one" : last_refusal_);
+                     (last_refusal_.empty() ? of_others_text() : last_refusal_);
   } else if (wants_transforms_ && !extrinsic_known_) {
     health.grade = Grade::kBad;
     health.summary = fmt::format("no transform from '{}' to '{}': nothing is measured",
@@ -146,7 +162,10 @@ PartHealth RosReader::health(const std::string& part) const {
   health.add("clouds", frames_.load());
   health.add("messages refused", refused_.load());
   health.add("clouds without stamp", without_stamp_.load());
-  if (of_others_ > 0) health.add("clouds of another frame_id, dropped", of_others_.load());
+  if (sources_.refused() > 0) {
+    health.add("clouds of another frame_id, dropped", sources_.refused());
+    health.add("sources", of_others_text());
+  }
   if (wants_transforms_) health.add("transform messages", transforms_taken_.load());
   if (!last_refusal_.empty()) health.add("last refusal", last_refusal_);
   return health;

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "config_file/load_config.hpp"
+#include "frames/source_identity.hpp"
 #include "live/ros_messages/transform_tree.hpp"
 #include "live/source.hpp"
 
@@ -37,8 +38,9 @@ class RosReader {
 
  private:
   void tell_extrinsic();
-  // False for a cloud of another frame than those that come all the time: two sensors on one topic.
-  bool is_of_this_sensor(const std::string& frame_id);
+  // False for a cloud of another sensor than the first: two of them on one topic.
+  bool is_of_this_sensor(const SourceIdentity& source);
+  std::string of_others_text() const;
   void refuse(const std::string& why);
 
   MessageEncoding encoding_;
@@ -48,13 +50,14 @@ class RosReader {
   FrameTaker* taker_ = nullptr;
   TransformTree transforms_;
   bool extrinsic_known_ = false;
-  std::string cloud_frame_;  // of the newest cloud's header
-  std::int64_t cloud_frame_seen_ns_ = 0;
+  SourceGate sources_;
+  bool are_two_ = false;     // another sensor was heard between two clouds of the one that is read
+  std::string cloud_frame_;  // of the header of the clouds that are taken
   std::string last_refusal_;
   std::optional<std::int64_t> refusal_logged_ns_;
   std::int64_t last_taken_ns_ = 0;  // of the newest that was handed on
   std::int64_t last_cloud_ns_ = 0;
-  std::atomic<std::uint64_t> frames_{0}, refused_{0}, without_stamp_{0}, transforms_taken_{0}, of_others_{0};
+  std::atomic<std::uint64_t> frames_{0}, refused_{0}, without_stamp_{0}, transforms_taken_{0};
 };
 
 }  // namespace pose_wall::tools::live

@@ -37,7 +37,7 @@ std::atomic<bool> stop_asked{false};
 
 struct Words {
   DemoOptions scene;
-  std::string to = "127.0.0.1:2368", http, config_to;
+  std::string to = "127.0.0.1:2368", device_to = "127.0.0.1:7788", http, config_to;
   std::uint32_t frames = 70;  // they go round, and the guard of freshness knows rings of 64
   double rate_hz = 10.0, seconds = 0.0;
   double present_s = 0.0, absent_s = 2.0;
@@ -97,7 +97,7 @@ bool is_absent(const Words& words, double time_s) {
 }
 
 std::uint64_t send_turns(const std::vector<RangeImage>& images, PacketEncoder* encoder, const Words& words) {
-  const UdpSender sender(words.to);
+  const UdpSender sender(words.to), device_sender(words.device_to);
   const auto turn = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / words.rate_hz));
   const Clock::time_point begin = Clock::now();
   std::uint64_t sent = 0;
@@ -107,6 +107,8 @@ std::uint64_t send_turns(const std::vector<RangeImage>& images, PacketEncoder* e
     const Clock::time_point turn_begin = begin + static_cast<std::int64_t>(i) * turn;
     std::this_thread::sleep_until(turn_begin);
     if (is_absent(words, time_s)) continue;
+    const std::string device = encoder->device_packet(std::chrono::nanoseconds(turn).count());
+    if (!device.empty()) device_sender.send(device);
     const std::vector<std::string> packets =
         encoder->packets(image_of(images, i), monotonic_ns(), std::chrono::nanoseconds(turn).count());
     for (std::size_t k = 0; k < packets.size(); ++k) {
@@ -154,6 +156,8 @@ int main_of(int argc, char** argv) {
                  "Turns of the road, rendered before the first is sent. They go round: up to 64 count as frozen")
       ->check(CLI::Range(1, 10000));
   app.add_option("--to", words.to, "ADDRESS:PORT that listens; default 127.0.0.1:2368");
+  app.add_option("--device-to", words.device_to,
+                 "ADDRESS:PORT for what a RoboSense says of itself; default 127.0.0.1:7788");
   app.add_option("--http", words.http, "HOST:PORT at which an Ouster tells its metadata");
   app.add_option("--rate", words.rate_hz, "Turns a second")->check(CLI::Range(0.1, 100.0));
   app.add_option("--seconds", words.seconds, "Ends then; default: when it is stopped")->check(CLI::NonNegativeNumber);

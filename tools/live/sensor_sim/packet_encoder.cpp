@@ -9,6 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "live/sensor_sim/lslidar_encoder.hpp"
+#include "live/sensor_sim/robosense_encoder.hpp"
+
 namespace pose_wall::tools::live {
 namespace {
 
@@ -43,7 +46,6 @@ void demand_rings(const RangeImage& image, const BeamTable& beams) {
 
 constexpr std::array<VelodyneModel, 4> kVelodynes = {VelodyneModel::kVlp16, VelodyneModel::kVlp16HiRes,
                                                      VelodyneModel::kHdl32e, VelodyneModel::kVlp32c};
-constexpr std::array<HesaiModel, 3> kHesais = {HesaiModel::kXt32, HesaiModel::kPandar40p, HesaiModel::kQt64};
 
 }  // namespace
 
@@ -182,7 +184,7 @@ std::string OusterEncoder::metadata() const {
 std::vector<std::string> sensors_with_packets() {
   std::vector<std::string> names = {"vlp16", "os1-64", "os0-128"};
   for (const BeamTable* const table : beam_tables()) {
-    if (table->maker != SensorMaker::kRoboSense && table->maker != SensorMaker::kLslidar) names.push_back(table->word);
+    names.push_back(table->word);
   }
   return names;
 }
@@ -195,8 +197,14 @@ std::unique_ptr<PacketEncoder> make_encoder(const sim::Sensor& sensor) {
   for (const VelodyneModel model : kVelodynes) {
     if (&velodyne_traits(model).beams == sensor.beams) return std::make_unique<VelodyneEncoder>(model);
   }
-  for (const HesaiModel model : kHesais) {
+  for (const HesaiModel model : kHesaiModels) {
     if (&hesai_traits(model).beams == sensor.beams) return std::make_unique<HesaiEncoder>(model);
+  }
+  if (sensor.beams != nullptr && sensor.beams->maker == SensorMaker::kRoboSense) {
+    return std::make_unique<RoboSenseEncoder>(*sensor.beams);
+  }
+  if (sensor.beams != nullptr && sensor.beams->maker == SensorMaker::kLslidar) {
+    return std::make_unique<LslidarEncoder>(*sensor.beams);
   }
   throw std::invalid_argument(sensor.name + ": no packets of such a sensor are known");
 }

@@ -39,6 +39,8 @@ class PacketEncoder {
 
   // began_ns: of the sensor's clock; turn_ns: what the turn takes.
   virtual std::vector<std::string> packets(const RangeImage& image, std::int64_t began_ns, std::int64_t turn_ns) = 0;
+  // What the sensor sends about once a second to another port (KnownSensor::device_port); "": nothing.
+  virtual std::string device_packet(std::int64_t /*turn_ns*/) const { return ""; }
 };
 
 // In single return mode: 1206 bytes, 24 firings of 16 lasers a packet, or 12 of 32.

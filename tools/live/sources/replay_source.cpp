@@ -38,12 +38,14 @@ class ReplaySource final : public Source {
  public:
   explicit ReplaySource(const ReplayPlan& plan) : plan_(plan) {
     options_.topic = plan.topic;
+    options_.source = plan.source;
     options_.packets.metadata = plan.metadata;
     for (const std::string& input : plan.inputs) {
       if (!std::filesystem::exists(input)) throw std::runtime_error(input + ": is not there");
     }
     open();
     if (!sequence_->errors().empty()) throw std::runtime_error(sequence_->errors().front());
+    for (const std::string& note : sequence_->notes()) log_line(Grade::kWarning, "source replay", note);
   }
   ~ReplaySource() override { end(); }
 

@@ -180,6 +180,11 @@ std::uint16_t SensorMetadata::usual_port() const {
   return port != 0 ? port : known_sensor(SensorKind::kVlp16).port;
 }
 
+std::uint16_t SensorMetadata::usual_device_port() const {
+  const std::lock_guard<std::mutex> locked(lock_);
+  return known_sensor(choice_.kind).device_port;
+}
+
 std::string SensorMetadata::trouble() const {
   const std::lock_guard<std::mutex> locked(lock_);
   return trouble_;

@@ -35,6 +35,8 @@ class SensorMetadata {
   void stop();
 
   std::uint16_t usual_port() const;
+  // Of packets in which the sensor describes itself; 0: none, or not known.
+  std::uint16_t usual_device_port() const;
   // Why it is not known, in words; empty when all is well. From any thread.
   std::string trouble() const;
 

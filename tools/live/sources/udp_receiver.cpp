@@ -113,7 +113,9 @@ std::optional<Datagram> UdpReceiver::next(int timeout_ms) {
   // The kernel stamps by the clock that people set. How long ago that was, no setting meanwhile changes by much.
   const std::int64_t waited_ns = wall_ns() - (std::int64_t{arrived.tv_sec} * 1'000'000'000 + arrived.tv_nsec);
   datagram.captured_ns = monotonic_ns() - std::clamp<std::int64_t>(waited_ns, 0, kWaitedMost_ns);
-  datagram.source_address = ntohl(sender.sin_addr.s_addr);
+  datagram.from.address = ntohl(sender.sin_addr.s_addr);
+  datagram.from.port = ntohs(sender.sin_port);
+  datagram.from.to_port = port_;
   datagram.payload = {payload_.data(), static_cast<std::size_t>(bytes)};
   return datagram;
 }

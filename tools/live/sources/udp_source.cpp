@@ -15,6 +15,7 @@
 #include "live/log.hpp"
 #include "live/sources/sensor_metadata.hpp"
 #include "live/sources/udp_receiver.hpp"
+#include "packets/one_sender.hpp"
 #include "packets/sensors.hpp"
 
 namespace pose_wall::tools::live {
@@ -28,6 +29,8 @@ constexpr int kLook_ms = 100;
 constexpr std::int64_t kAddressEvery_ns = 1'000'000'000;
 // So many packets without one of use are no accident.
 constexpr std::uint64_t kEnoughPackets = 50;
+// A sensor describes itself once to ten times a second; a flood there must not keep its data waiting.
+constexpr int kDeviceAtOnce = 16;
 
 class UdpSource final : public Source {
  public:
@@ -39,6 +42,11 @@ class UdpSource final : public Source {
     const auto port = static_cast<std::uint16_t>(live_.udp_port);
     receiver_ =
         std::make_unique<UdpReceiver>(parse_ipv4(live_.udp_address).value(), port != 0 ? port : metadata_.usual_port());
+    const auto device_port =
+        live_.udp_device_port != 0 ? static_cast<std::uint16_t>(live_.udp_device_port) : metadata_.usual_device_port();
+    if (device_port != 0 && device_port != receiver_->port()) {
+      device_ = std::make_unique<UdpReceiver>(parse_ipv4(live_.udp_address).value(), device_port);
+    }
     set_part(fmt::format("source udp {}:{}", live_.udp_address, receiver_->port()));
     log_line(Grade::kGood, part(), "listens; whoever reaches this address can send packets, others are dropped");
     if (receiver_->buffer_bytes() < UdpReceiver::kBufferWished) {
@@ -82,13 +90,20 @@ class UdpSource final : public Source {
                                        ? "; an Ouster tells nothing of itself: it needs sensor_metadata"
                                        : ": is another one there?");
     } else {
-      health.summary = silent ? "the sensor is silent" : frames_ == 0 ? "packets come, no turn yet" : "receives";
+      const std::string others = others_note();
+      health.summary = silent           ? "the sensor is silent"
+                       : frames_ == 0   ? "packets come, no turn yet"
+                       : others.empty() ? "receives"
+                                        : "receives; " + others;
+      // Nobody said which of them stands on the machine.
+      if (!others.empty() && !sender_ && health.grade == Grade::kGood) health.grade = Grade::kWarning;
     }
     health.add("frames", frames_.load());
     health.add("packets", packets_.load());
     health.add("packets of no use", useless_.load());
     health.add("packets of others", of_others_.load());
     health.add("packets lost by the kernel", lost_.load());
+    if (device_) health.add("packets of the device port", device_packets_.load());
     health.add("silences", silences_.load());
     return health;
   }
@@ -114,24 +129,50 @@ class UdpSource final : public Source {
     contradicted_ns_ = monotonic_ns();
   }
 
+  std::string others_note() const {
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    return others_note_;
+  }
+
   void run(FrameTaker& taker) {
     while (!ending_) {
       const std::optional<Datagram> datagram = receiver_->next(kLook_ms);
       lost_ = receiver_->lost();
+      hear_device();
       if (is_silent() && monotonic_ns() - looked_ns_ > kAddressEvery_ns) look_for_address();
       if (!datagram) continue;
       if (is_silent() && monotonic_ns() - began_ns_ > kSilent_ns) begin_anew();
       if (is_of_other(*datagram)) continue;
-      ++packets_;
       // Only what is of use counts as the sensor: anybody may send anything.
-      if (!add(*datagram)) {
+      const std::uint64_t refused = assembler_ ? assembler_->senders().refused() : 0;
+      const bool is_data = add(*datagram);
+      if (assembler_ && assembler_->senders().refused() > refused) {
+        name_others();
+        if (!is_data) {
+          ++of_others_;
+          continue;
+        }
+      }
+      ++packets_;
+      if (!is_data) {
         ++useless_;
         continue;
       }
-      if (!sender_) sender_ = datagram->source_address;
       last_packet_ns_ = monotonic_ns();
       ++packets_of_use_;
+      if (assembler_->senders().chosen() && assembler_->senders().refused() > 0) are_two_ = true;
       while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
+    }
+  }
+
+  // What the sensor says of itself by its other port.
+  void hear_device() {
+    for (int i = 0; device_ && i < kDeviceAtOnce; ++i) {
+      const std::optional<Datagram> datagram = device_->next(0);
+      if (!datagram) return;
+      if (is_of_other(*datagram)) continue;
+      ++device_packets_;
+      add(*datagram);
     }
   }
 
@@ -143,8 +184,7 @@ class UdpSource final : public Source {
   // Packets that contradict the sensor that was chosen say so in the health, and are of no use.
   bool add(const Datagram& datagram) {
     try {
-      if (!assembler_) assembler_ = metadata_.assembler();
-      if (!assembler_) return false;
+      if (!assembler_) assembler_ = std::make_unique<OneSender>([this] { return metadata_.assembler(); }, wanted_);
       if (assembler_->add(datagram)) return true;
       say(assembler_->hint());
       return false;
@@ -155,9 +195,16 @@ class UdpSource final : public Source {
   }
 
   bool is_of_other(const Datagram& datagram) {
-    const bool is_other = sender_ && *sender_ != datagram.source_address;
+    const bool is_other = sender_ && *sender_ != datagram.from.address;
     if (is_other) ++of_others_;
     return is_other;
+  }
+
+  // Another sensor sends to this port, too.
+  void name_others() {
+    const std::string note = assembler_->senders().note("", "packet", "udp_sender");
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    others_note_ = note;
   }
 
   bool is_silent() const { return monotonic_ns() - last_packet_ns_ > kSilent_ns; }
@@ -168,10 +215,14 @@ class UdpSource final : public Source {
     began_ns_ = monotonic_ns();
     if (packets_of_use_ > 0) ++silences_;
     packets_of_use_ = 0;
+    // Where two sensors sent at once, the other one must not take the place of the one that was read.
+    if (are_two_ && assembler_ && assembler_->senders().chosen()) wanted_ = assembler_->senders().chosen()->address;
+    are_two_ = false;
     assembler_.reset();
     metadata_.ask_again();
     is_first_turn_ = true;
-    if (live_.udp_sender.empty()) sender_.reset();
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    others_note_.clear();
   }
 
   // The first turn began before it was listened to.
@@ -190,16 +241,19 @@ class UdpSource final : public Source {
   LiveSettings live_;
   SensorMetadata metadata_;
   std::unique_ptr<UdpReceiver> receiver_;
-  std::unique_ptr<ScanAssembler> assembler_;
-  std::optional<std::uint32_t> sender_;
+  std::unique_ptr<UdpReceiver> device_;  // of sensors that describe themselves by a port of its own
+  std::unique_ptr<OneSender> assembler_;
+  bool are_two_ = false;                 // another one was heard between packets of the one that is read
+  std::string wanted_;                   // of two that were heard the one that was read; "": any
+  std::optional<std::uint32_t> sender_;  // as the settings name it
   bool is_first_turn_ = true;
   std::uint64_t packets_of_use_ = 0;  // since it began anew
   std::thread thread_;
   mutable std::mutex words_lock_;
-  std::string part_ = "source udp", contradiction_;
+  std::string part_ = "source udp", contradiction_, others_note_;
   std::int64_t contradicted_ns_ = -kSilent_ns, looked_ns_ = 0, began_ns_ = 0;
   std::atomic<bool> ending_{false}, has_address_{true};
-  std::atomic<std::uint64_t> frames_{0}, packets_{0}, useless_{0}, of_others_{0}, silences_{0};
+  std::atomic<std::uint64_t> frames_{0}, packets_{0}, useless_{0}, of_others_{0}, silences_{0}, device_packets_{0};
   std::atomic<std::uint32_t> lost_{0};
   std::atomic<std::int64_t> last_packet_ns_{0};
 };

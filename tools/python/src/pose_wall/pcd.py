@@ -101,8 +101,13 @@ _READERS = {"ascii": _ascii, "binary": _binary, "binary_compressed": _compressed
 
 
 def _stamp_of_name(path: pathlib.Path) -> Optional[int]:
-    """A name of 16 to 19 digits and nothing else is a stamp."""
-    stamp = int(path.stem) if re.fullmatch("[0-9]{16,19}", path.stem) else None
+    """A name of digits and nothing else is a stamp: 13 are ms since 1970, 16 us, 17 to 19 ns; a date is none."""
+    name = path.stem
+    if re.fullmatch("(19|20)[0-9]{2}(0[1-9]|1[0-2])(0[1-9]|[12][0-9]|3[01])([01][0-9]|2[0-3])[0-5][0-9][0-9]{5}", name):
+        return None
+    if re.fullmatch("[1-9][0-9]{12}|[1-9][0-9]{15}", name):
+        return int(name) * (1_000_000 if len(name) == 13 else 1_000)
+    stamp = int(name) if re.fullmatch("[0-9]{17,19}", name) else None
     return stamp if stamp is None or stamp < 2**63 else None
 
 
