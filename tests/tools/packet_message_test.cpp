@@ -79,10 +79,13 @@ TEST(PacketMessage, EveryTypeInEverySerialisation) {
   const std::vector<std::string> payloads = {std::string(1206, 'a'), std::string(1206, 'b')};
   for (const std::string& type : kTypes) {
     EXPECT_TRUE(is_packet_type(type) && is_packet_type(ros2_name(type)));
+    // Packets are views of their messages.
+    const std::string ros1 = message(type, MessageEncoding::kRos1, payloads),
+                      cdr = message(type, MessageEncoding::kCdr, payloads),
+                      big_endian = message(type, MessageEncoding::kCdr, payloads, true);
     for (const DecodedPackets& decoded :
-         {decode(type, MessageEncoding::kRos1, message(type, MessageEncoding::kRos1, payloads)),
-          decode(ros2_name(type), MessageEncoding::kCdr, message(type, MessageEncoding::kCdr, payloads)),
-          decode(ros2_name(type), MessageEncoding::kCdr, message(type, MessageEncoding::kCdr, payloads, true))}) {
+         {decode(type, MessageEncoding::kRos1, ros1), decode(ros2_name(type), MessageEncoding::kCdr, cdr),
+          decode(ros2_name(type), MessageEncoding::kCdr, big_endian)}) {
       EXPECT_EQ(decoded.stamp_ns, 1'700'000'000'000'000'005);
       EXPECT_EQ(decoded.frame_id, "lidar");
       ASSERT_EQ(decoded.packets.size(), 2U);
