@@ -180,21 +180,26 @@ bool OneSender::add_to(Candidate* candidate, const Datagram& datagram) {
     return add_to(candidate, datagram);
   }
   if (is_data) gate_.hear(identity_of(candidate->from));
-  while (std::optional<Scan> scan = candidate->inner->take()) {
-    if (candidate == chosen_) {
-      push(std::move(*scan));
-      continue;
-    }
-    candidate->is_whole = candidate->is_whole || scan->is_complete;
-    candidate->scans.push_back(std::move(*scan));
-  }
+  gather(candidate);
+  if (candidate == chosen_) push_scans(candidate);
   if (chosen_ == nullptr && (candidate->is_whole || candidate->scans.size() >= kScansMax)) decide_for(candidate);
   return is_data;
 }
 
-void OneSender::decide_for(Candidate* candidate) {
+void OneSender::push_scans(Candidate* candidate) {
   for (Scan& scan : candidate->scans) push(std::move(scan));
   candidate->scans.clear();
+}
+
+void OneSender::gather(Candidate* candidate) {
+  while (std::optional<Scan> scan = candidate->inner->take()) {
+    candidate->is_whole = candidate->is_whole || scan->is_complete;
+    candidate->scans.push_back(std::move(*scan));
+  }
+}
+
+void OneSender::decide_for(Candidate* candidate) {
+  push_scans(candidate);
   candidates_.erase(std::remove_if(candidates_.begin(), candidates_.end(),
                                    [&](const auto& other) { return other.get() != candidate; }),
                     candidates_.end());
@@ -256,10 +261,7 @@ void OneSender::finish() {
       candidate->fault = refused.what();
     }
     if (fault.empty()) fault = candidate->fault;
-    while (std::optional<Scan> scan = candidate->inner->take()) {
-      candidate->is_whole = candidate->is_whole || scan->is_complete;
-      candidate->scans.push_back(std::move(*scan));
-    }
+    gather(candidate.get());
   }
   if (chosen_ == nullptr) {
     const auto best = std::max_element(candidates_.begin(), candidates_.end(), [](const auto& a, const auto& b) {
@@ -267,8 +269,7 @@ void OneSender::finish() {
     });
     if (best != candidates_.end() && !(*best)->scans.empty()) decide_for(best->get());
   } else {
-    for (Scan& scan : chosen_->scans) push(std::move(scan));
-    chosen_->scans.clear();
+    push_scans(chosen_);
   }
   if (!fault.empty() && (chosen_ == nullptr || !chosen_->fault.empty())) throw FrameError(fault);
 }
@@ -284,7 +285,7 @@ bool OneSender::stamps_are_of_arrival() const {
 
 std::string OneSender::hint() const {
   const ScanAssembler* const asked = candidates_.empty() ? spare_.get() : candidates_.front()->inner.get();
-  const std::string hint = asked != nullptr ? asked->hint() : "";
+  std::string hint = asked != nullptr ? asked->hint() : "";
   if (!hint.empty() || !candidates_.empty() || told_.empty()) return hint;
   return say("there are packets in which a sensor describes itself, from {}, but none of its data",
              identity_of_sender(told_.front().from).text());

@@ -72,6 +72,8 @@ class OneSender : public ScanAssembler {
   Candidate* candidate_of(const Sender& from);
   void tell(Candidate* candidate, const Told& told) const;
   bool belongs(const Told& told, const Candidate& candidate) const;
+  static void gather(Candidate* candidate);
+  void push_scans(Candidate* candidate);
   void decide_for(Candidate* candidate);
   bool is_data_of_sensor(ByteView payload) const;
   const SourceIdentity& identity_of(const Sender& from);

@@ -90,13 +90,7 @@ class UdpSource final : public Source {
                                        ? "; an Ouster tells nothing of itself: it needs sensor_metadata"
                                        : ": is another one there?");
     } else {
-      const std::string others = others_note();
-      health.summary = silent           ? "the sensor is silent"
-                       : frames_ == 0   ? "packets come, no turn yet"
-                       : others.empty() ? "receives"
-                                        : "receives; " + others;
-      // Nobody said which of them stands on the machine.
-      if (!others.empty() && !sender_ && health.grade == Grade::kGood) health.grade = Grade::kWarning;
+      tell_of_sensor(silent, &health);
     }
     health.add("frames", frames_.load());
     health.add("packets", packets_.load());
@@ -109,6 +103,16 @@ class UdpSource final : public Source {
   }
 
  private:
+  void tell_of_sensor(bool is_silent, PartHealth* health) const {
+    const std::string others = others_note();
+    health->summary = is_silent        ? "the sensor is silent"
+                      : frames_ == 0   ? "packets come, no turn yet"
+                      : others.empty() ? "receives"
+                                       : "receives; " + others;
+    // Nobody said which of them stands on the machine.
+    if (!others.empty() && !sender_ && health->grade == Grade::kGood) health->grade = Grade::kWarning;
+  }
+
   std::string part() const {
     const std::lock_guard<std::mutex> locked(words_lock_);
     return part_;
@@ -142,27 +146,29 @@ class UdpSource final : public Source {
       if (is_silent() && monotonic_ns() - looked_ns_ > kAddressEvery_ns) look_for_address();
       if (!datagram) continue;
       if (is_silent() && monotonic_ns() - began_ns_ > kSilent_ns) begin_anew();
-      if (is_of_other(*datagram)) continue;
-      // Only what is of use counts as the sensor: anybody may send anything.
-      const std::uint64_t refused = assembler_ ? assembler_->senders().refused() : 0;
-      const bool is_data = add(*datagram);
-      if (assembler_ && assembler_->senders().refused() > refused) {
-        name_others();
-        if (!is_data) {
-          ++of_others_;
-          continue;
-        }
-      }
-      ++packets_;
-      if (!is_data) {
-        ++useless_;
-        continue;
-      }
-      last_packet_ns_ = monotonic_ns();
-      ++packets_of_use_;
-      if (assembler_->senders().chosen() && assembler_->senders().refused() > 0) are_two_ = true;
-      while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
+      if (!is_of_other(*datagram)) hear(*datagram, taker);
     }
+  }
+
+  // Only what is of use counts as the sensor: anybody may send anything.
+  void hear(const Datagram& datagram, FrameTaker& taker) {
+    const std::uint64_t refused = assembler_ ? assembler_->senders().refused() : 0;
+    const bool is_data = add(datagram);
+    const bool are_others = assembler_ && assembler_->senders().refused() > refused;
+    if (are_others) name_others();
+    if (are_others && !is_data) {
+      ++of_others_;
+      return;
+    }
+    ++packets_;
+    if (!is_data) {
+      ++useless_;
+      return;
+    }
+    last_packet_ns_ = monotonic_ns();
+    ++packets_of_use_;
+    if (assembler_->senders().chosen() && assembler_->senders().refused() > 0) are_two_ = true;
+    while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
   }
 
   // What the sensor says of itself by its other port.
