@@ -98,6 +98,7 @@ bool RoboSenseAssembler::hold(const Datagram& datagram) {
 void RoboSenseAssembler::settle() {
   const std::deque<Held> held = std::exchange(held_, {});
   std::vector<ByteView> packets;
+  packets.reserve(held.size());
   for (const Held& packet : held) packets.push_back(view_of_bytes(packet.payload));
   const RoboSenseSetup setup = robosense_setup(packets, view_of_bytes(device_), stated_);
   beams_.clear();

@@ -341,32 +341,50 @@ std::unique_ptr<ScanAssembler> make_assembler(const SensorChoice& choice) {
   return std::make_unique<AutomaticAssembler>(choice);
 }
 
+namespace {
+
+template <typename IsIt>
+std::optional<SensorKind> kind_where(const IsIt& is_it) {
+  const std::vector<KnownSensor>& all = known_sensors();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const KnownSensor& sensor) { return is_it(sensor.kind); });
+  return found != all.end() ? std::optional(found->kind) : std::nullopt;
+}
+
+std::optional<SensorKind> recognise_velodyne(ByteView payload) {
+  return kind_where([&](SensorKind kind) {
+    const std::optional<VelodyneModel> model = velodyne_model(kind);
+    return model && velodyne_traits(*model).product == velodyne_product(payload);
+  });
+}
+
+std::optional<SensorKind> recognise_robosense(ByteView payload, RoboSenseLayout layout) {
+  const std::vector<RoboSenseModel> models = robosense_models_of_head(payload, layout);
+  return kind_where([&](SensorKind kind) { return models.size() == 1 && robosense_model(kind) == models.front(); });
+}
+
+std::optional<SensorKind> recognise_lslidar(LslidarModel model) {
+  return kind_where([&](SensorKind kind) {
+    const std::vector<LslidarModel> models = lslidar_models(kind);
+    return std::find(models.begin(), models.end(), model) != models.end();
+  });
+}
+
+}  // namespace
+
 std::optional<SensorKind> recognise_sensor(ByteView payload) {
-  if (is_velodyne_data(payload)) {
-    for (const KnownSensor& sensor : known_sensors()) {
-      const std::optional<VelodyneModel> model = velodyne_model(sensor.kind);
-      if (model && velodyne_traits(*model).product == velodyne_product(payload)) return sensor.kind;
-    }
-  }
-  if (const std::optional<HesaiModel> found = hesai_model_of(payload)) {
-    for (const KnownSensor& sensor : known_sensors()) {
-      if (hesai_model(sensor.kind) == found) return sensor.kind;
-    }
+  std::optional<SensorKind> kind;
+  if (is_velodyne_data(payload)) kind = recognise_velodyne(payload);
+  if (kind) return kind;
+  if (const std::optional<HesaiModel> model = hesai_model_of(payload)) {
+    return kind_where([&](SensorKind other) { return hesai_model(other) == model; });
   }
   if (const std::optional<RoboSenseLayout> layout = robosense_layout_of(payload)) {
-    const std::vector<RoboSenseModel> models = robosense_models_of_head(payload, *layout);
-    for (const KnownSensor& sensor : known_sensors()) {
-      if (models.size() == 1 && robosense_model(sensor.kind) == models.front()) return sensor.kind;
-    }
+    return recognise_robosense(payload, *layout);
   }
   if (is_robosense_m1_data(payload)) return SensorKind::kRoboSenseM1;
   if (is_mid360_data(payload)) return SensorKind::kMid360;
-  if (const std::optional<LslidarModel> found = lslidar_model_of(payload)) {
-    for (const KnownSensor& sensor : known_sensors()) {
-      const std::vector<LslidarModel> models = lslidar_models(sensor.kind);
-      if (std::find(models.begin(), models.end(), *found) != models.end()) return sensor.kind;
-    }
-  }
+  if (const std::optional<LslidarModel> model = lslidar_model_of(payload)) return recognise_lslidar(*model);
   return std::nullopt;
 }
 
