@@ -248,18 +248,23 @@ TEST(UdpSource, PacketsOfOthersAndWhatIsNoPacketAreCountedAndDropped) {
   }
 }
 
+// Four turns of each, packet by packet.
+void send_at_once(Pace& pace, const LoopbackSender& sender, const LoopbackSender& other) {
+  const std::vector<std::string> ours = vlp16_turns(4), theirs = vlp16_turns(4, 50);
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    pace.send(sender, std::string_view(ours[i]));
+    pace.send(other, std::string_view(theirs[i]));
+  }
+}
+
 TEST(UdpSource, ASecondSensorOnThePortIsNamedAndNotMixedIn) {
   const std::uint16_t port = free_udp_port();
   const auto source = make_udp_source(live_config(port));
   FrameCatcher catcher;
   source->start(catcher);
   const LoopbackSender sender(port), other(port, "127.0.0.2");
-  const std::vector<std::string> ours = vlp16_turns(4), theirs = vlp16_turns(4, 50);
   Pace pace(*source);
-  for (std::size_t i = 0; i < ours.size(); ++i) {
-    pace.send(sender, std::string_view(ours[i]));
-    pace.send(other, std::string_view(theirs[i]));
-  }
+  send_at_once(pace, sender, other);
   ASSERT_TRUE(catcher.wait_for_frames(3));
   EXPECT_TRUE(becomes_true([&] { return source->health().summary.find("127.0.0.2") != std::string::npos; }))
       << source->health().summary;
@@ -277,12 +282,8 @@ TEST(UdpSource, ASecondSensorDoesNotTakeThePlaceOfOneThatFellSilent) {
   FrameCatcher catcher;
   source->start(catcher);
   const LoopbackSender sender(port), other(port, "127.0.0.2");
-  const std::vector<std::string> ours = vlp16_turns(4), theirs = vlp16_turns(4, 50);
   Pace pace(*source);
-  for (std::size_t i = 0; i < ours.size(); ++i) {
-    pace.send(sender, std::string_view(ours[i]));
-    pace.send(other, std::string_view(theirs[i]));
-  }
+  send_at_once(pace, sender, other);
   ASSERT_TRUE(catcher.wait_for_frames(3));
   ASSERT_TRUE(becomes_true([&] { return source->health().summary == "the sensor is silent"; }));
   const std::string frames = fact(source->health(), "frames");

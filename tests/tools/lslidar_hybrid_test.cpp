@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: packets of a CH128X1 give points where its mirror sends the light (worked out by hand, among them the first
-// point of a real sensor's packet), in frames that begin at the mark, at the times at which they were taken; what its
-// device packet has to tell is demanded.
+// Proves: packets of a CH128X1 give points where its mirror sends the light, at their times, in frames that begin at
+// the mark. Points are worked out by hand, among them the first one of a real sensor's packet. What its device packet
+// has to tell is demanded.
 
 #include <gtest/gtest.h>
 

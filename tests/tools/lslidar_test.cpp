@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: packets of LSLidar's spinning sensors give points where the maker's angles, units and lenses put them (worked
-// out by hand), at the times at which they were taken; what a packet alone does not tell is taken from device packets,
-// and where none came, or what they say cannot be, the sensor is refused with the port that is missing.
+// Proves: packets of LSLidar's spinning sensors give points where the maker's angles, units and lenses put them, at
+// their times. Both are worked out by hand. What a packet alone does not tell is taken from device packets. Where none
+// came, or what they say cannot be, the sensor is refused with the port that is missing.
 
 #include <gtest/gtest.h>
 

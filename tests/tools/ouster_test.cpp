@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: every profile and both heads of an Ouster's packets are read by their layout, which stands here a second
-// time; packets of another serial number than the metadata's are refused with both; a window of azimuth, late packets
-// and packets captured twice give whole frames in order; metadata that is no sensor's is refused.
+// time. Packets of another serial number than the metadata's are refused with both. A window of azimuth, late packets
+// and packets captured twice give whole frames in order. Metadata that is no sensor's is refused.
 
 #include <gtest/gtest.h>
 

@@ -94,6 +94,18 @@ inline std::string payload_of(const VelodynePacket& packet) {
   return payload + raw(packet.clock_us) + raw(packet.mode) + raw(packet.product);
 }
 
+// Twenty packets of 72 degrees: three quarters of a turn, three turns, and a quarter.
+inline std::vector<std::string> velodyne_turns() {
+  std::vector<std::string> payloads;
+  for (int i = 0; i < 20; ++i) {
+    VelodynePacket packet;
+    packet.step_deg = 6.0;
+    packet.first_deg = 72.0 * i + 90.0;
+    payloads.push_back(payload_of(packet));
+  }
+  return payloads;
+}
+
 // What differs between the packets of Hesai's sensors.
 struct HesaiPacket {
   std::size_t lasers = 32, blocks = 8;

@@ -118,17 +118,6 @@ TEST(PacketMessage, WhatIsCutOrCountsBeyondItsBytesIsRefusedWithThePlace) {
   EXPECT_TRUE(contains(refusal(kTypes[0], MessageEncoding::kOther, longer), "neither CDR nor of ROS 1"));
 }
 
-std::vector<std::string> turns() {
-  std::vector<std::string> payloads;
-  for (int i = 0; i < 20; ++i) {
-    test::VelodynePacket packet;
-    packet.step_deg = 6.0;
-    packet.first_deg = 72.0 * i + 90.0;
-    payloads.push_back(payload_of(packet));
-  }
-  return payloads;
-}
-
 test::ReadCapture read_of_bag(const TempFolder& folder, const std::string& name, const std::string& bag) {
   return test::read(folder.write(name, bag));
 }
@@ -138,7 +127,7 @@ TEST(PacketBag, GivesTheFramesOfACapture) {
   GTEST_SKIP() << "this build reads no captures";
 #endif
   const TempFolder folder;
-  const std::vector<std::string> payloads = turns();
+  const std::vector<std::string> payloads = test::velodyne_turns();
   const std::vector<std::string> first(payloads.begin(), payloads.begin() + 7),
       second(payloads.begin() + 7, payloads.end());
   const test::ReadCapture captured = test::read(folder.write("c.pcap", test::capture_of(payloads)));
@@ -171,7 +160,7 @@ TEST(PacketBag, GivesTheFramesOfACapture) {
 
 TEST(PacketBag, AMessageThatCannotBeReadIsSaidAndTheOthersAreRead) {
   const TempFolder folder;
-  const std::string good = message(kTypes[0], MessageEncoding::kCdr, turns());
+  const std::string good = message(kTypes[0], MessageEncoding::kCdr, test::velodyne_turns());
   const test::ReadCapture bag =
       read_of_bag(folder, "a.mcap",
                   test::mcap({{"/points", ros2_name(kTypes[0])}}, {{0, good.substr(0, 3000)}, {0, good}}, nullptr));
@@ -215,7 +204,7 @@ TEST(PacketBag, CloudsArePreferredAndEitherTopicCanBeNamed) {
   const TempFolder folder;
   const std::string file =
       folder.write("a.bag", test::ros1_bag({{"/packets", kTypes[0]}, {"/points", "sensor_msgs/PointCloud2"}},
-                                           {{0, message(kTypes[0], MessageEncoding::kRos1, turns())},
+                                           {{0, message(kTypes[0], MessageEncoding::kRos1, test::velodyne_turns())},
                                             {1, test::ros1_message(test::CloudMessage{})}}));
   const test::ReadCapture both = test::read(file);
   EXPECT_EQ(both.about.topic, "/points");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: packets come out of the messages of each maker's driver as the .msg files lay them out, in ROS 1 and ROS 2,
-// also where one message is one packet; a device's packets on a topic of their own come along; an Ouster's metadata is
-// found beside its packets.
+// Proves: packets come out of the messages of each maker's driver as its .msg files lay them out, in ROS 1 and ROS 2.
+// That includes messages that are one packet. A device's packets on a topic of their own come along. An Ouster's
+// metadata is found beside its packets.
 
 #include <gtest/gtest.h>
 
@@ -175,23 +175,12 @@ TEST(PacketTypes, ADeviceIsFoundBesideItsPackets) {
   EXPECT_FALSE(is_side_topic("/ouster/lidar_packets"));
 }
 
-std::vector<std::string> single_turns() {
-  std::vector<std::string> payloads;
-  for (int i = 0; i < 20; ++i) {
-    test::VelodynePacket packet;
-    packet.step_deg = 6.0;
-    packet.first_deg = 72.0 * i + 90.0;
-    payloads.push_back(payload_of(packet));
-  }
-  return payloads;
-}
-
 TEST(PacketTypes, ABagOfSinglePacketsGivesTheFramesOfACapture) {
   const TempFolder folder;
   const std::string type = "velodyne_msgs/VelodynePacket";
   std::vector<WrittenMessage> ros1, cdr;
   std::uint32_t number = 0;
-  for (const std::string& payload : single_turns()) {
+  for (const std::string& payload : test::velodyne_turns()) {
     ros1.push_back({0, FieldWriter(false).stamp(number * 1'000'000).bytes(payload).text()});
     cdr.push_back({0, FieldWriter(true).stamp(number++ * 1'000'000).bytes(payload).text()});
   }

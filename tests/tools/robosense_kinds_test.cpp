@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: which RoboSense packets are of is told by head, angles and times, which have to agree; another sensor than
-// the stated one is refused with both; a capture of both ports, or of data with a saved device packet, is read; packets
-// whose bytes are changed by chance never give points in a wrong unit.
+// Proves: head, angles and times tell which RoboSense it is, and they have to agree. Another sensor than the stated one
+// is refused with both. A capture of both ports is read, and so is data with a saved device packet. Packets whose bytes
+// are changed by chance never give points in a wrong unit.
 
 #include <gtest/gtest.h>
 

@@ -18,9 +18,7 @@ class BagPackets : public DatagramSource {
  public:
   BagPackets(std::shared_ptr<Bag> bag, std::string topic) : bag_(std::move(bag)), topic_(std::move(topic)) {
     find_device();
-    rewind_bag();
-    find_frame_id();
-    rewind_bag();
+    for (Bag::File& file : bag_->files()) file.reader->rewind();
   }
 
   std::optional<Datagram> next() override {
@@ -34,31 +32,12 @@ class BagPackets : public DatagramSource {
   }
 
  private:
-  void rewind_bag() {
-    for (Bag::File& file : bag_->files()) file.reader->rewind();
-    file_ = 0;
-  }
-
   void find_device() {
     std::vector<std::string> topics;
     for (const SourceTopic& topic : bag_->topics()) {
       if (topic.has_packets) topics.push_back(topic.name);
     }
     device_ = device_topic(topics, topic_);
-  }
-
-  // A device's packets may come before the first of its points; where they tell no frame_id they have that of these.
-  void find_frame_id() {
-    if (device_.empty()) return;
-    try {
-      while (const std::optional<BagMessage> message = next_message()) {
-        const BagTopic& topic = bag_->files()[file_].reader->topics()[message->topic];
-        if (topic.name != topic_) continue;
-        frame_id_ = decode_packets(topic.type, topic.encoding, message->data, message->place).frame_id;
-        return;
-      }
-    } catch (const FrameError&) {  // NOLINT(bugprone-empty-catch): it comes again, and is then said
-    }
   }
 
   // Of the topic, and of what describes its device.
@@ -81,13 +60,12 @@ class BagPackets : public DatagramSource {
     if (!message) return false;
     const BagTopic& topic = bag_->files()[file_].reader->topics()[message->topic];
     message_ = decode_packets(topic.type, topic.encoding, message->data, message->place);
-    if (topic.name != topic_ && message_.frame_id.empty()) message_.frame_id = frame_id_;
     recorded_ns_ = message->recorded_ns;
     return true;
   }
 
   std::shared_ptr<Bag> bag_;
-  std::string topic_, device_, frame_id_;
+  std::string topic_, device_;
   DecodedPackets message_;
   std::int64_t recorded_ns_ = 0;
   std::size_t file_ = 0;

@@ -22,6 +22,18 @@ struct Sender {
   std::string frame_id;                 // of a message in a bag
 };
 
+inline bool operator==(const Sender& a, const Sender& b) {
+  return a.address == b.address && a.port == b.port && a.to_port == b.to_port && a.card == b.card &&
+         a.frame_id == b.frame_id;
+}
+
+// Whether one device may have sent both: what it says of itself comes by a port of its own, in a bag maybe without a
+// frame_id.
+inline bool may_be_one_device(const Sender& a, const Sender& b) {
+  const bool is_frame_same = a.frame_id == b.frame_id || a.frame_id.empty() || b.frame_id.empty();
+  return a.address == b.address && a.card == b.card && is_frame_same;
+}
+
 struct Datagram {
   std::int64_t captured_ns = 0;
   Sender from;

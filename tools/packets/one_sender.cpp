@@ -27,16 +27,6 @@ constexpr std::int64_t kRepeatedWithin_ns = 500'000;
 // In the year 2116; differences of such times do not overflow.
 constexpr std::int64_t kTimeMost_ns = std::numeric_limits<std::int64_t>::max() / 2;
 
-bool is_same(const Sender& a, const Sender& b) {
-  return a.address == b.address && a.port == b.port && a.to_port == b.to_port && a.card == b.card &&
-         a.frame_id == b.frame_id;
-}
-
-bool is_same_device(const Sender& a, const Sender& b) {
-  const bool is_frame_same = a.frame_id == b.frame_id || a.frame_id.empty() || b.frame_id.empty();
-  return a.address == b.address && a.card == b.card && is_frame_same;
-}
-
 std::string address_text(std::uint32_t address) {
   return fmt::format("{}.{}.{}.{}", address >> 24U, address >> 16U & 0xFFU, address >> 8U & 0xFFU, address & 0xFFU);
 }
@@ -91,7 +81,7 @@ SourceIdentity identity_of_sender(const Sender& from) {
 OneSender::OneSender(Make make, std::string wanted) : make_(std::move(make)), gate_(std::move(wanted)) {}
 
 const SourceIdentity& OneSender::identity_of(const Sender& from) {
-  const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& k) { return is_same(k.from, from); });
+  const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& k) { return k.from == from; });
   if (known != known_.end()) return known->who;
   if (known_.size() == kKnownMax) known_.pop_front();
   known_.push_back({from, identity_of_sender(from)});
@@ -209,7 +199,7 @@ void OneSender::decide_for(Candidate* candidate) {
 
 // Between two sensors of one address the port that it names decides.
 bool OneSender::belongs(const Told& told, const Candidate& candidate) const {
-  if (!is_same_device(told.from, candidate.from)) return false;
+  if (!may_be_one_device(told.from, candidate.from)) return false;
   const SourceIdentity who = identity_of_sender(told.from);
   const std::vector<HeardSource>& heard = gate_.heard();
   const auto of_device = std::count_if(heard.begin(), heard.end(), [&](const HeardSource& other) {
@@ -233,7 +223,7 @@ bool OneSender::add_device(const Datagram& datagram) {
     is_taken = true;
     if (chosen_ != nullptr) break;
   }
-  const auto same = std::find_if(told_.begin(), told_.end(), [&](const Told& t) { return is_same(t.from, told.from); });
+  const auto same = std::find_if(told_.begin(), told_.end(), [&](const Told& t) { return t.from == told.from; });
   if (same != told_.end()) {
     *same = std::move(told);
   } else if (told_.size() < kCandidatesMax) {
@@ -244,7 +234,7 @@ bool OneSender::add_device(const Datagram& datagram) {
 
 OneSender::Candidate* OneSender::candidate_of(const Sender& from) {
   const auto found =
-      std::find_if(candidates_.begin(), candidates_.end(), [&](const auto& c) { return is_same(c->from, from); });
+      std::find_if(candidates_.begin(), candidates_.end(), [&](const auto& c) { return c->from == from; });
   return found != candidates_.end() ? found->get() : nullptr;
 }
 

@@ -90,12 +90,7 @@ void describe_position(const std::string& bytes, SourceSender* sender) {
 SenderFacts::SenderFacts(const std::string& metadata) : metadata_(is_ouster_metadata(metadata) ? metadata : "") {}
 
 SenderFacts::Heard* SenderFacts::heard_of(const Sender& from) {
-  const auto is_it = [&](const auto& heard) {
-    return heard->from.address == from.address && heard->from.port == from.port &&
-           heard->from.to_port == from.to_port && heard->from.card == from.card &&
-           heard->from.frame_id == from.frame_id;
-  };
-  const auto found = std::find_if(heard_.begin(), heard_.end(), is_it);
+  const auto found = std::find_if(heard_.begin(), heard_.end(), [&](const auto& h) { return h->from == from; });
   if (found != heard_.end()) return found->get();
   if (heard_.size() == kSendersMost) return nullptr;
   heard_.push_back(std::make_unique<Heard>());
@@ -141,11 +136,7 @@ void SenderFacts::hear(const Datagram& datagram) {
 
 // Of two sensors of one address it is not known whose it is.
 const SenderFacts::Device* SenderFacts::device_of(const Heard& heard) const {
-  const auto is_same = [&](const Sender& other) {
-    const bool is_frame_same =
-        other.frame_id == heard.from.frame_id || other.frame_id.empty() || heard.from.frame_id.empty();
-    return other.address == heard.from.address && other.card == heard.from.card && is_frame_same;
-  };
+  const auto is_same = [&](const Sender& other) { return may_be_one_device(other, heard.from); };
   const auto senders =
       std::count_if(heard_.begin(), heard_.end(), [&](const auto& h) { return h->is_data && is_same(h->from); });
   const auto devices =

@@ -129,8 +129,7 @@ void TurnAssembler::add_firing(const Firing& firing, double step_deg) {
   if (turns_back_) return;
   step_deg_ = step_deg;
   if (!turn_.empty() && is_of_another_turn(firing, firing.azimuth_deg - turn_.moments.back().azimuth_deg)) {
-    push_waiting();
-    push_turn(std::exchange(turn_, Turn{}), false);
+    cut_turn();
   }
   if (turn_.empty()) {
     if (firing.azimuth_deg < step_deg) turn_.has_begun = true;
@@ -149,11 +148,15 @@ void TurnAssembler::add_firing(const Firing& firing, double step_deg) {
   }
   if (ahead_deg < 0.0) begin_turn(firing.azimuth_deg);
   if (turn_.moments.size() == kFiringsMax) {
-    push_waiting();
-    push_turn(std::exchange(turn_, Turn{}), false);
+    cut_turn();
   }
   append(&turn_, firing);
   if (!waiting_.empty() && firing.azimuth_deg - turn_.moments.front().azimuth_deg > kWait_deg) push_waiting();
+}
+
+void TurnAssembler::cut_turn() {
+  push_waiting();
+  push_turn(std::exchange(turn_, Turn{}), false);
 }
 
 void TurnAssembler::push_waiting() {

@@ -50,6 +50,7 @@ class TurnAssembler : public ScanAssembler {
   bool is_of_another_turn(const Firing& firing, double ahead_deg) const;
   static void append(Turn* turn, const Firing& firing);
   static void insert_late(Turn* turn, const Firing& firing);
+  void cut_turn();
   void push_turn(Turn turn, bool is_complete);
   void push_waiting();
 
