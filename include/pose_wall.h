@@ -312,7 +312,8 @@ typedef struct pose_wall_odometry {
   double level[POSE_WALL_ODOMETRY_DIRECTIONS];          /* error of each frame by itself: m, rad; 0 to infinite */
   double drift_variance[POSE_WALL_ODOMETRY_DIRECTIONS]; /* accumulated since the run began: m2, rad2; never falls */
   double drift[POSE_WALL_ODOMETRY_DIRECTIONS]; /* likewise, the part that is no variance: m, rad; never falls */
-  double velocity_m_s[3];                      /* in base, during this scan: removes the skew of a cloud with times */
+  double velocity_m_s[3];                      /* in base, during this scan: removes the skew of a cloud with times;
+                                                * without times the levels hold it */
   double turn_rate_rad_s[3];                   /* likewise */
   /* k standard deviations of these two: m/s, rad/s; 0 to infinite. The engine adds them to its levels as variances add
    * up. Of a hard bound say twice as much; what is small beside the cloud's noise needs more. */

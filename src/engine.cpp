@@ -180,7 +180,7 @@ std::uint64_t Engine::sum() const {
 // True if the motion within the scan was taken out of it.
 bool Engine::read_cloud(const pose_wall_cloud& cloud, FrameFindings* found) {
   const pose_wall_odometry* const odometry = odometry_in(cloud.inputs);
-  const bool taken_out = odometry != nullptr && MotionInScan(*odometry, settings_, axes_).improves(memory_.own);
+  const bool taken_out = MotionInScan(odometry, settings_, axes_).improves(memory_.own);
   const pose_wall_odometry left = odometry != nullptr ? without_motion(*odometry) : pose_wall_odometry{};
   found->voxels =
       build_voxels(cloud, taken_out || odometry == nullptr ? odometry : &left, settings_, extrinsic_, axes_,
@@ -325,15 +325,10 @@ Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, con
 // A repeated cloud was bent by its first copy's motion, so none was rightly taken out.
 void Engine::widen_by_scan_motion(const pose_wall_inputs* inputs, bool taken_out, double since_last_s,
                                   FrameFindings* found) {
-  const pose_wall_odometry* const odometry = odometry_in(inputs);
-  if (odometry == nullptr) {
-    memory_.own.forget();
-    return;
-  }
   const bool repeats = (found->reasons & POSE_WALL_R_FROZEN) != 0;
-  MotionInScan(*odometry, settings_, axes_)
-      .widen(taken_out && !repeats, {found->voxels.scan, since_last_s}, found->levelling, found->walls.side,
-             &memory_.own, &found->measured);
+  MotionInScan(odometry_in(inputs), settings_, axes_)
+      .widen(taken_out && !repeats, scan_in_time(found->voxels.scan, since_last_s, settings_), found->levelling,
+             found->walls.side, &memory_.own, &found->measured);
 }
 
 // By the odometry, else by the other inputs, if they are sound and no measurement contradicts them.

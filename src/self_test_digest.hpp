@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0x4C2E1E80C209DB24ULL;
+constexpr std::uint64_t kSelfTestDigest = 0x996DC590F5E7B259ULL;
 
 }  // namespace pose_wall

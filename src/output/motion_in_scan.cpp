@@ -58,6 +58,8 @@ std::uint32_t other_end_of(std::uint32_t quantity) {
 // - One that turns round hides from a single change, so the larger of the last two counts. That holds for periods of
 //   four scans and more. A faster one is no motion of a frame but a bend within it.
 // - If the motion that was taken out changes by M while the machine moves steadily, c (1 - c) M is hidden.
+// Without an odometry a standing machine would pay for the noise of its changes. There motion counts that is steady,
+// and what began beyond all noise.
 class ByChange {
  public:
   ByChange(const Measurements& measured, const ScanInTime& time, const Settings& settings, const OwnChanges& last)
@@ -65,13 +67,11 @@ class ByChange {
     // A change over less than a scan shows a part of the motion. If more than half a scan is between both, another
     // motion may be, too. By the derivation above.
     constexpr double kLeast = 0.9, kMost = 1.5;  // scans
-    one_later_ = scan_s_ > 0.0 && since_s_ >= kLeast * scan_s_ && since_s_ <= kMost * scan_s_;
+    later_ = scan_s_ > 0.0 && since_s_ >= kLeast * scan_s_;
+    one_later_ = later_ && since_s_ <= kMost * scan_s_;
   }
 
-  bool is_known(std::uint32_t quantity) const {
-    const Measurement& m = measured_.quantity[quantity];
-    return one_later_ && m.measured && !m.stale && last_.level[quantity] < kNobodyKnows;
-  }
+  bool is_known(std::uint32_t quantity) const { return one_later_ && shows(quantity); }
   double change_of(std::uint32_t quantity) const {
     return measured_.quantity[quantity].raw - last_.raw[quantity] - since_s_ * last_.taken_out[quantity];
   }
@@ -89,6 +89,12 @@ class ByChange {
     return larger(0.0, std::fabs(change_of(quantity)) - noise);
   }
 
+  // Where nobody tells the motion, and nothing of it was taken out: of a steady one, or of one that began beyond all
+  // noise.
+  double untold(std::uint32_t quantity, double seconds, double lever_m) const {
+    return larger(steady(quantity, seconds, lever_m), began(quantity, seconds));
+  }
+
   // seconds: for which an unknown motion acts; taken_out: the value's rate by what was taken out of this scan.
   double added(std::uint32_t quantity, double seconds, double taken_out, double lever_m) const {
     const Measurement& m = measured_.quantity[quantity];
@@ -98,17 +104,50 @@ class ByChange {
     const double noise = larger(m.protection[POSE_WALL_PART_RANDOM], last_.random[quantity]);
     return wider_before + left_of_noise(acts_s) * noise +
            hidden_s(acts_s) * std::fabs(taken_out - last_.taken_out[quantity]) +
-           larger(reach(quantity, lever_m, seconds, [this](std::uint32_t q) { return change_of(q); }),
-                  reach(quantity, lever_m, seconds, [this](std::uint32_t q) { return last_.change[q]; }));
+           larger(reach(quantity, lever_m, seconds, 1.0, [this](std::uint32_t q) { return change_of(q); }),
+                  reach(quantity, lever_m, seconds, 1.0, [this](std::uint32_t q) { return last_.change[q]; }));
   }
 
  private:
+  static double square_of(double x) { return x * x; }
+  bool shows(std::uint32_t quantity) const {
+    const Measurement& m = measured_.quantity[quantity];
+    return m.measured && !m.stale && last_.level[quantity] < kNobodyKnows;
+  }
   bool has_two(std::uint32_t quantity) const { return is_known(quantity) && is_finite(last_.change[quantity]); }
 
-  // How large an error may be that a change shows.
+  // At the mean rate between the frames, however far apart. Of the last two changes the larger one, as above.
+  double steady(std::uint32_t quantity, double seconds, double lever_m) const {
+    if (!later_ || !shows(quantity)) return 0.0;
+    const double random = measured_.quantity[quantity].protection[POSE_WALL_PART_RANDOM];
+    const auto now = [this](std::uint32_t q) { return change_of(q); };
+    const auto before = [this](std::uint32_t q) { return last_.change[q]; };
+    const bool by_ends = !is_distance(quantity) || shows(other_end_of(quantity));
+    double moved = by_ends ? reach(quantity, lever_m, seconds, 0.0, now) : kBentByTurn * std::fabs(change_of(quantity));
+    if (tells(quantity)) moved = larger(moved, reach(quantity, lever_m, seconds, 0.0, before));
+    const double c = seconds / since_s_;
+    // This noise is in the change, too.
+    const double noise = std::sqrt(square_of((1.0 - c) * random) + square_of(c * last_.random[quantity]));
+    return larger(0.0, moved + noise - random);
+  }
+
+  // c r = R - (1 - c) r', where r' is the change before: of a motion that was slower before that, r' is more, and the
+  // error less. Below its noise this shows nothing that a steady motion of R does not have, too.
+  double began(std::uint32_t quantity, double seconds) const {
+    if (!is_known(quantity)) return 0.0;
+    const double random = measured_.quantity[quantity].protection[POSE_WALL_PART_RANDOM];
+    const double before = has_two(quantity) ? larger(0.0, 1.0 - seconds / since_s_) : 0.0;
+    const double moved = change_of(quantity) - (before > 0.0 ? before * last_.change[quantity] : 0.0);
+    const double noise_before = std::sqrt(square_of(1.0 + before) + square_of(before)) * last_.random[quantity];
+    const bool shows = std::fabs(moved) > std::sqrt(square_of(random) + square_of(noise_before));
+    return shows ? larger(0.0, std::fabs(moved) + noise_before - random) : 0.0;
+  }
+
+  // How large an error may be that a change shows; least: 1 of a motion that may begin with this scan, 0 of a steady
+  // one.
   template <typename ChangeOf>
-  double reach(std::uint32_t quantity, double lever_m, double seconds, const ChangeOf& change) const {
-    const auto times = [&](double acts_s) { return larger(1.0, acts_s / since_s_); };
+  double reach(std::uint32_t quantity, double lever_m, double seconds, double least, const ChangeOf& change) const {
+    const auto times = [&](double acts_s) { return larger(least, acts_s / since_s_); };
     if (!is_distance(quantity)) return times(seconds) * std::fabs(change(quantity));
     const bool front = quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_RF;
     const double at_m = front ? settings_.s_front : settings_.s_back;
@@ -134,7 +173,7 @@ class ByChange {
   const Settings& settings_;
   double scan_s_, since_s_;
   const OwnChanges& last_;
-  bool one_later_ = false;
+  bool later_ = false, one_later_ = false;
 };
 
 OwnChanges kept_of(const Measurements& measured, const ByChange& by_change, const OwnChanges& surfaces,
@@ -155,6 +194,12 @@ OwnChanges kept_of(const Measurements& measured, const ByChange& by_change, cons
 
 }  // namespace
 
+ScanInTime scan_in_time(const ScanTime& scan, double since_last_s, const Settings& settings) {
+  if (scan.whole_s > 0.0) return {scan, since_last_s};
+  const double whole_s = since_last_s > 0.0 && since_last_s < settings.scan_max ? since_last_s : settings.scan_max;
+  return {{whole_s, 0.5 * whole_s}, since_last_s};
+}
+
 void OwnChanges::forget() {
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     level[q] = kNobodyKnows;
@@ -163,8 +208,10 @@ void OwnChanges::forget() {
   }
 }
 
-MotionInScan::MotionInScan(const pose_wall_odometry& o, const Settings& s, const Axes& axes)
-    : settings_(s), axes_(axes) {
+MotionInScan::MotionInScan(const pose_wall_odometry* odometry, const Settings& s, const Axes& axes)
+    : settings_(s), axes_(axes), is_told_(odometry != nullptr) {
+  if (!is_told_) return;
+  const pose_wall_odometry& o = *odometry;
   const Eigen::Matrix3d R_base_run =
       Eigen::Quaterniond(o.quaternion[3], o.quaternion[0], o.quaternion[1], o.quaternion[2])
           .toRotationMatrix()
@@ -222,6 +269,7 @@ double MotionInScan::by_odometry(std::uint32_t quantity, double seconds, double 
 }
 
 bool MotionInScan::improves(const OwnChanges& last) const {
+  if (!is_told_) return false;
   constexpr double kChangeByNoise = 0.33;  // mean of the larger of two changes by noise alone, of 4.89 deviations
   constexpr double kHardly = 0.1;          // of its noise moves a value hardly: it adds 0.5 % to its level
   double out = 0.0, in = 0.0;              // worst shares of an alert limit, with the motion out of the scan and in it
@@ -243,20 +291,24 @@ void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling
   }
   const ByChange by_change(*measured, time, settings_, *last);
   double added[POSE_WALL_QUANTITIES] = {}, taken_out_rate[POSE_WALL_QUANTITIES] = {};
-  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    const Measurement& m = measured->quantity[q];
-    if (!m.measured || !(time.scan.whole_s > 0.0)) continue;
-    if (taken_out) taken_out_rate[q] = rate_of(q, *last);
-    const double seconds = acts_for_s(q, time.scan, measured->has_yaw_difference);
+  const auto left_by_odometry = [&](std::uint32_t q, double seconds) {
     const double left_in = taken_out ? 0.0 : seconds * moves(q, *last);
-    const double by_rates = by_odometry(q, seconds, m.protection[POSE_WALL_PART_RANDOM], *last) + left_in;
+    const double random = measured->quantity[q].protection[POSE_WALL_PART_RANDOM];
+    const double by_rates = by_odometry(q, seconds, random, *last) + left_in;
     const double by_values =
         by_change.tells(q) ? by_change.added(q, seconds, taken_out_rate[q], lever_m(q)) : kNobodyKnows;
-    added[q] = larger(by_values < by_rates ? by_values : by_rates, by_change.least(q));
+    return by_values < by_rates ? by_values : by_rates;
+  };
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    if (!measured->quantity[q].measured || !(time.scan.whole_s > 0.0)) continue;
+    if (taken_out) taken_out_rate[q] = rate_of(q, *last);
+    const double seconds = acts_for_s(q, time.scan, measured->has_yaw_difference);
+    added[q] =
+        is_told_ ? larger(left_by_odometry(q, seconds), by_change.least(q)) : by_change.untold(q, seconds, lever_m(q));
   }
   const OwnChanges kept = kept_of(*measured, by_change, *last, taken_out_rate);
   *last = kept;
-  if (time.scan.whole_s > 0.0) last->scan_s = time.scan.whole_s;
+  last->scan_s = time.scan.whole_s;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     measured->quantity[q].protection[POSE_WALL_PART_AGE] += added[q];
   }

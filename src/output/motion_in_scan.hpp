@@ -41,17 +41,22 @@ struct ScanInTime {
   double since_last_s = 0.0;
 };
 
-// The odometry's motion in base, for walls whose normals are known there.
+// scan: by the times that freed it of motion; none: as long as the step from the last frame, up to scan_max.
+ScanInTime scan_in_time(const ScanTime& scan, double since_last_s, const Settings& settings);
+
+// The odometry's motion in base, for walls whose normals are known there. Without an odometry only what the values of
+// the last frames show is known of it.
 class MotionInScan {
  public:
-  MotionInScan(const pose_wall_odometry& odometry, const Settings& settings, const Axes& axes);
+  MotionInScan(const pose_wall_odometry* odometry, const Settings& settings, const Axes& axes);
 
   // Whether the odometry's levels are narrower than the motion that it tells. One that is hardly known would bend the
   // scan, and what is left in it shows from frame to frame. A scan takes as long as the last one.
   bool improves(const OwnChanges& last) const;
 
   // Adds what is unknown of the motion to the levels: what the odometry leaves, or what the values of the last frames
-  // show, if that is less. Keeps the values. Deviations stay those of the measurement.
+  // show, if that is less; without an odometry what these show. Keeps the values. Deviations stay those of the
+  // measurement.
   void widen(bool taken_out, const ScanInTime& time, const Levelling& levelling, const JudgedWall (&walls)[2],
              OwnChanges* last, Measurements* measured) const;
 
@@ -63,6 +68,7 @@ class MotionInScan {
 
   const Settings& settings_;
   const Axes& axes_;
+  const bool is_told_;                                     // by an odometry
   Eigen::Vector3d direction_base_[3];                      // along, across, up
   double rate_level_[POSE_WALL_ODOMETRY_DIRECTIONS] = {};  // m/s, rad/s
   Eigen::Vector3d velocity_base_m_s_, turn_base_rad_s_;

@@ -32,10 +32,14 @@ constexpr Frames kTilted = {"hall_tilted_os0", "full%d.pcd", 24, 35, 100000000};
 constexpr Frames kWalk = {"hall_walk_os0", "%03d.pcd", 0, 39, 500000000};
 constexpr Frames kCorridor = {"corridor_vlp16", "%02d.pcd", 7, 21, 100000000};
 
+// A turn of 14 degrees within a tenth of a second moved roll in hall_tilted_os0 by 0.03 degrees: its recorders took the
+// motion out. Whether a jump is one shows where nothing else widens levels.
+constexpr const char *kFreed = "scan_max=0", *kBent = "scan_max=0.2";
+
 class HandHeld : public RealFrames {
  protected:
-  static std::vector<pose_wall_result> measured(const Frames& frames, const std::string& config) {
-    const tools::LoadedConfig loaded = tools::load_config(config, {"forward_axis=+Y"});
+  static std::vector<pose_wall_result> measured(const Frames& frames, const std::string& config, const char* scan_max) {
+    const tools::LoadedConfig loaded = tools::load_config(config, {"forward_axis=+Y", scan_max});
     EngineUnderTest engine(*loaded.config.get());
     std::vector<pose_wall_result> results;
     for (int i = frames.first; i <= frames.last; ++i) {
@@ -54,7 +58,7 @@ class HandHeld : public RealFrames {
 };
 
 TEST_F(HandHeld, ATiltedHallIsMeasured) {
-  const std::vector<pose_wall_result> results = measured(kTilted, "config/hand_held.yaml");
+  const std::vector<pose_wall_result> results = measured(kTilted, "config/hand_held.yaml", kFreed);
   const Reference reference(data_folder() / kTilted.folder / "reference.csv");
   const struct {
     std::uint32_t quantity;
@@ -74,7 +78,7 @@ TEST_F(HandHeld, ATiltedHallIsMeasured) {
 
 // The hall has one floor: turned by the recorders' poses, up is the same in all frames.
 TEST_F(HandHeld, AWalkThroughAHallHasOneUp) {
-  const std::vector<pose_wall_result> results = measured(kWalk, "config/hand_held.yaml");
+  const std::vector<pose_wall_result> results = measured(kWalk, "config/hand_held.yaml", kBent);
   const Reference reference(data_folder() / kWalk.folder / "reference.csv");
   std::vector<Eigen::Vector3d> ups;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -99,8 +103,8 @@ TEST_F(HandHeld, AWalkThroughAHallHasOneUp) {
 }
 
 TEST_F(HandHeld, ATurnOfTheHandIsNoJump) {
-  const std::vector<pose_wall_result> by_hand = measured(kCorridor, "config/vlp16.yaml,config/hand_held.yaml");
-  const std::vector<pose_wall_result> by_machine = measured(kCorridor, "config/vlp16.yaml");
+  const std::vector<pose_wall_result> by_hand = measured(kCorridor, "config/vlp16.yaml,config/hand_held.yaml", kFreed);
+  const std::vector<pose_wall_result> by_machine = measured(kCorridor, "config/vlp16.yaml", kFreed);
   const auto jumps = [](const std::vector<pose_wall_result>& results) {
     int count = 0;
     for (const pose_wall_result& r : results) {

@@ -60,7 +60,7 @@ std::string times_doubt(const ScanTimeFacts& facts) {
 
 std::string times_advice(const ScanTimeFacts& facts) {
   if (!facts.does_harm()) return "";
-  if (facts.fault == TimeFault::kMoved) return tr("Leave out the field of times, or set motion: off");
+  if (facts.fault == TimeFault::kMoved) return tr("Leave out the field of times, and set scan_max: 0");
   return tr("Record the times of the sensor's own driver, or its packets");
 }
 

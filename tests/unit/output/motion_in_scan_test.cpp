@@ -3,7 +3,8 @@
 
 // Proves: what is unknown of the motion within a scan widens the levels. It adds what the odometry leaves, or what the
 // values of two frames show if that is less, whether motion was taken out of them or not. It never adds less than what
-// is left in the scan moves a value. A motion is taken out only where that narrows the levels.
+// is left in the scan moves a value. Without an odometry the values alone tell. A motion is taken out only where that
+// narrows the levels.
 
 #include "output/motion_in_scan.hpp"
 
@@ -58,7 +59,7 @@ struct Frames {
   Measurements next(const pose_wall_odometry& o, double yaw_rad = 0.0, bool taken_out = false, double since_s = 0.1) {
     Measurements out = measured;
     out.quantity[POSE_WALL_YAW].raw = yaw_rad;
-    MotionInScan(o, settings, kAxes).widen(taken_out, {{kScan_s, 0.5 * kScan_s}, since_s}, {}, walls, &own, &out);
+    MotionInScan(&o, settings, kAxes).widen(taken_out, {{kScan_s, 0.5 * kScan_s}, since_s}, {}, walls, &own, &out);
     return out;
   }
   double added_to_yaw(const pose_wall_odometry& o, double yaw_rad = 0.0, bool taken_out = false, double since_s = 0.1) {
@@ -167,7 +168,7 @@ TEST(MotionInScan, WhatWasTakenOutIsAChangeOfEachValue) {
   };
   for (int frame = 0; frame < 5; ++frame) {
     Measurements m = moved(kScan_s * frame);
-    MotionInScan(o, frames.settings, kAxes)
+    MotionInScan(&o, frames.settings, kAxes)
         .widen(true, {{kScan_s, 0.5 * kScan_s}, kScan_s}, {}, frames.walls, &frames.own, &m);
     for (std::uint32_t q = 0; frame > 1 && q < POSE_WALL_QUANTITIES; ++q) {
       EXPECT_LT(added(m, q), (q < POSE_WALL_D_LF ? 0.001 : 0.31) * kRandom) << q << " in frame " << frame;
@@ -240,17 +241,115 @@ TEST(MotionInScan, OnlyTheFrameBeforeIsAWitness) {
   EXPECT_TRUE(is_none(leave_out));
 }
 
-// Nothing is taken out of a cloud without times, whatever was told, and its values show no share of a scan.
-TEST(MotionInScan, ACloudWithoutTimesIsNoWitness) {
+// No sensor takes longer for a scan than the step to the next one, and none that spins longer than 0.2 s.
+TEST(MotionInScan, AScanWithoutTimesTakesAsLongAsItsStep) {
+  const Settings settings = test::settings_with();
+  EXPECT_EQ(scan_in_time({0.09, 0.05}, 0.1, settings).scan.whole_s, 0.09) << "by its times";
+  EXPECT_EQ(scan_in_time({}, 0.07, settings).scan.whole_s, 0.07);
+  EXPECT_EQ(scan_in_time({}, 0.07, settings).scan.mean_s, 0.035);
+  for (const double since_s : {0.3, 1e9, 0.0, -1.0})
+    EXPECT_EQ(scan_in_time({}, since_s, settings).scan.whole_s, 0.2) << since_s;
+}
+
+// The first scan as well: it may be the machine's first one after a start while it turns.
+TEST(MotionInScan, WhatAnOdometryTellsIsLeftInAScanWithoutTimes) {
   Frames frames;
-  const pose_wall_odometry turns = with_rates(0.3, 2.0, 2.0);
-  for (int frame = 0; frame < 3; ++frame) {
-    Measurements m = frames.measured;
-    MotionInScan(turns, frames.settings, kAxes).widen(true, {{}, kScan_s}, {}, frames.walls, &frames.own, &m);
-    EXPECT_EQ(added(m, POSE_WALL_YAW), 0.0);
-    EXPECT_EQ(frames.own.taken_out[POSE_WALL_YAW], 0.0);
+  Measurements m = frames.measured;
+  const pose_wall_odometry turns = with_rates(0.3, 0.0);
+  MotionInScan(&turns, frames.settings, kAxes)
+      .widen(false, scan_in_time({}, 0.0, frames.settings), {}, frames.walls, &frames.own, &m);
+  EXPECT_NEAR(added(m, POSE_WALL_YAW), kActs * 0.2 * 0.3, 1e-6);
+}
+
+// As the key scan_max: 0 says.
+TEST(MotionInScan, CloudsThatComeFreedOfMotionAreNotWidened) {
+  Frames frames;
+  frames.settings.scan_max = 0.0;
+  for (const pose_wall_odometry* told : {&kHardlyKnown, static_cast<const pose_wall_odometry*>(nullptr)}) {
+    for (int frame = 0; frame < 3; ++frame) {
+      Measurements m = frames.measured;
+      m.quantity[POSE_WALL_YAW].raw = 0.1 * frame;
+      MotionInScan(told, frames.settings, kAxes)
+          .widen(false, scan_in_time({}, 0.1, frames.settings), {}, frames.walls, &frames.own, &m);
+      for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) EXPECT_EQ(added(m, q), 0.0) << q;
+    }
   }
-  EXPECT_GT(frames.added_to_yaw(turns), kActs * 0.03) << "the odometry's";
+}
+
+// Frames of a machine that nobody tells of, with noise of one standard deviation of the random part.
+struct Untold {
+  Frames frames;
+  std::mt19937 random{20261129};
+  std::normal_distribution<double> noise{0.0, 1.0};
+  double error_rad = 0.0;
+
+  double added_to_yaw(double yaw_rad, double skew_rad, double since_s) {
+    error_rad = skew_rad + noise(random) * frames.measured.quantity[POSE_WALL_YAW].sigma;
+    Measurements m = frames.measured;
+    m.quantity[POSE_WALL_YAW].raw = yaw_rad + error_rad;
+    MotionInScan(nullptr, frames.settings, kAxes)
+        .widen(false, scan_in_time({}, since_s, frames.settings), {}, frames.walls, &frames.own, &m);
+    return added(m, POSE_WALL_YAW);
+  }
+};
+
+// Slow turns hide in the noise, fast ones do not; frames may be lost, and scans be shorter than their step.
+TEST(MotionInScan, ATurnThatNobodyTellsIsInTheLevelFromTheSecondFrameOn) {
+  constexpr int kFrames = 200;
+  for (const double turn_in_scan : {0.2, 0.5, 1.0, 2.0, 5.0, 20.0}) {  // of the random part
+    for (const double acts : {0.34, 0.5, kActs}) {
+      for (const double since_s : {0.1, 0.15, 0.4}) {
+        Untold turning;
+        const double rate = turn_in_scan * kRandom / kScan_s;
+        int beyond = 0;
+        for (int frame = 0; frame < kFrames; ++frame) {
+          const double level = kRandom + turning.added_to_yaw(frame * since_s * rate, acts * kScan_s * rate, since_s);
+          if (frame > 0 && std::fabs(turning.error_rad) > level) ++beyond;
+        }
+        EXPECT_EQ(beyond, 0) << turn_in_scan << " " << acts << " " << since_s;
+      }
+    }
+  }
+}
+
+// It stands, begins to turn within some frames, turns, and stops. What hides in the noise of a change is beyond the
+// level by a part of that noise at most.
+TEST(MotionInScan, ATurnThatBeginsIsInTheLevelWithoutAnOdometryToo) {
+  constexpr double kHides = 0.5 * kRandom;
+  for (const double turn_in_scan : {0.5, 2.0, 5.0, 20.0}) {  // of the random part
+    for (const int begins_within : {1, 2, 5}) {
+      Untold turning;
+      double yaw_rad = 0.0, rate = 0.0;
+      for (int frame = 0; frame < 400; ++frame) {
+        const double most = turn_in_scan * kRandom / kScan_s, step = most / begins_within;
+        const bool turns = frame % 20 >= 10;
+        rate = turns ? std::min(most, rate + step) : std::max(0.0, rate - step);
+        const double level = kRandom + turning.added_to_yaw(yaw_rad, kActs * kScan_s * rate, kScan_s);
+        yaw_rad += kScan_s * rate;
+        ASSERT_LE(std::fabs(turning.error_rad), level + kHides) << turn_in_scan << " " << begins_within << " " << frame;
+      }
+    }
+  }
+}
+
+// Not as much as one that may just have begun.
+TEST(MotionInScan, ASteadyTurnCostsItsShareOfAScan) {
+  Untold turning;
+  double most = 0.0;
+  for (int frame = 0; frame < 100; ++frame) {
+    const double turned = 10.0 * kRandom;
+    const double level = turning.added_to_yaw(frame * turned, 0.5 * turned, kScan_s);
+    if (frame > 2) most = std::max(most, level);
+  }
+  EXPECT_LT(most, (kActs * 10.0 + 2.0) * kRandom);
+}
+
+// The noise of a change is in a level already: a standing machine pays next to nothing.
+TEST(MotionInScan, AStandingMachineThatNobodyTellsKeepsItsLevels) {
+  Untold standing;
+  double sum = 0.0;
+  for (int frame = 0; frame < 1000; ++frame) sum += standing.added_to_yaw(0.0, 0.0, kScan_s);
+  EXPECT_LT(sum / 1000, 0.02 * kRandom);
 }
 
 // Both ends of a wall on the same side of base: a turn shows less in their difference than in each of them.
@@ -269,7 +368,7 @@ TEST(MotionInScan, ATurnIsInDistancesWhereverTheyAreMeasured) {
         error_m[end] = kOffOfTurn * in_scan_rad * end_m[end];
         m.quantity[POSE_WALL_D_RF + end].raw = turned_rad * end_m[end] + error_m[end];
       }
-      MotionInScan(kHardlyKnown, frames.settings, kAxes)
+      MotionInScan(&kHardlyKnown, frames.settings, kAxes)
           .widen(false, {{kScan_s, 0.5 * kScan_s}, kScan_s}, {}, frames.walls, &frames.own, &m);
       for (std::uint32_t end = 0; end < 2; ++end) {
         EXPECT_GE(added(m, POSE_WALL_D_RF + end) + kRandom, std::fabs(error_m[end])) << end_m[end] << " m " << frame;
@@ -319,7 +418,8 @@ TEST(MotionInScan, IsTakenOutOnlyWhereThatNarrowsLevels) {
   Frames frames;
   frames.next(kHardlyKnown);
   const auto improves = [&](double turn, double level) {
-    return MotionInScan(with_rates(turn, level), frames.settings, kAxes).improves(frames.own);
+    const pose_wall_odometry told = with_rates(turn, level);
+    return MotionInScan(&told, frames.settings, kAxes).improves(frames.own);
   };
   EXPECT_TRUE(improves(0.5, 0.05)) << "a turn of 0.05 known to a tenth";
   EXPECT_FALSE(improves(0.5, 2.0)) << "a turn that may be none";
