@@ -139,8 +139,8 @@ class ByChange {
     const double before = has_two(quantity) ? larger(0.0, 1.0 - seconds / since_s_) : 0.0;
     const double moved = change_of(quantity) - (before > 0.0 ? before * last_.change[quantity] : 0.0);
     const double noise_before = std::sqrt(square_of(1.0 + before) + square_of(before)) * last_.random[quantity];
-    const bool shows = std::fabs(moved) > std::sqrt(square_of(random) + square_of(noise_before));
-    return shows ? larger(0.0, std::fabs(moved) + noise_before - random) : 0.0;
+    const bool is_beyond_noise = std::fabs(moved) > std::sqrt(square_of(random) + square_of(noise_before));
+    return is_beyond_noise ? larger(0.0, std::fabs(moved) + noise_before - random) : 0.0;
   }
 
   // How large an error may be that a change shows; least: 1 of a motion that may begin with this scan, 0 of a steady
