@@ -223,6 +223,11 @@ void packets() {
   write("packets", automatic + datagrams(mid360_payload('\1', 14), 3));
   write("packets", automatic + datagrams(mid360_payload('\2', 8), 3));
   write("packets", automatic + datagrams(mid360_payload('\3', 10), 3));
+  write("packets", automatic + datagrams(mid360_payload('\x11', 28), 3));
+  // By the names of a HAP and an Avia 2; and of a data type that is not read.
+  for (const char kind : {'\x1C', '\x1D'})
+    write("packets", kind + Text("\x63", 1) + datagrams(mid360_payload('\x11', 28), 3));
+  write("packets", automatic + datagrams(mid360_payload('\x12', 42), 2));
   const Text first_kind = datagrams(lslidar_payload(Text("\1\2\3\0\x37\x10", 6)), 6);
   write("packets", automatic + datagrams(lslidar_device(), 1) + first_kind);
   write("packets", automatic + first_kind + datagrams(lslidar_device(), 1));

@@ -171,6 +171,7 @@ TEST(PacketFacts, OfAMid360) {
     return only_sender(folder.write("a.pcap", test::capture_of(payloads)));
   };
   const SourceSender free = sender_of(0, true);
+  EXPECT_EQ(found(free, "return mode"), "one return");
   EXPECT_EQ(found(free, "time source"), "none: since its start");
   EXPECT_EQ(found(free, "synchronised"), "no");
   EXPECT_EQ(found(free, "packets lost"), "0.11 % (1)");
@@ -178,6 +179,22 @@ TEST(PacketFacts, OfAMid360) {
   EXPECT_EQ(found(synchronised, "time source"), "PTP");
   EXPECT_EQ(found(synchronised, "synchronised"), "yes");
   EXPECT_EQ(found(synchronised, "packets lost"), "") << "its packets have no numbers";
+}
+
+TEST(PacketFacts, OfALivoxThatCountsOn) {
+  const TempFolder folder;
+  const std::string point = raw(1000) + raw(0) + raw(0) + "\x2A" + '\0';
+  std::vector<std::string> payloads;
+  for (std::uint32_t i = 0; i < 900; ++i) {
+    if (i == 700) continue;
+    std::string payload = test::mid360_payload(0x11, 480'000ULL * i, {point + point});
+    payload.replace(7, 2, raw(static_cast<std::uint16_t>(65136 + i)));  // from 65535 to 0 at the 400th
+    payloads.push_back(payload);
+  }
+  const SourceSender sender = only_sender(folder.write("a.pcap", test::capture_of(payloads)));
+  EXPECT_EQ(found(sender, "return mode"), "two returns");
+  EXPECT_EQ(found(sender, "model"), "Livox Mid-360, Mid-360S, HAP or Avia 2");
+  EXPECT_EQ(found(sender, "packets lost"), "0.11 % (1)");
 }
 
 TEST(PacketFacts, OfAnOuster) {

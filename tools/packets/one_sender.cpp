@@ -108,8 +108,8 @@ bool OneSender::is_repeated(Candidate* candidate, const Datagram& datagram) {
   return false;
 }
 
-bool OneSender::is_data_of_sensor(ByteView payload) const {
-  return payload.size == data_bytes_ || recognise_sensor(payload).has_value();
+bool OneSender::is_data_of_sensor(const Datagram& datagram) const {
+  return datagram.payload.size == data_bytes_ || recognised_title(datagram) != nullptr;
 }
 
 bool OneSender::add(const Datagram& datagram) {
@@ -121,7 +121,7 @@ bool OneSender::add(const Datagram& datagram) {
   Candidate* const candidate = gate_.may_be(who) ? candidate_of(datagram.from) : nullptr;
   if (candidate == nullptr) {
     if (gate_.may_be(who) && chosen_ == nullptr) return begin(datagram);
-    if (is_data_of_sensor(datagram.payload)) gate_.hear(who);
+    if (is_data_of_sensor(datagram)) gate_.hear(who);
     return false;
   }
   if (datagram.payload.size == candidate->data_bytes && is_repeated(candidate, datagram)) return true;

@@ -75,7 +75,7 @@ class OneSender : public ScanAssembler {
   static void gather(Candidate* candidate);
   void push_scans(Candidate* candidate);
   void decide_for(Candidate* candidate);
-  bool is_data_of_sensor(ByteView payload) const;
+  bool is_data_of_sensor(const Datagram& datagram) const;
   const SourceIdentity& identity_of(const Sender& from);
 
   Make make_;

@@ -50,7 +50,7 @@ class PacketFrames::ScanWalk {
   }
 
   const OneSender& assembler() const { return assembler_; }
-  std::optional<SensorKind> other() const { return other_; }
+  const char* other() const { return other_; }
   const std::string& unread() const { return unread_; }
 
  private:
@@ -81,7 +81,7 @@ class PacketFrames::ScanWalk {
     }
     if (facts_ != nullptr) facts_->hear(*datagram);
     if (!assembler_.add(*datagram)) {
-      if (!other_) other_ = recognise_sensor(datagram->payload);
+      if (other_ == nullptr) other_ = recognised_title(*datagram);
       if (unread_.empty()) unread_ = unread_sensor(datagram->payload);
     }
   }
@@ -96,7 +96,7 @@ class PacketFrames::ScanWalk {
   SenderFacts* facts_;
   std::optional<Scan> ahead_;
   std::deque<std::string> faults_;
-  std::optional<SensorKind> other_;  // whose packets the assembler did not take
+  const char* other_ = nullptr;  // whose packets the assembler did not take
   std::string unread_;
   std::string refusal_;  // of a sender's packets
   std::size_t given_ = 0;
@@ -142,7 +142,7 @@ void PacketFrames::refuse_empty(const ScanWalk& survey, const SensorChoice& choi
     wanted += say(", nor of an Ouster: {}", recording_.ouster_hint);
   }
   std::string there;
-  if (survey.other()) there = say("; there are packets of a {}", known_sensor(*survey.other()).title);
+  if (survey.other() != nullptr) there = say("; there are packets of a {}", survey.other());
   if (!survey.unread().empty()) there += say("; there is data of {}, which is not read", survey.unread());
   const std::string hint = survey.assembler().hint();
   if (!hint.empty()) there += "; " + hint;

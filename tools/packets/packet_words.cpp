@@ -15,8 +15,8 @@
 
 #include "language/language.hpp"
 #include "packets/hesai_models.hpp"
+#include "packets/livox.hpp"
 #include "packets/lslidar_models.hpp"
-#include "packets/mid360.hpp"
 #include "packets/ouster_metadata.hpp"
 #include "packets/turn_assembler.hpp"
 #include "packets/velodyne_models.hpp"
@@ -188,22 +188,28 @@ class HesaiWords : public PacketWords {
   MissingPackets packets_;
 };
 
-// Livox SDK2, protocol of the Mid-360: a number that may begin anew with each frame, and the kind of time.
-class Mid360Words : public PacketWords {
+// Livox-SDK2, packet of livox_lidar_def.h: a number, and the kind of time. A Mid-360's number begins anew with each
+// frame; a HAP's and a Mid-360S' counts on to 65535 (issue 1 of Livox-SDK2).
+class LivoxWords : public PacketWords {
  public:
   void hear(const Datagram& datagram) override {
     const ByteView payload = datagram.payload;
-    if (!is_mid360_data(payload)) return;
+    if (!is_livox_data(payload)) return;
     constexpr std::size_t kNumberAt = 7, kTimeTypeAt = 11, kClockAt = 28;
+    constexpr std::uint32_t kNumbers = 1U << 16U;
+    is_dual_ = is_livox_dual(payload);
     time_type_ = little_endian_at(payload, kTimeTypeAt, 1);
     const std::uint32_t number = little_endian_at(payload, kNumberAt, 2);
-    if (number != 0) packets_.hear(number, 1.0, std::int64_t{1} << 16);
+    const bool is_counting_on = last_number_ >= kNumbers - kNumbersKept;
+    if (number != 0 || is_counting_on) packets_.hear(number, 1.0, kNumbers);
+    last_number_ = number;
     const std::uint64_t high = little_endian_at(payload, kClockAt + 4, 4);
     const std::uint64_t clock_ns = high << 32U | little_endian_at(payload, kClockAt, 4);
     clock_.hear(static_cast<std::int64_t>(clock_ns & 0x7FFFFFFFFFFFFFFFU), datagram.captured_ns, 0);
   }
 
   void describe(SourceSender* sender) const override {
+    add_fact(sender, "return mode", is_dual_ ? translatable("two returns") : translatable("one return"));
     static constexpr std::array<const char*, 3> kSources = {translatable("none: since its start"), "PTP", "GPS"};
     if (time_type_ < kSources.size()) {
       add_fact(sender, "time source", kSources[time_type_]);
@@ -214,7 +220,8 @@ class Mid360Words : public PacketWords {
   }
 
  private:
-  std::uint32_t time_type_ = 0;
+  bool is_dual_ = false;
+  std::uint32_t time_type_ = 0, last_number_ = 0;
   MissingPackets packets_;
   ClockBesideArrival clock_;
 };
@@ -375,7 +382,7 @@ std::unique_ptr<PacketWords> packet_words_for(ByteView payload, const std::strin
   if (lslidar_model_of(lslidar_packet(payload))) return std::make_unique<LslidarWords>();
   if (is_velodyne_data(payload)) return std::make_unique<VelodyneWords>();
   if (hesai_model_of(payload)) return std::make_unique<HesaiWords>();
-  if (is_mid360_data(payload)) return std::make_unique<Mid360Words>();
+  if (is_livox_data(payload)) return std::make_unique<LivoxWords>();
   return nullptr;
 }
 

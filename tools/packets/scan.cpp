@@ -3,11 +3,21 @@
 
 #include "packets/scan.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <utility>
 
 namespace pose_wall::tools {
+namespace {
+
+// Points that all have one number would look like those of a planar scanner: a pattern of one line has no rings.
+bool has_rings(const Scan& scan) {
+  return scan.rings > 1 || std::any_of(scan.points.begin(), scan.points.end(),
+                                       [&](const ScanPoint& point) { return point.ring != scan.points.front().ring; });
+}
+
+}  // namespace
 
 Frame frame_of(const Scan& scan) {
   PointLayout layout;
@@ -18,8 +28,8 @@ Frame frame_of(const Scan& scan) {
                    {"y", {offsetof(ScanPoint, y_m), POSE_WALL_FIELD_FLOAT32}},
                    {"z", {offsetof(ScanPoint, z_m), POSE_WALL_FIELD_FLOAT32}},
                    {"intensity", {offsetof(ScanPoint, intensity), POSE_WALL_FIELD_FLOAT32}},
-                   {"t", {offsetof(ScanPoint, t_ns), POSE_WALL_FIELD_UINT32}},
-                   {"ring", {offsetof(ScanPoint, ring), POSE_WALL_FIELD_UINT16}}};
+                   {"t", {offsetof(ScanPoint, t_ns), POSE_WALL_FIELD_UINT32}}};
+  if (has_rings(scan)) layout.fields.push_back({"ring", {offsetof(ScanPoint, ring), POSE_WALL_FIELD_UINT16}});
   Bytes bytes(scan.points.size() * sizeof(ScanPoint));
   if (!bytes.empty()) std::memcpy(bytes.data(), scan.points.data(), bytes.size());
   Frame frame = describe_frame(std::move(bytes), layout);

@@ -124,8 +124,8 @@ void SenderFacts::hear(const Datagram& datagram) {
   if (heard->words == nullptr && !heard->is_data && heard->looks < kLooksMost) {
     ++heard->looks;
     heard->words = packet_words_for(datagram.payload, metadata_);
-    if (const std::optional<SensorKind> sensor = recognise_sensor(datagram.payload)) {
-      heard->model = known_sensor(*sensor).title;
+    if (const char* const title = recognised_title(datagram)) {
+      heard->model = title;
     } else {
       heard->model = unread_sensor(datagram.payload);
     }

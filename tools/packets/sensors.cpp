@@ -61,6 +61,21 @@ std::optional<HesaiModel> hesai_model(SensorKind kind) {
   }
 }
 
+std::optional<LivoxModel> livox_model(SensorKind kind) {
+  switch (kind) {
+    case SensorKind::kMid360:
+      return LivoxModel::kMid360;
+    case SensorKind::kMid360s:
+      return LivoxModel::kMid360s;
+    case SensorKind::kLivoxHap:
+      return LivoxModel::kHap;
+    case SensorKind::kAvia2:
+      return LivoxModel::kAvia2;
+    default:
+      return std::nullopt;
+  }
+}
+
 // Of what is named the models that it may be; none for another maker's.
 std::vector<LslidarModel> lslidar_models(SensorKind kind) {
   using Model = LslidarModel;
@@ -144,7 +159,7 @@ class AutomaticAssembler : public ScanAssembler {
     const bool is_lslidar = lslidar_model_of(payload).has_value();
     const bool is_robosense = robosense_layout_of(payload) || is_robosense_device(payload);
     const bool is_other =
-        is_velodyne_data(payload) || is_mid360_data(payload) || is_robosense_m1_data(payload) || is_lslidar;
+        is_velodyne_data(payload) || is_livox_data(payload) || is_robosense_m1_data(payload) || is_lslidar;
     const bool has_device = is_robosense_metadata(choice_.metadata);
     if (has_device && (is_other || hesai_model_of(payload))) {
       throw FrameError(
@@ -163,8 +178,8 @@ class AutomaticAssembler : public ScanAssembler {
       inner_ = std::make_unique<VelodyneAssembler>();
     } else if (hesai_model_of(payload)) {
       inner_ = std::make_unique<HesaiAssembler>(std::nullopt, choice_.metadata);
-    } else if (is_mid360_data(payload)) {
-      inner_ = std::make_unique<Mid360Assembler>(choice_.frame_ns);
+    } else if (is_livox_data(payload)) {
+      inner_ = std::make_unique<LivoxAssembler>(std::nullopt, choice_.frame_ns);
     } else if (is_robosense) {
       inner_ = std::make_unique<RoboSenseAssembler>(std::nullopt, choice_.metadata);
     } else if (is_robosense_m1_data(payload)) {
@@ -252,7 +267,7 @@ const std::vector<KnownSensor>& known_sensors() {
       {SensorKind::kHesaiXt32, "hesai_xt32", "Hesai PandarXT-32", 2368, SensorMetadata::kHesaiAngles, false},
       {SensorKind::kHesai40p, "hesai_40p", "Hesai Pandar40P", 2368, SensorMetadata::kHesaiAngles, false},
       {SensorKind::kHesaiQt64, "hesai_qt64", "Hesai PandarQT", 2368, SensorMetadata::kHesaiAngles, false},
-      {SensorKind::kMid360, "mid360", "Livox Mid-360", 56301, SensorMetadata::kNone, false},
+      {SensorKind::kMid360, "mid360", "Livox Mid-360", kLivoxHostPort, SensorMetadata::kNone, false},
       {SensorKind::kLslidarC16, "lslidar_c16", "LSLidar C16", 2368, SensorMetadata::kNone, false, 2369},
       {SensorKind::kLslidarC16Of15, "lslidar_c16_15deg", "LSLidar C16 of firmware 2 or 3, -15 to 15 degrees", 2368,
        SensorMetadata::kNone, false, 2369},
@@ -278,7 +293,10 @@ const std::vector<KnownSensor>& known_sensors() {
       {SensorKind::kRoboSenseAiry, "robosense_airy", "RoboSense Airy", kRoboSensePort, SensorMetadata::kRoboSenseDevice,
        false, kRoboSenseDevicePort},
       {SensorKind::kRoboSenseM1, "robosense_m1", "RoboSense M1", kRoboSensePort, SensorMetadata::kNone, false},
-      {SensorKind::kHesaiXt16, "hesai_xt16", "Hesai PandarXT-16", 2368, SensorMetadata::kHesaiAngles, false}};
+      {SensorKind::kHesaiXt16, "hesai_xt16", "Hesai PandarXT-16", 2368, SensorMetadata::kHesaiAngles, false},
+      {SensorKind::kMid360s, "mid360s", "Livox Mid-360S", kLivoxHostPort, SensorMetadata::kNone, false},
+      {SensorKind::kLivoxHap, "hap", "Livox HAP", kLivoxHapPort, SensorMetadata::kNone, false},
+      {SensorKind::kAvia2, "avia2", "Livox Avia 2", kLivoxHostPort, SensorMetadata::kNone, false}};
   return sensors;
 }
 
@@ -332,7 +350,9 @@ std::unique_ptr<ScanAssembler> make_assembler(const SensorChoice& choice) {
     return std::make_unique<RoboSenseAssembler>(model, choice.metadata);
   }
   if (choice.kind == SensorKind::kRoboSenseM1) return std::make_unique<RoboSenseM1Assembler>();
-  if (choice.kind == SensorKind::kMid360) return std::make_unique<Mid360Assembler>(choice.frame_ns);
+  if (const std::optional<LivoxModel> model = livox_model(choice.kind)) {
+    return std::make_unique<LivoxAssembler>(model, choice.frame_ns);
+  }
   if (!lslidar_models(choice.kind).empty()) return std::make_unique<LslidarAssembler>(lslidar_choice(choice.kind));
   if (choice.kind == SensorKind::kLslidarCh128x1) return std::make_unique<LslidarHybridAssembler>();
   if (choice.kind == SensorKind::kOuster || is_ouster_metadata(choice.metadata)) {
@@ -383,9 +403,13 @@ std::optional<SensorKind> recognise_sensor(ByteView payload) {
     return recognise_robosense(payload, *layout);
   }
   if (is_robosense_m1_data(payload)) return SensorKind::kRoboSenseM1;
-  if (is_mid360_data(payload)) return SensorKind::kMid360;
   if (const std::optional<LslidarModel> model = lslidar_model_of(payload)) return recognise_lslidar(*model);
   return std::nullopt;
+}
+
+const char* recognised_title(const Datagram& datagram) {
+  if (const std::optional<SensorKind> kind = recognise_sensor(datagram.payload)) return known_sensor(*kind).title;
+  return is_livox_data(datagram.payload) ? livox_title(datagram.from) : nullptr;
 }
 
 std::string unread_sensor(ByteView payload) {
@@ -396,7 +420,7 @@ std::string unread_sensor(ByteView payload) {
     return "a Velodyne of 64 or 128 lasers";
   }
   for (const std::string& other :
-       {unread_lslidar(payload), unread_lslidar_hybrid(payload), unread_robosense(payload)}) {
+       {unread_lslidar(payload), unread_lslidar_hybrid(payload), unread_robosense(payload), unread_livox(payload)}) {
     if (!other.empty()) return other;
   }
   return unread_hesai(payload);

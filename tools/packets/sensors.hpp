@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "packets/mid360.hpp"
+#include "packets/livox.hpp"
 #include "packets/scan.hpp"
 
 namespace pose_wall::tools {
@@ -45,7 +45,10 @@ enum class SensorKind {
   kRoboSenseBpearl4,
   kRoboSenseAiry,
   kRoboSenseM1,
-  kHesaiXt16
+  kHesaiXt16,
+  kMid360s,
+  kLivoxHap,
+  kAvia2
 };
 
 enum class SensorMetadata { kNone, kOusterJson, kHesaiAngles, kRoboSenseDevice };
@@ -72,8 +75,8 @@ bool is_ouster_metadata(const std::string& text);
 struct SensorChoice {
   SensorKind kind = SensorKind::kAutomatic;
   std::string metadata;  // JSON of an Ouster, table of angles of a Hesai, device packet of a RoboSense; "": none
-  std::int64_t frame_ns = kMid360Frame_ns;  // of sensors without a turn
-  std::string source;                       // the sender to read; "": the first whose turn is whole
+  std::int64_t frame_ns = kLivoxFrame_ns;  // of sensors without a turn
+  std::string source;                      // the sender to read; "": the first whose turn is whole
 };
 
 // The same as people write it, in options and settings.
@@ -93,9 +96,12 @@ SensorChoice choose_sensor(const SensorOptions& options);
 // themselves or what was chosen: which then stands for all packets of this sensor.
 std::unique_ptr<ScanAssembler> make_assembler(const SensorChoice& choice);
 
-// Whose data packet this is, where a packet alone tells; nothing for an Ouster's. Of Velodyne's the product byte
-// counts, which first VLP-16s had as an HDL-32E: make_assembler looks at more than one.
+// Whose data packet this is, where a packet alone tells; nothing for an Ouster's and a Livox'. Of Velodyne's the
+// product byte counts, which first VLP-16s had as an HDL-32E: make_assembler looks at more than one.
 std::optional<SensorKind> recognise_sensor(ByteView payload);
+
+// The same in words, by its ports as well: "Livox HAP", "Livox Mid-360, Mid-360S or Avia 2"; nullptr for no data.
+const char* recognised_title(const Datagram& datagram);
 
 // What these bytes are data of, where it is known and not read: "a Hesai of 128 lasers in 2 blocks"; else "".
 std::string unread_sensor(ByteView payload);

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "packet_files.hpp"
-#include "packets/mid360.hpp"
+#include "packets/livox.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -33,13 +33,13 @@ std::string in_degrees(std::uint32_t depth_mm, std::uint16_t zenith, std::uint16
 }
 
 Scan scan_of(const std::string& payload) {
-  Mid360Assembler assembler;
+  LivoxAssembler assembler(LivoxModel::kMid360);
   EXPECT_TRUE(add(assembler, payload));
   assembler.finish();
   return assembler.take().value();
 }
 
-TEST(Mid360, PointsOfEveryDataType) {
+TEST(Livox, PointsOfEveryDataType) {
   const Scan mm = scan_of(mid360_payload(1, kStart_ns, {in_mm(1000, -2000, 3005), in_mm(0, 0, 0)}));
   ASSERT_EQ(mm.points.size(), 2U);
   EXPECT_EQ(mm.rings, 1U);
@@ -54,8 +54,8 @@ TEST(Mid360, PointsOfEveryDataType) {
   expect_at(spherical.points[2], 0.0, 0.0, 0.0);
 }
 
-TEST(Mid360, PointsHaveTimesWithinTheirFrame) {
-  Mid360Assembler assembler;
+TEST(Livox, PointsHaveTimesWithinTheirFrame) {
+  LivoxAssembler assembler(LivoxModel::kMid360);
   const std::vector<std::string> points(4, in_mm(1000, 0, 0));
   EXPECT_TRUE(add(assembler, mid360_payload(1, kStart_ns, points, 4800)));
   EXPECT_TRUE(add(assembler, mid360_payload(1, kStart_ns + 10 * kMs, points, 4800)));
@@ -72,7 +72,7 @@ TEST(Mid360, PointsHaveTimesWithinTheirFrame) {
 
 std::vector<std::size_t> frames_of(const std::vector<std::uint64_t>& times_ns, std::int64_t frame_ns,
                                    std::vector<bool>* complete = nullptr) {
-  Mid360Assembler assembler(frame_ns);
+  LivoxAssembler assembler(std::nullopt, frame_ns);
   for (const std::uint64_t time_ns : times_ns) {
     EXPECT_TRUE(add(assembler, mid360_payload(1, time_ns, {in_mm(1000, 0, 0)})));
   }
@@ -85,40 +85,40 @@ std::vector<std::size_t> frames_of(const std::vector<std::uint64_t>& times_ns, s
   return sizes;
 }
 
-TEST(Mid360, FramesAreCutByTheSensorsTime) {
+TEST(Livox, FramesAreCutByTheSensorsTime) {
   std::vector<std::uint64_t> times_ns;
   for (std::uint64_t i = 0; i < 25; ++i) times_ns.push_back(kStart_ns + i * 10 * kMs);
   std::vector<bool> complete;
-  EXPECT_EQ(frames_of(times_ns, kMid360Frame_ns, &complete), (std::vector<std::size_t>{10, 10, 5}));
+  EXPECT_EQ(frames_of(times_ns, kLivoxFrame_ns, &complete), (std::vector<std::size_t>{10, 10, 5}));
   EXPECT_EQ(complete, (std::vector<bool>{true, true, false}));
   EXPECT_EQ(frames_of(times_ns, 50'000'000), (std::vector<std::size_t>{5, 5, 5, 5, 5}));
 }
 
-TEST(Mid360, AClockThatJumpsBeginsAnotherFrame) {
+TEST(Livox, AClockThatJumpsBeginsAnotherFrame) {
   const std::uint64_t far = ~std::uint64_t{0};
   std::vector<bool> complete;
-  EXPECT_EQ(frames_of({kStart_ns, kStart_ns + kMs, kStart_ns - 5 * kMs, far, 0}, kMid360Frame_ns, &complete),
+  EXPECT_EQ(frames_of({kStart_ns, kStart_ns + kMs, kStart_ns - 5 * kMs, far, 0}, kLivoxFrame_ns, &complete),
             (std::vector<std::size_t>{2, 1, 1, 1}));
   EXPECT_FALSE(complete[0]) << "the clock went back before it was full";
 }
 
-TEST(Mid360, APacketThatComesLateBeginsNoFrame) {
+TEST(Livox, APacketThatComesLateBeginsNoFrame) {
   std::vector<std::uint64_t> times_ns;
   for (std::uint64_t i = 0; i < 20; ++i) times_ns.push_back(kStart_ns + i * 10 * kMs);
   times_ns.insert(times_ns.begin() + 11,
                   kStart_ns + 100 * kMs - kMs / 2);  // of the first frame, behind the second's first
-  EXPECT_EQ(frames_of(times_ns, kMid360Frame_ns), (std::vector<std::size_t>{10, 10}));
+  EXPECT_EQ(frames_of(times_ns, kLivoxFrame_ns), (std::vector<std::size_t>{10, 10}));
 }
 
-TEST(Mid360, FramesOfNoLengthAreRefused) {
+TEST(Livox, FramesOfNoLengthAreRefused) {
   for (const std::int64_t frame_ns : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{10'000'000'001}}) {
-    EXPECT_THROW(Mid360Assembler{frame_ns}, FrameError) << frame_ns;
+    EXPECT_THROW(LivoxAssembler(std::nullopt, frame_ns), FrameError) << frame_ns;
   }
 }
 
-TEST(Mid360, WhatIsNoDataIsNotTaken) {
+TEST(Livox, WhatIsNoDataIsNotTaken) {
   const std::string good = mid360_payload(1, kStart_ns, {in_mm(1, 2, 3), in_mm(1, 2, 3)});
-  Mid360Assembler assembler;
+  LivoxAssembler assembler(LivoxModel::kMid360);
   for (std::size_t size = 0; size < good.size(); ++size) EXPECT_FALSE(add(assembler, good.substr(0, size))) << size;
   EXPECT_FALSE(add(assembler, good + "x"));
   std::string beyond = good, none = good, imu = good, type = good, version = good;
