@@ -23,7 +23,7 @@ PAGES = {
     "motion page": (("motion_words.js",), ("motion.html", "motion.js", "motion_views.js")),
 }
 # The English of these comes from the program.
-CHINESE_ALONE = ("reason_texts.", "senses.", "summaries.", "fact_names.", "part_names.")
+CHINESE_ALONE = ("reason_texts.", "senses.", "summaries.", "fact_names.", "fact_values.", "part_names.")
 NAMES_ITS_LANGUAGE = "other_language"
 WORDS_MOST, SIGNS_MOST = 40, 80
 HAN = re.compile(r"[\u3400-\u9fff]")
@@ -96,7 +96,7 @@ def faults_of_daemon(root, chinese):
     """Whole sentences and names of facts. Sentences that are put together from parts stay English."""
     for path in sorted((root / "tools/live").rglob("*.cpp")):
         source = path.read_text(encoding="utf-8")
-        for statement in re.findall(r'health\.summary = ((?:"[^"]*"|[^;"])*);', source):
+        for statement in re.findall(r'health(?:\.|->)summary \+?= ((?:"[^"]*"|[^;"])*);', source):
             if "fmt::format" in statement or "+" in statement:
                 continue
             for sentence in "; ".join(re.findall(r'"([^"]*)"', statement)).split("; "):

@@ -112,6 +112,23 @@ TEST_F(LiveRuntimeTest, EachResultComesWithItsFrame) {
   }
 }
 
+// Whatever the source is, for it is the runtime that looks.
+TEST_F(LiveRuntimeTest, TimesOfNoUseStandInTheHealthUntilTheyAreGood) {
+  open({});
+  const auto take = [this](std::int64_t i, std::uint32_t time_at) {
+    LiveFrame frame = road_frame(i * 100'000'000, 0.01F * static_cast<float>(i % 7));
+    frame.frame.cloud.time = {time_at, POSE_WALL_FIELD_FLOAT32};
+    runtime_->take(std::move(frame));
+    runtime_->wait_idle();
+  };
+  for (std::int64_t i = 0; i < 2; ++i) take(i, 12);  // what is of all points the same
+  EXPECT_EQ(fact(runtime_->health(), "times of points"), "one_time");
+  EXPECT_EQ(runtime_->health().grade, Grade::kWarning);
+  for (std::int64_t i = 2; i < 32; ++i) take(i, 0);  // x, of 50 m: as ms a scan of 0.05 s
+  EXPECT_EQ(fact(runtime_->health(), "times of points"), "good");
+  EXPECT_EQ(runtime_->health().summary.find("of no use"), std::string::npos) << runtime_->health().summary;
+}
+
 TEST_F(LiveRuntimeTest, NobodyWantsPointsNobodyGetsThem) {
   open({});
   runtime_->take(road_frame(0));

@@ -146,12 +146,17 @@ bool is_span_wrong(const Note& note, double step_s) {
 }  // namespace
 
 void ScanTimeLook::add(const Frame& frame) {
-  if (frame.cloud.time.type == 0) {
+  // As the engine takes them, of all points: those without a return count, too.
+  const TimeFault unusable = unusable_times(frame);
+  if (unusable != TimeFault::kNone) {
     Note unread;
-    unread.is_type = unusable_times(frame) == TimeFault::kType;
-    if (unread.is_type) notes_.push_back(unread);
+    unread.is_type = unusable == TimeFault::kType;
+    unread.is_one = unusable == TimeFault::kOne;
+    unread.is_unit_unknown = unusable == TimeFault::kUnit;
+    notes_.push_back(unread);
     return;
   }
+  if (frame.cloud.time.type == POSE_WALL_FIELD_NONE) return;
   Returns returns = returns_with_times(frame);
   if (returns.all.size() < kReturnsLeast) return;
   double least = std::numeric_limits<double>::infinity(), most = -least;

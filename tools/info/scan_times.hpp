@@ -18,6 +18,7 @@ namespace pose_wall::tools {
 
 enum class TimeFault {
   kNone,
+  kMissing,   // none, though the machine moves: only who measures motion can tell
   kType,      // a field is called like a time, but is of no type that is read
   kOne,       // all points of a scan have one time
   kUnit,      // in no unit a scan of them takes 0.01 to 1 s
@@ -66,8 +67,8 @@ class ScanTimeLook {
 std::string times_doubt(const ScanTimeFacts& facts);
 // What to do about it; empty where it does no harm.
 std::string times_advice(const ScanTimeFacts& facts);
-// For programs: "type", "one_time", "unit", "no_turn", "by_row", "uneven", "backward", "span", "moved"; empty without a
-// fault.
+// For programs: "none_moving", "type", "one_time", "unit", "no_turn", "by_row", "uneven", "backward", "span", "moved";
+// empty without a fault.
 const char* time_fault_name(TimeFault fault);
 
 }  // namespace pose_wall::tools

@@ -16,6 +16,8 @@ std::string seen_text(const ScanTimeFacts& facts) {
   switch (facts.fault) {
     case TimeFault::kNone:
       return "";
+    case TimeFault::kMissing:
+      return tr("points carry no times, and the machine moves.");
     case TimeFault::kType:
       return tr("a field is called like a time, but is no single number of a type that is read as one.");
     case TimeFault::kOne:
@@ -68,6 +70,8 @@ const char* time_fault_name(TimeFault fault) {
   switch (fault) {
     case TimeFault::kNone:
       return "";
+    case TimeFault::kMissing:
+      return "none_moving";
     case TimeFault::kType:
       return "type";
     case TimeFault::kOne:

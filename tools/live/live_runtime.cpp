@@ -239,6 +239,7 @@ void LiveRuntime::publish(const pose_wall_publication& publication) {
     if (result->frame) {
       header_stamp_ns_ = result->frame->stamp_ns;
       result->frame_id = result->frame->frame_id;
+      times_.note(result->frame->frame, publication);
     }
     if (wants_points_()) result->points = points();
   }
@@ -336,6 +337,7 @@ PartHealth LiveRuntime::health() const {
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     health.add(pose_wall_quantity_name(q), pose_wall_state_name(publication.result.quantity[q].state));
   }
+  if (is_fresh) times_.tell(&health);
   add_runtime_facts(&health);
   return health;
 }

@@ -20,6 +20,7 @@
 #include "live/images.hpp"
 #include "live/sink.hpp"
 #include "live/source.hpp"
+#include "live/times_watch.hpp"
 
 namespace pose_wall::tools::live {
 
@@ -101,6 +102,7 @@ class LiveRuntime final : public FrameTaker, public Images {
   std::map<std::uint64_t, std::shared_ptr<const LiveFrame>> frames_;
 
   std::int64_t header_stamp_ns_ = 0;  // of the last measured frame; of the worker's thread
+  TimesWatch times_;
 
   std::atomic<bool> has_extrinsic_{false};
   std::atomic<std::uint64_t> without_extrinsic_{0}, opened_{0};

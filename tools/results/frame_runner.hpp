@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 
 #include "config_file/motion_settings.hpp"
 #include "frames/frame_source.hpp"
@@ -31,6 +32,9 @@ class FrameRunner {
 
   // What it remembers can be saved before a frame.
   pose_wall_engine* engine() { return engine_.engine().get(); }
+
+  // How the machine moved up to the last frame that was measured; none where the key `motion` is off.
+  const std::optional<pose_wall_motion_result>& moved() const { return engine_.moved(); }
 
   std::size_t block_bytes() const { return engine_.engine().block_bytes(); }
 

@@ -88,6 +88,7 @@ std::string process_frames(const MotionOptions& options, FrameSequence& inputs, 
     if (!options.frames.quiet && frame->frame) times.add(*frame->frame);
     const MotionOutcome outcome = runner.run(std::move(*frame));
     if (!outcome.result) bar.print_above(fmt::format("pose_wall motion: {}: {}", outcome.source, outcome.error));
+    if (!options.frames.quiet && outcome.result) times.add_motion(*outcome.result);
     summary.add(outcome);
     std::string fault = outputs.write(outcome);
     if (!fault.empty()) return fault;

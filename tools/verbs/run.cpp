@@ -105,6 +105,7 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
     if (!options.frames.quiet && frame->frame) closing.times.add(*frame->frame);
     const FrameOutcome outcome = runner.run(std::move(*frame), look);
     if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
+    if (!options.frames.quiet && outcome.result && runner.moved()) closing.times.add_motion(*runner.moved());
     closing.add(outcome);
     std::string fault = outputs.write(outcome);
     if (!fault.empty()) return fault;

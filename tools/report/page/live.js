@@ -96,7 +96,7 @@ function part_text_of(name) {
   const [kind, ...rest] = name.split(' ');
   return [translated('part_names', kind), ...rest].join(' ');
 }
-function fact_text([name, value]) { return `${words().names[name] || translated('fact_names', name)} ${words().states[value] || value}`; }
+function fact_text([name, value]) { return `${words().names[name] || translated('fact_names', name)} ${words().states[value] || translated('fact_values', value)}`; }
 
 function show_health(parts) {
   const w = words();

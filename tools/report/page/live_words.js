@@ -46,7 +46,7 @@ Object.assign(WORDS.zh, {
   // Of the daemon, which speaks English; what is not listed stays as it is.
   part_names: { runtime: '运行时', source: '输入', sink: '输出', 'planar stop': '障碍停车', 'planar roadway': '巷道地图' },
   summaries: {
-    measures: '正在测量', 'frames come, nothing is measured': '有帧到达，但均未测得', 'no frame yet': '尚无帧', 'no frame comes': '没有新的帧',
+    measures: '正在测量', 'times of points are of no use': '点的时间不可用', 'frames come, nothing is measured': '有帧到达，但均未测得', 'no frame yet': '尚无帧', 'no frame comes': '没有新的帧',
     'the worker hangs: results are old, and all values invalid': '计算线程停滞：结果陈旧，全部值无效', 'nothing is measured': '均未测得',
     serves: '正在服务', sends: '正在发送', connected: '已连接', 'seeks the broker': '正在寻找代理服务器', 'tries again': '正在重试', through: '已播放完毕', plays: '正在播放',
     receives: '正在接收', 'waits for clouds': '等待点云', 'no cloud comes any more': '不再有点云到达', publishes: '正在发布', records: '正在记录',
@@ -56,9 +56,10 @@ Object.assign(WORDS.zh, {
     'place: unique': '位置：唯一', 'place: searching': '位置：正在搜索', 'place: unknown': '位置：不在此图中', 'place: ambiguous': '位置：不唯一', 'place: doubtful': '位置：存疑',
     'waits for the sensor: no packet yet': '等待传感器：尚无数据包', 'the sensor is silent': '传感器无数据', 'packets come, no turn yet': '有数据包，尚未满一圈',
   },
+  fact_values: { good: '良好', none: '无', none_moving: '无，而机器在移动', type: '类型不可读', one_time: '全部相同', unit: '单位不明' },
   fact_names: {
     'frames pushed': '收到帧', 'frames measured': '已测帧', silences: '中断次数', 'age ms': '距上次测得时间 ms', 'latency p50 ms': '延迟中位数 ms', 'latency p99 ms': '延迟 99 % ms',
-    'latency worst ms': '最大延迟 ms', 'motion p99 ms': '运动计算 99 % ms', 'frames without motion': '无运动帧', activity: '当前动作', opened: '打开次数',
+    'latency worst ms': '最大延迟 ms', 'motion p99 ms': '运动计算 99 % ms', 'frames without motion': '无运动帧', 'times of points': '点的时间', activity: '当前动作', opened: '打开次数',
     'black box written': '黑匣子已写', 'black box lost': '黑匣子丢失', 'black box failed': '黑匣子失败', 'masters seen': '发现的 master', domain: '域', type: '类型', 'writers matched': '匹配的发布者',
     'largest cloud bytes': '最大点云字节数', 'receive buffer bytes': '接收缓冲字节数', 'clouds lost by DDS': 'DDS 丢失点云', 'dropped, no transform yet': '丢弃（尚无坐标变换）', 'last refusal': '最近一次拒绝',
     viewers: '浏览者', 'viewers turned away': '拒绝的浏览者', 'events sent': '已发事件', 'viewers cut off': '断开的浏览者', frames: '帧', packets: '数据包',
