@@ -268,11 +268,18 @@ TEST(UdpSource, ASecondSensorOnThePortIsNamedAndNotMixedIn) {
   ASSERT_TRUE(catcher.wait_for_frames(3));
   EXPECT_TRUE(becomes_true([&] { return source->health().summary.find("127.0.0.2") != std::string::npos; }))
       << source->health().summary;
+  EXPECT_NE(fact(source->health(), "sources").find(" packets)"), std::string::npos);
+  // Counts would make each look a line of the log.
+  EXPECT_EQ(source->health().summary.find(" packets)"), std::string::npos) << source->health().summary;
   source->stop();
   for (std::uint32_t turn = 0; turn < 3; ++turn) {
     const RangeImage seen = image_of(16, 1800, turn);
     EXPECT_NEAR(range_at(catcher.frames()[turn].frame, 0), seen.range_m[0], 0.012) << turn;
   }
+}
+
+void send_one(const LoopbackSender& sender) {
+  ASSERT_TRUE(sender.send(vlp16_turns(1)[0]));
 }
 
 // It is mounted elsewhere: its walls would be measured from where the first one stands.
@@ -289,8 +296,29 @@ TEST(UdpSource, ASecondSensorDoesNotTakeThePlaceOfOneThatFellSilent) {
   const std::string frames = fact(source->health(), "frames");
   pace.send(other, vlp16_turns(4, 60));
   EXPECT_EQ(fact(source->health(), "frames"), frames);
+  EXPECT_TRUE(becomes_true([&] {
+    send_one(other);
+    return source->health().summary ==
+           "the sensor is silent; waits for 127.0.0.1; 127.0.0.2 is sending, and is not read: udp_sender chooses";
+  })) << source->health().summary;
   pace.send(sender, vlp16_turns(4, 4));
   EXPECT_TRUE(becomes_true([&] { return fact(source->health(), "frames") != frames; })) << source->health().summary;
+  source->stop();
+}
+
+TEST(UdpSource, WhoSendsInPlaceOfTheOneThatIsWaitedForIsNamed) {
+  const std::uint16_t port = free_udp_port();
+  const auto source = make_udp_source(live_config(port, {"udp_sender=127.0.0.1"}));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender other(port, "127.0.0.2");
+  EXPECT_TRUE(becomes_true([&] {
+    send_one(other);
+    return source->health().summary == "packets come from 127.0.0.2, but none from udp_sender 127.0.0.1";
+  })) << source->health().summary;
+  // What it says does not change with each packet: each change is a line of the log.
+  EXPECT_TRUE(
+      becomes_true([&] { return source->health().summary == "packets came, but none from udp_sender 127.0.0.1"; }));
   source->stop();
 }
 

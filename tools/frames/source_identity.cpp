@@ -120,11 +120,14 @@ std::string SourceGate::name_of(const SourceIdentity& who) const {
 
 std::string SourceGate::note(std::string_view where, std::string_view one, std::string_view chooser) const {
   if (!chosen_ || (heard_.size() < 2 && others_ == 0)) return "";
+  const auto named = [&](std::string name, std::uint64_t count) {
+    return one.empty() ? name : fmt::format("{} ({})", name, counted(count, one));
+  };
   std::vector<std::string> refused;
   for (const HeardSource& heard : heard_) {
-    if (heard.who != *chosen_) refused.push_back(fmt::format("{} ({})", name_of(heard.who), counted(heard.count, one)));
+    if (heard.who != *chosen_) refused.push_back(named(name_of(heard.who), heard.count));
   }
-  if (others_ > 0) refused.push_back(say("further ones ({})", counted(others_, one)));
+  if (others_ > 0) refused.push_back(named(tr("further ones"), others_));
   const std::string sources = others_ > 0 ? fmt::format("{}+", heard_.size()) : std::to_string(heard_.size());
   const std::string space = where.empty() ? "" : fmt::format(" {}", where);
   return refused.size() == 1 ? say("{} sources{}: {} is read; {} is not; {} chooses", sources, space, name_of(*chosen_),

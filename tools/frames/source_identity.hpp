@@ -81,7 +81,7 @@ class SourceGate {
 
   // "2 sources on /points: frame_id lidar_left is read; frame_id lidar_right (10 messages) is not; --source chooses".
   // Empty while there is one. `where` stands behind "sources" ("on /points"; may be empty), `one` is what is counted
-  // ("message"), `chooser` what names the one that is read.
+  // ("message"; empty: without counts, as what is said once), `chooser` what names the one that is read.
   std::string note(std::string_view where, std::string_view one, std::string_view chooser = "--source") const;
 
   // Why `wanted` cannot be had: nobody heard is meant by it, or several are. Empty where one is.

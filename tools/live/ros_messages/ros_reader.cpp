@@ -96,7 +96,7 @@ bool RosReader::is_of_this_sensor(const SourceIdentity& source) {
   const bool is_first = !sources_.chosen();
   const std::size_t known = sources_.heard().size();
   const bool is_admitted = sources_.admits(source);
-  if (!is_admitted && sources_.heard().size() > known) log_line(Grade::kWarning, topic_, of_others_text());
+  if (!is_admitted && sources_.heard().size() > known) log_line(Grade::kWarning, topic_, of_others_text("cloud"));
   if (is_admitted && sources_.refused() > 0) are_two_ = true;
   if (!is_admitted || !is_first) return is_admitted;
   cloud_frame_ = source.frame_id.value_or("");
@@ -109,8 +109,8 @@ bool RosReader::is_of_this_sensor(const SourceIdentity& source) {
   return true;
 }
 
-std::string RosReader::of_others_text() const {
-  if (sources_.chosen()) return sources_.note(fmt::format("on {}", topic_), "cloud", "ros_source");
+std::string RosReader::of_others_text(const char* one) const {
+  if (sources_.chosen()) return sources_.note(fmt::format("on {}", topic_), one, "ros_source");
   std::vector<std::string> names;
   for (const HeardSource& heard : sources_.heard()) names.push_back(sources_.name_of(heard.who));
   return fmt::format("ros_source is '{}'; clouds come from {}", sources_.wanted(), fmt::join(names, ", "));
@@ -151,7 +151,7 @@ PartHealth RosReader::health(const std::string& part) const {
   } else if (last_taken_ns_ == 0 || now_ns - last_taken_ns_ > kSilent_ns) {
     health.grade = Grade::kBad;
     health.summary = "messages come, and none is a cloud of this sensor: " +
-                     (last_refusal_.empty() ? of_others_text() : last_refusal_);
+                     (last_refusal_.empty() ? of_others_text("") : last_refusal_);
   } else if (wants_transforms_ && !extrinsic_known_) {
     health.grade = Grade::kBad;
     health.summary = fmt::format("no transform from '{}' to '{}': nothing is measured",
@@ -164,7 +164,7 @@ PartHealth RosReader::health(const std::string& part) const {
   health.add("clouds without stamp", without_stamp_.load());
   if (sources_.refused() > 0) {
     health.add("clouds of another frame_id, dropped", sources_.refused());
-    health.add("sources", of_others_text());
+    health.add("sources", of_others_text("cloud"));
   }
   if (wants_transforms_) health.add("transform messages", transforms_taken_.load());
   if (!last_refusal_.empty()) health.add("last refusal", last_refusal_);

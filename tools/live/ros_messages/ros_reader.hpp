@@ -40,7 +40,8 @@ class RosReader {
   void tell_extrinsic();
   // False for a cloud of another sensor than the first: two of them on one topic.
   bool is_of_this_sensor(const SourceIdentity& source);
-  std::string of_others_text() const;
+  // one: what is counted; empty: without counts, as a summary has it.
+  std::string of_others_text(const char* one) const;
   void refuse(const std::string& why);
 
   MessageEncoding encoding_;

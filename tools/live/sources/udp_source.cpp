@@ -27,10 +27,18 @@ constexpr std::int64_t kSilent_ns = 1'000'000'000;
 constexpr int kLook_ms = 100;
 // A cable is plugged in by hand: who waits a second does not mind.
 constexpr std::int64_t kAddressEvery_ns = 1'000'000'000;
+// Who sent in this time sends still: half of what makes a sensor silent, so that nobody is named who stopped with it.
+constexpr std::int64_t kSends_ns = kSilent_ns / 2;
 // So many packets without one of use are no accident.
 constexpr std::uint64_t kEnoughPackets = 50;
 // A sensor describes itself once to ten times a second; a flood there must not keep its data waiting.
 constexpr int kDeviceAtOnce = 16;
+
+std::string ipv4_text(std::uint32_t address) {
+  Sender from;
+  from.address = address;
+  return identity_of_sender(from).address;
+}
 
 class UdpSource final : public Source {
  public:
@@ -82,8 +90,11 @@ class UdpSource final : public Source {
           "set up?",
           live_.udp_address);
     } else if (packets_ == 0) {
-      health.summary = of_others_ == 0 ? "waits for the sensor: no packet yet"
-                                       : "packets come, but none from udp_sender " + live_.udp_sender;
+      const std::string sending = other_sending();
+      health.summary = of_others_ == 0   ? "waits for the sensor: no packet yet"
+                       : sending.empty() ? "packets came, but none from udp_sender " + live_.udp_sender
+                                         : fmt::format("packets come from {}, but none from udp_sender {}", sending,
+                                                       live_.udp_sender);
     } else if (packets_ == useless_ && packets_ > kEnoughPackets) {
       health.summary = fmt::format("packets come, none is of sensor '{}'{}", live_.sensor,
                                    live_.sensor_metadata.empty() && live_.sensor == "auto"
@@ -96,6 +107,7 @@ class UdpSource final : public Source {
     health.add("packets", packets_.load());
     health.add("packets of no use", useless_.load());
     health.add("packets of others", of_others_.load());
+    if (const std::string counts = others_counted(); !counts.empty()) health.add("sources", counts);
     health.add("packets lost by the kernel", lost_.load());
     if (device_) health.add("packets of the device port", device_packets_.load());
     health.add("silences", silences_.load());
@@ -104,7 +116,13 @@ class UdpSource final : public Source {
 
  private:
   void tell_of_sensor(bool is_silent, PartHealth* health) const {
-    const std::string others = others_note();
+    const std::string others = others_note(), sending = other_sending();
+    if (is_silent && !sending.empty() && read_address_ != 0) {
+      health->summary =
+          fmt::format("the sensor is silent; waits for {}; {} is sending, and is not read: udp_sender chooses",
+                      ipv4_text(read_address_), sending);
+      return;
+    }
     health->summary = is_silent        ? "the sensor is silent"
                       : frames_ == 0   ? "packets come, no turn yet"
                       : others.empty() ? "receives"
@@ -137,6 +155,10 @@ class UdpSource final : public Source {
     const std::lock_guard<std::mutex> locked(words_lock_);
     return others_note_;
   }
+  std::string others_counted() const {
+    const std::lock_guard<std::mutex> locked(words_lock_);
+    return others_counted_;
+  }
 
   void run(FrameTaker& taker) {
     while (!ending_) {
@@ -157,7 +179,7 @@ class UdpSource final : public Source {
     const bool are_others = assembler_ && assembler_->senders().refused() > refused;
     if (are_others) name_others();
     if (are_others && !is_data) {
-      ++of_others_;
+      note_other(datagram);
       return;
     }
     ++packets_;
@@ -166,6 +188,7 @@ class UdpSource final : public Source {
       return;
     }
     last_packet_ns_ = monotonic_ns();
+    read_address_ = datagram.from.address;
     ++packets_of_use_;
     if (assembler_->senders().chosen() && assembler_->senders().refused() > 0) are_two_ = true;
     while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
@@ -202,15 +225,27 @@ class UdpSource final : public Source {
 
   bool is_of_other(const Datagram& datagram) {
     const bool is_other = sender_ && *sender_ != datagram.from.address;
-    if (is_other) ++of_others_;
+    if (is_other) note_other(datagram);
     return is_other;
+  }
+
+  void note_other(const Datagram& datagram) {
+    ++of_others_;
+    other_address_ = datagram.from.address;
+    other_ns_ = monotonic_ns();
+  }
+  // Who sends just now and is not read; "": nobody.
+  std::string other_sending() const {
+    return of_others_ > 0 && monotonic_ns() - other_ns_ < kSends_ns ? ipv4_text(other_address_) : "";
   }
 
   // Another sensor sends to this port, too.
   void name_others() {
-    const std::string note = assembler_->senders().note("", "packet", "udp_sender");
+    const SourceGate& senders = assembler_->senders();
+    const std::string note = senders.note("", "", "udp_sender"), counted = senders.note("", "packet", "udp_sender");
     const std::lock_guard<std::mutex> locked(words_lock_);
     others_note_ = note;
+    others_counted_ = counted;
   }
 
   bool is_silent() const { return monotonic_ns() - last_packet_ns_ > kSilent_ns; }
@@ -229,6 +264,7 @@ class UdpSource final : public Source {
     is_first_turn_ = true;
     const std::lock_guard<std::mutex> locked(words_lock_);
     others_note_.clear();
+    others_counted_.clear();
   }
 
   // The first turn began before it was listened to.
@@ -256,12 +292,13 @@ class UdpSource final : public Source {
   std::uint64_t packets_of_use_ = 0;  // since it began anew
   std::thread thread_;
   mutable std::mutex words_lock_;
-  std::string part_ = "source udp", contradiction_, others_note_;
+  std::string part_ = "source udp", contradiction_, others_note_, others_counted_;
   std::int64_t contradicted_ns_ = -kSilent_ns, looked_ns_ = 0, began_ns_ = 0;
   std::atomic<bool> ending_{false}, has_address_{true};
   std::atomic<std::uint64_t> frames_{0}, packets_{0}, useless_{0}, of_others_{0}, silences_{0}, device_packets_{0};
   std::atomic<std::uint32_t> lost_{0};
-  std::atomic<std::int64_t> last_packet_ns_{0};
+  std::atomic<std::int64_t> last_packet_ns_{0}, other_ns_{0};
+  std::atomic<std::uint32_t> read_address_{0}, other_address_{0};
 };
 
 }  // namespace
