@@ -10,6 +10,7 @@
 #if POSE_WALL_HAS_PCAP
 
 #include <cmath>
+#include <functional>
 
 #include "packet_files.hpp"
 #include "packets/ouster_metadata.hpp"
@@ -119,6 +120,51 @@ TEST(PacketCapture, CutAnywhereItSaysSo) {
     EXPECT_EQ(capture.errors.size(), 1U) << length;
   }
   EXPECT_EQ(most, 2U);
+}
+
+std::string pcapng_block(std::uint32_t type, const std::string& body) {
+  const auto size = static_cast<std::uint32_t>(12 + body.size());
+  return raw(type) + raw(size) + body + raw(size);
+}
+
+// Of an Ethernet card (1) or of cooked packets (113).
+std::string pcapng_interface(std::uint16_t link) {
+  return pcapng_block(1, raw(link) + raw(std::uint16_t{0}) + raw(65535U));
+}
+
+// Of the first interface, as the classic capture has them.
+std::string pcapng_packets(const std::string& capture) {
+  constexpr std::size_t kCaptureHead = 24, kPacketHead = 16;
+  const std::size_t size = (capture.size() - kCaptureHead) / 14;
+  std::string blocks;
+  for (std::uint32_t i = 0; i < 14; ++i) {
+    std::string packet = capture.substr(kCaptureHead + size * i + kPacketHead, size - kPacketHead);
+    const auto bytes = static_cast<std::uint32_t>(packet.size());
+    packet.resize((packet.size() + 3) / 4 * 4);
+    blocks += pcapng_block(6, raw(0U) + raw(0U) + raw(1000 * i) + raw(bytes) + raw(bytes) + packet);
+  }
+  return blocks;
+}
+
+// A program that records all interfaces writes such a file. libpcap ends at the second description.
+TEST(PacketCapture, TwoLinkLayersInOneFileAreReadToTheSecondWithWordsThatHelp) {
+  const std::string head = pcapng_block(0x0A0D0D0A, raw(0x1A2B3C4DU) + raw(1U) + raw(~std::uint64_t{0}));
+  const std::string packets = pcapng_packets(velodyne_capture(216, 14));
+  const TempFolder folder;
+  const auto read_as = [&](const std::string& blocks) { return read(folder.write("two.pcapng", head + blocks)); };
+  const ReadCapture alike = read_as(pcapng_interface(1) + pcapng_interface(1) + packets);
+  EXPECT_TRUE(alike.errors.empty());
+  EXPECT_EQ(alike.frames.size(), 2U);
+  const ReadCapture early = read_as(pcapng_interface(1) + pcapng_interface(113) + packets);
+  EXPECT_EQ(early.frames.size(), 0U);
+  const ReadCapture late = read_as(pcapng_interface(1) + packets + pcapng_interface(113) + packets);
+  EXPECT_EQ(late.frames.size(), 2U);
+  for (const ReadCapture& capture : {std::cref(early), std::cref(late)}) {
+    ASSERT_EQ(capture.errors.size(), 1U);
+    for (const char* const word : {"different link layers", "tcpdump -i NAME", "tcpdump -i any"}) {
+      EXPECT_NE(capture.errors.front().find(word), std::string::npos) << capture.errors.front();
+    }
+  }
 }
 
 TEST(PacketCapture, OneWithoutKnownPacketsSaysWhatItLooksFor) {

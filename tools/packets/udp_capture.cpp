@@ -86,13 +86,16 @@ class PcapFile : public DatagramSource {
     std::uint32_t kept_bytes = 0, sent_bytes = 0;  // of the last one
   };
 
-  // libpcap hands out packets of one link layer only.
+  // libpcap hands out packets of one link layer only. No program parts such a file: tshark -Y keeps the description
+  // of each interface, and refuses to write it as pcap (4.0.17, tried 2026-11-29).
   [[noreturn]] void refuse_rest(long offset) {
     const std::string why = pcap_geterr(pcap_.get());
     if (why.find("type of the first interface") != std::string::npos) {
       throw FrameError(say(
-          "offset {}: the capture is of interfaces with different link layers, and only the first one's packets can "
-          "be read. Write each interface to a file of its own: tshark -r FILE -Y frame.interface_id==1 -w ONE.pcapng",
+          "offset {}: the capture is of interfaces with different link layers, and only packets before the second "
+          "one's "
+          "description can be read. Record the sensor's interface alone: tcpdump -i NAME -w ONE.pcap; or all as one: "
+          "tcpdump -i any -w ALL.pcap",
           offset));
     }
     throw FrameError(say("offset {}: the capture is cut: {}", offset, why));
