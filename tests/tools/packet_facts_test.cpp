@@ -243,6 +243,21 @@ TEST(PacketFacts, OfARoboSense) {
   EXPECT_EQ(found(sender_of(test::with_two_returns(test::helios32_example())), "return mode"), "two returns");
 }
 
+// Its packets are numbered from 1 to 630 in each frame (rs_driver 4eeadace).
+TEST(PacketFacts, OfARoboSenseM1) {
+  const TempFolder folder;
+  std::vector<std::string> payloads;
+  for (std::uint16_t i = 0; i < 1260; ++i) {
+    if (i == 100 || i == 700) continue;
+    std::string payload = "\x55\xAA\x5A\xA5" + big(static_cast<std::uint16_t>(i % 630 + 1));
+    payload.resize(1210, '\0');
+    payloads.push_back(payload);
+  }
+  const SourceSender sender = only_sender(folder.write("a.pcap", test::capture_of(payloads)));
+  EXPECT_EQ(found(sender, "model"), "RoboSense M1");
+  EXPECT_EQ(found(sender, "packets lost"), "0.16 % (2)");
+}
+
 TEST(PacketFacts, AClockThatDoesNotGoAsPacketsArriveIsOdd) {
   const auto oddity = [](double goes_by) {
     ClockBesideArrival clock;

@@ -18,6 +18,8 @@
 #include "packets/livox.hpp"
 #include "packets/lslidar_models.hpp"
 #include "packets/ouster_metadata.hpp"
+#include "packets/robosense_m1.hpp"
+#include "packets/robosense_models.hpp"
 #include "packets/turn_assembler.hpp"
 #include "packets/velodyne_models.hpp"
 
@@ -298,6 +300,22 @@ class OusterWords : public PacketWords {
   ClockBesideArrival clock_;
 };
 
+// rs_driver 4eeadace: a number that begins anew with each frame. What is lost between two frames does not show.
+class RoboSenseM1Words : public PacketWords {
+ public:
+  void hear(const Datagram& datagram) override {
+    constexpr std::size_t kNumberAt = 4;
+    if (!is_robosense_m1_data(datagram.payload)) return;
+    packets_.hear(static_cast<std::int64_t>(robosense_number(datagram.payload, kNumberAt, 2)), 1.0,
+                  std::int64_t{1} << 16);
+  }
+
+  void describe(SourceSender* sender) const override { add_missing(sender, packets_); }
+
+ private:
+  MissingPackets packets_;
+};
+
 class LslidarWords : public PacketWords {
  public:
   void hear(const Datagram& datagram) override {
@@ -383,6 +401,7 @@ std::unique_ptr<PacketWords> packet_words_for(ByteView payload, const std::strin
   if (is_velodyne_data(payload)) return std::make_unique<VelodyneWords>();
   if (hesai_model_of(payload)) return std::make_unique<HesaiWords>();
   if (is_livox_data(payload)) return std::make_unique<LivoxWords>();
+  if (is_robosense_m1_data(payload)) return std::make_unique<RoboSenseM1Words>();
   return nullptr;
 }
 
