@@ -10,6 +10,7 @@
 #include <random>
 
 #include "lslidar_packets.hpp"
+#include "packets/one_sender.hpp"
 #include "packets/sensors.hpp"
 
 namespace pose_wall::tools {
@@ -37,20 +38,20 @@ struct LslidarRead {
 
 LslidarRead read_lslidar(const std::vector<std::string>& payloads, const char* name = "auto",
                          std::int64_t packet_ns = 1'200'000) {
-  const std::unique_ptr<ScanAssembler> assembler = lslidar_named(name);
+  OneSender assembler([name] { return lslidar_named(name); });  // as all that reads packets
   LslidarRead read;
   try {
     std::int64_t captured_ns = 1'000'000'000'000;
     for (const std::string& payload : payloads) {
-      add(*assembler, payload, captured_ns);
+      add(assembler, payload, captured_ns);
       captured_ns += packet_ns;
     }
-    assembler->finish();
+    assembler.finish();
   } catch (const FrameError& refused) {
     read.refusal = refused.what();
   }
-  while (std::optional<Scan> scan = assembler->take()) read.scans.push_back(std::move(*scan));
-  read.kind = assembler->kind();
+  while (std::optional<Scan> scan = assembler.take()) read.scans.push_back(std::move(*scan));
+  read.kind = assembler.kind();
   return read;
 }
 
@@ -298,9 +299,10 @@ TEST(Lslidar, KindsThatAreNotReadAreNamed) {
   EXPECT_EQ(unread(0x99), "an LSLidar of a kind that is not known (0x99)");
   EXPECT_EQ(unread(0x10), "");
   EXPECT_EQ(unread_sensor(test::view_of(kDeviceOfC16)), "");
-  const std::unique_ptr<ScanAssembler> assembler = lslidar_named();
-  EXPECT_TRUE(add(*assembler, kDeviceOfC16));
-  EXPECT_TRUE(contains(assembler->hint(), "device packets of an LSLidar"));
+  OneSender alone([] { return lslidar_named(); });
+  EXPECT_FALSE(add(alone, kDeviceOfC16));
+  alone.finish();
+  EXPECT_TRUE(contains(alone.hint(), "describes itself") && contains(alone.hint(), "none of its data")) << alone.hint();
 }
 
 TEST(Lslidar, WhatTheSensorItselfLeavesOutIsSaid) {

@@ -17,7 +17,6 @@
 #include "language/system_errors.hpp"
 #include "packets/hesai.hpp"
 #include "packets/lslidar.hpp"
-#include "packets/lslidar_device.hpp"
 #include "packets/lslidar_hybrid.hpp"
 #include "packets/ouster.hpp"
 #include "packets/robosense.hpp"
@@ -119,23 +118,14 @@ bool is_robosense_metadata(const std::string& metadata) {
   return is_robosense_device({reinterpret_cast<const std::byte*>(metadata.data()), metadata.size()});
 }
 
-// An assembler for whatever is heard first.
+// An assembler for whatever data is heard first. What an LSLidar says of itself before that, OneSender keeps: it is of
+// no one model.
 class AutomaticAssembler : public ScanAssembler {
  public:
   explicit AutomaticAssembler(SensorChoice choice) : choice_(std::move(choice)) {}
 
   bool add(const Datagram& datagram) override {
-    if (!inner_ && is_lslidar_device(datagram.payload)) {
-      // It says much of a sensor, but not which one: data does.
-      if (device_.empty()) device_.assign(datagram.payload.data, datagram.payload.data + datagram.payload.size);
-      return true;
-    }
-    if (!inner_) {
-      if (!begin(datagram.payload)) return false;
-      Datagram device = datagram;
-      device.payload = {device_.data(), device_.size()};
-      if (!device_.empty()) inner_->add(device);
-    }
+    if (!inner_ && !begin(datagram.payload)) return false;
     const bool is_data = inner_->add(datagram);
     pass_on();
     return is_data;
@@ -149,10 +139,7 @@ class AutomaticAssembler : public ScanAssembler {
 
   const char* kind() const override { return inner_ ? inner_->kind() : "packets of no known sensor"; }
   bool stamps_are_of_arrival() const override { return !inner_ || inner_->stamps_are_of_arrival(); }
-  std::string hint() const override {
-    if (inner_) return inner_->hint();
-    return device_.empty() ? "" : tr("there are device packets of an LSLidar, which say how its data is read");
-  }
+  std::string hint() const override { return inner_ ? inner_->hint() : ""; }
 
  private:
   bool begin(ByteView payload) {
@@ -193,7 +180,6 @@ class AutomaticAssembler : public ScanAssembler {
   }
 
   SensorChoice choice_;
-  Bytes device_;  // the first of an LSLidar before its data
   std::unique_ptr<ScanAssembler> inner_;
 };
 
