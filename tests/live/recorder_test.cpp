@@ -133,6 +133,7 @@ Number number_in(const std::string& bytes, std::uint64_t at) {
 
 // As a reader does that jumps: footer, chunk index, message index, message. Each message is reached once.
 std::vector<std::pair<std::uint64_t, std::uint16_t>> reached_by_index(const std::string& file) {
+  // The format of MCAP: a record has its kind and its length first, a footer 20 bytes, a chunk 40 before its content.
   constexpr std::uint64_t kHead = 9, kFooter = kHead + 20, kMagic = 8, kChunkContent = kHead + 40;
   std::vector<std::pair<std::uint64_t, std::uint16_t>> reached;  // time and channel
   const std::uint64_t footer = file.size() - kMagic - kFooter;

@@ -139,6 +139,7 @@ TEST(BagSources, LivoxTellsSensorsApartByTheirLidarId) {
 
 // livox_ros_driver2 gives all its sensors one frame_id and the first byte of their address.
 TEST(BagSources, SensorsThatNothingTellsApartAreRefusedByTheirScansThatOverlap) {
+  // A moment of 2023, as a driver with a set clock stamps, and 10 Hz.
   constexpr std::uint64_t kStart_ns = 1'700'000'000'000'000'000, kScan_ns = 100'000'000;
   for (const std::uint64_t behind_ns : {std::uint64_t{0}, std::uint64_t{5'000'000}, std::uint64_t{50'000'000}}) {
     const TempFolder of_two;

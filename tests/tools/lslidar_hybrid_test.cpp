@@ -24,7 +24,7 @@ using test::HybridPoint;
 using test::kHybridMark;
 using test::LslidarDevice;
 
-constexpr std::uint32_t kTenMetres = 256'000;
+constexpr std::uint32_t kTenMetres = 256'000;  // a CH128X1 counts 1/256 cm, as its driver divides
 
 const std::string kFaces = LslidarDevice{}.set_words(242, {0, -17, -34, -51}).bytes;
 

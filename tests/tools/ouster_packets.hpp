@@ -18,9 +18,11 @@
 
 namespace pose_wall::tools::test {
 
+// So few that a turn can be worked out by hand; sensors have 512 and more, 16 a packet.
 inline constexpr std::uint32_t kOusterColumnsOfTurn = 16, kOusterColumnsOfPacket = 4;
+// Of 12 digits, as theirs: with fewer nothing is compared.
 inline constexpr std::uint64_t kOusterSerial = 122201000111, kOtherOusterSerial = 122201000222;
-inline constexpr std::uint64_t kOusterColumn_ns = 1000;
+inline constexpr std::uint64_t kOusterColumn_ns = 1000;  // from column to column; any time that differs from 0
 
 // How a pixel of a profile is made of its returns, in millimetres; the lowest byte first.
 struct OusterLayout {
