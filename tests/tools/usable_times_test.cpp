@@ -95,5 +95,37 @@ TEST(UnusableTimes, SingleBrokenScansAreNotTheRecording) {
   EXPECT_TRUE(contains(times.doubt(), "11 of 31 scans")) << times.doubt();
 }
 
+pose_wall_motion_result step(double x_m, double yaw_rad, double level) {
+  pose_wall_motion_result moved{};
+  moved.step_s = 0.1;
+  moved.step_m[0] = x_m;
+  moved.step_rad[2] = yaw_rad;
+  for (double& one : moved.step_protection_level) one = level;
+  return moved;
+}
+
+std::string doubt_of(const std::string& file, const pose_wall_motion_result& moved, int scans) {
+  UsableTimes times;
+  for (int i = 0; i < scans; ++i) {
+    times.add(read_pcd(bytes_of(file)));
+    times.add_motion(moved);
+  }
+  return times.doubt();
+}
+
+TEST(UsableTimes, NoneAreDoubtedWhereTheMachineSurelyMoves) {
+  const std::string none = scan("other", 1, even_s), good = scan("t", 1, even_s);
+  for (const auto& moved : {step(0.021, 0.0, 1e-4), step(-0.021, 0.0, 1e-4), step(0.0, 0.0036, 1e-4)}) {
+    const std::string doubt = doubt_of(none, moved, 3);
+    EXPECT_TRUE(contains(doubt, "3 of 3 scans") && contains(doubt, "carry no times, and the machine moves")) << doubt;
+    EXPECT_EQ(doubt_of(none, moved, 2), "") << "a single step may be a mistake";
+    EXPECT_EQ(doubt_of(good, moved, 9), "");
+  }
+  for (const auto& stands : {step(0.019, 0.0034, 1e-4), step(0.5, 0.5, 1.0), step(NAN, NAN, NAN), step(0.5, 0.5, NAN),
+                             step(0.5, 0.5, INFINITY), pose_wall_motion_result{}}) {
+    EXPECT_EQ(doubt_of(none, stands, 9), "") << stands.step_m[0];
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall::tools
