@@ -109,7 +109,7 @@ std::uint64_t SourceGate::refused() const {
 
 std::string SourceGate::name_of(const SourceIdentity& who) const {
   for (const IdentityPart& part : parts_of(who)) {
-    const std::string name = part.text();
+    std::string name = part.text();
     const bool is_his = std::none_of(heard_.begin(), heard_.end(), [&](const HeardSource& heard) {
       return heard.who != who && heard.who.is_named(name);
     });

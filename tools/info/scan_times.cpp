@@ -54,32 +54,56 @@ std::optional<pose_wall_field> ring_field(const Frame& frame) {
   return std::nullopt;
 }
 
+// Without its ring; nothing where the point is no return, or has no time.
+std::optional<TimedReturn> timed_return(const pose_wall_cloud& cloud, std::uint32_t row, std::uint32_t column) {
+  const Eigen::Vector3d p = point_position(cloud, row, column);
+  const double time = field_value(cloud, row, column, cloud.time);
+  if (!p.allFinite() || p.isZero(0.0) || !std::isfinite(time)) return std::nullopt;
+  TimedReturn one;
+  one.across_m = std::hypot(p.x(), p.y());
+  one.azimuth_rad = std::atan2(p.y(), p.x());
+  one.elevation_rad = std::atan2(p.z(), one.across_m);
+  one.time_s = time;
+  return one;
+}
+
+// Where rings and places of storage stand in a cloud.
+struct Storage {
+  std::optional<pose_wall_field> ring;
+  bool rows_are_rings = false, is_upright = false;
+
+  std::uint32_t ring_of(const pose_wall_cloud& cloud, std::uint32_t row, std::uint32_t column,
+                        double elevation_rad) const {
+    double told = (elevation_rad + M_PI) / kProxyRing_rad;
+    if (ring) {
+      told = field_value(cloud, row, column, *ring);
+    } else if (rows_are_rings) {
+      told = static_cast<double>(is_upright ? row : column);
+    }
+    return static_cast<std::uint32_t>(std::clamp(std::isfinite(told) ? told : 0.0, 0.0, 1e6));
+  }
+
+  double place_of(const pose_wall_cloud& cloud, std::uint32_t row, std::uint32_t column) const {
+    if (cloud.height == 1 || cloud.width == 1) return static_cast<double>(row + column);
+    return static_cast<double>(is_upright ? column : row);
+  }
+};
+
 Returns returns_with_times(const Frame& frame) {
   const pose_wall_cloud& cloud = frame.cloud;
-  const std::optional<pose_wall_field> ring = ring_field(frame);
-  const bool rows_are_rings = !ring && told_rings(frame).count > 0;
-  const bool is_upright = cloud.height <= cloud.width;
+  Storage storage;
+  storage.ring = ring_field(frame);
+  storage.rows_are_rings = !storage.ring && told_rings(frame).count > 0;
+  storage.is_upright = cloud.height <= cloud.width;
   Returns out;
-  out.has_rings = ring || rows_are_rings;
+  out.has_rings = storage.ring || storage.rows_are_rings;
   for (std::uint32_t row = 0; row < cloud.height; ++row) {
     for (std::uint32_t column = 0; column < cloud.width; ++column) {
-      const Eigen::Vector3d p = point_position(cloud, row, column);
-      const double time = field_value(cloud, row, column, cloud.time);
-      if (!p.allFinite() || p.isZero(0.0) || !std::isfinite(time)) continue;
-      TimedReturn one;
-      one.across_m = std::hypot(p.x(), p.y());
-      one.azimuth_rad = std::atan2(p.y(), p.x());
-      one.elevation_rad = std::atan2(p.z(), one.across_m);
-      one.time_s = time;
-      const double by_elevation = (one.elevation_rad + M_PI) / kProxyRing_rad;
-      const double told = ring             ? field_value(cloud, row, column, *ring)
-                          : rows_are_rings ? static_cast<double>(is_upright ? row : column)
-                                           : by_elevation;
-      one.ring = static_cast<std::uint32_t>(std::clamp(std::isfinite(told) ? told : 0.0, 0.0, 1e6));
-      out.all.push_back(one);
-      out.places.push_back(static_cast<double>(cloud.height == 1 || cloud.width == 1 ? row + column
-                                               : is_upright                          ? column
-                                                                                     : row));
+      std::optional<TimedReturn> one = timed_return(cloud, row, column);
+      if (!one) continue;
+      one->ring = storage.ring_of(cloud, row, column, one->elevation_rad);
+      out.all.push_back(*one);
+      out.places.push_back(storage.place_of(cloud, row, column));
     }
   }
   return out;
