@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: packets of Hesai's XT32, XT16, 40P and QT64 give points and times where the manuals put them (worked out by
-// hand), of two returns the farther whatever their order, angles of a table where one is given; what does not fit is
-// not taken or refused with its reason. Real packets are looked at in tests/real.
+// Proves: packets of Hesai's XT32, XT32M, XT16, 40P and QT64 give points and times where the manuals put them (worked
+// out by hand), of two returns the farther whatever their order, angles of a table where one is given; what does not
+// fit is not taken or refused with its reason. Real packets are looked at in tests/real.
 
 #include <gtest/gtest.h>
 
@@ -61,6 +61,56 @@ TEST(Hesai, PointsOfAnXt16LieWhereTheManualPutsThem) {
   EXPECT_EQ(scan.stamp_ns, kCaptured_ns + 6'000 - 350'000);
   EXPECT_EQ(point_at(scan, 15, 2).t_ns, 100'000U);
   EXPECT_EQ(point_at(scan, 0, 2).t_ns, 100'000U + 51'360U - 6'000U);
+}
+
+// Those of an XT32M2X count from HesaiLidar_SDK_2.0's firetimes, and ranges in 5 mm.
+TEST(Hesai, PointsOfAnXt32mLieWhereItsDesignPutsThem) {
+  HesaiPacket packet = test::xt32m_packet();
+  packet.step_deg = 30.0;
+  packet.distance = [](std::size_t, std::size_t) { return std::uint16_t{2000}; };
+  const Scan scan = one_turn(packet);
+  ASSERT_EQ(scan.rings, 32U);
+  ASSERT_EQ(scan.points.size(), 32U * 6U);
+  // Block 3 at 90 degrees is to the right; channel 1 is the highest, at 19.5 degrees, channel 32 at -20.8; 10 m.
+  expect_at(point_at(scan, 31, 3), 0.0, -9.426415, 3.338069);
+  expect_at(point_at(scan, 0, 3), 0.0, -9.348257, -3.551069);
+  // The last block 5.632 us after the packet's time; the first laser at 6 us, the sixteenth at 49.32, and the
+  // seventeenth with the first.
+  EXPECT_EQ(scan.stamp_ns, kCaptured_ns + 6'000 - 5 * 50'000);
+  EXPECT_EQ(point_at(scan, 31, 3).t_ns, 150'000U);
+  EXPECT_EQ(point_at(scan, 16, 3).t_ns, 150'000U + 49'320U - 6'000U);
+  EXPECT_EQ(point_at(scan, 15, 3).t_ns, 150'000U);
+}
+
+TEST(Hesai, OfThreeReturnsTheFarthestIsTaken) {
+  for (const std::size_t farthest : {0U, 1U, 2U}) {
+    HesaiPacket packet = test::xt32m_packet();
+    packet.mode = 0x3D;
+    packet.distance = [farthest](std::size_t block, std::size_t) {
+      return std::uint16_t(block % 3 == farthest ? 2000 : 400 * (block % 3));
+    };
+    const Scan scan = one_turn(packet);
+    ASSERT_EQ(scan.points.size(), 32U * 2U);
+    for (const ScanPoint& point : scan.points) {
+      EXPECT_NEAR(std::hypot(point.x_m, point.y_m, point.z_m), 10.0, 1e-4);
+    }
+    EXPECT_EQ(scan.stamp_ns, kCaptured_ns + 6'000 - 50'000);
+  }
+  HesaiPacket xt32;
+  xt32.mode = 0x3D;
+  EXPECT_FALSE(hesai_model_of(test::view_of(payload_of(xt32)))) << "eight blocks are no threes";
+}
+
+// What counts in another unit would scale all that is measured.
+TEST(Hesai, AnotherUnitIsRefusedByName) {
+  HesaiPacket xt32, xt32m = test::xt32m_packet();
+  xt32.unit_mm = 5;
+  xt32m.unit_mm = 4;
+  const std::string five = payload_of(xt32), four = payload_of(xt32m);
+  EXPECT_FALSE(hesai_model_of(test::view_of(five)));
+  EXPECT_FALSE(hesai_model_of(test::view_of(four)));
+  EXPECT_EQ(unread_hesai(test::view_of(five)), "a Hesai PandarXT-32 that counts ranges in 5 mm, and not in 4 mm");
+  EXPECT_EQ(unread_hesai(test::view_of(four)), "a Hesai PandarXT-32M2X that counts ranges in 4 mm, and not in 5 mm");
 }
 
 // Sixteen lasers in eight blocks are an XT16's only by its protocol.
@@ -186,7 +236,7 @@ TEST(Hesai, WhatDoesNotFitIsNotTaken) {
   of_40p.blocks = 10;
   of_qt.lasers = 64;
   of_qt.blocks = 4;
-  for (const HesaiPacket& packet : {HesaiPacket{}, of_40p, of_qt, of_xt16}) {
+  for (const HesaiPacket& packet : {HesaiPacket{}, of_40p, of_qt, of_xt16, test::xt32m_packet()}) {
     const std::string good = payload_of(packet);
     ASSERT_TRUE(hesai_model_of(test::view_of(good)));
     for (std::size_t size = 0; size < good.size(); ++size) {

@@ -135,7 +135,8 @@ TEST(PacketFacts, AReceiverOfGpsTellsOfTheTime) {
 
 TEST(PacketFacts, OfAHesai) {
   const TempFolder folder;
-  for (const test::HesaiPacket& kind : {test::HesaiPacket{}, test::HesaiPacket{40, 10}, test::HesaiPacket{64, 4}}) {
+  for (const test::HesaiPacket& kind : {test::HesaiPacket{}, test::HesaiPacket{16, 8}, test::xt32m_packet(),
+                                        test::HesaiPacket{40, 10}, test::HesaiPacket{64, 4}}) {
     SCOPED_TRACE(kind.lasers);
     std::vector<std::string> payloads;
     for (std::uint32_t i = 0; i < 40; ++i) {

@@ -112,17 +112,24 @@ struct HesaiPacket {
   double first_deg = 0.0, step_deg = 45.0;  // step from block to block, or from pair to pair
   std::uint8_t mode = 0x37;
   Distances distance = [](std::size_t, std::size_t) { return std::uint16_t{2500}; };
+  char unit_mm = 4;
 };
+
+inline HesaiPacket xt32m_packet() {
+  HesaiPacket packet{32, 6};
+  packet.unit_mm = 5;
+  return packet;
+}
 
 inline std::string payload_of(const HesaiPacket& packet) {
   const bool is_40p = packet.lasers == 40;
   std::string payload;
   if (!is_40p) {
     payload = "\xEE\xFF\x06\x01" + std::string(2, '\0') + static_cast<char>(packet.lasers) +
-              static_cast<char>(packet.blocks) + '\0' + "\x04\x02\x01";
+              static_cast<char>(packet.blocks) + '\0' + packet.unit_mm + "\x02\x01";
   }
   for (std::size_t block = 0; block < packet.blocks; ++block) {
-    const std::size_t firing = packet.mode >= 0x39 ? block / 2 : block;
+    const std::size_t firing = block / (packet.mode == 0x3D ? 3 : packet.mode >= 0x39 ? 2 : 1);
     const double azimuth_deg = packet.first_deg + static_cast<double>(firing) * packet.step_deg;
     if (is_40p) payload += "\xFF\xEE";
     payload += raw(static_cast<std::uint16_t>(std::lround(azimuth_deg * 100.0) % 36000));

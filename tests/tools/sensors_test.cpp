@@ -39,6 +39,12 @@ test::HesaiPacket hesai(std::size_t lasers, std::size_t blocks) {
   return packet;
 }
 
+test::HesaiPacket xt32m() {
+  test::HesaiPacket packet = hesai(32, 6);
+  packet.unit_mm = 5;
+  return packet;
+}
+
 std::vector<std::string> mid360() {
   std::vector<std::string> payloads;
   for (std::uint64_t i = 0; i < 30; ++i) {
@@ -59,7 +65,8 @@ std::vector<Example> examples() {
   }
   for (const auto& [kind, packet] :
        {std::pair(SensorKind::kHesaiXt32, hesai(32, 8)), std::pair(SensorKind::kHesai40p, hesai(40, 10)),
-        std::pair(SensorKind::kHesaiQt64, hesai(64, 4)), std::pair(SensorKind::kHesaiXt16, hesai(16, 8))}) {
+        std::pair(SensorKind::kHesaiQt64, hesai(64, 4)), std::pair(SensorKind::kHesaiXt16, hesai(16, 8)),
+        std::pair(SensorKind::kHesaiXt32m, xt32m())}) {
     examples.push_back({kind, std::vector<std::string>(3, payload_of(packet))});
   }
   examples.push_back({SensorKind::kMid360, mid360(), "Livox Mid-360, Mid-360S, HAP or Avia 2"});
@@ -119,6 +126,10 @@ TEST(Sensors, PacketsOfAnotherSensorAreNamed) {
                        "no data packets of a Hesai PandarXT-32 (hesai_xt32); there are packets of a Velodyne VLP-16"));
   EXPECT_TRUE(contains(refusal_of(read(hesai_file, {"vlp16", ""})), "there are packets of a Hesai PandarXT-32"));
   EXPECT_TRUE(contains(refusal_of(read(hesai_file, {"hesai_qt64", ""})), "there are packets of a Hesai PandarXT-32"));
+  EXPECT_TRUE(contains(refusal_of(read(hesai_file, {"hesai_xt32m", ""})), "there are packets of a Hesai PandarXT-32"));
+  const std::string xt32m_file = folder.write("m.pcap", capture_of({payload_of(xt32m())}));
+  EXPECT_TRUE(
+      contains(refusal_of(read(xt32m_file, {"hesai_xt32", ""})), "there are packets of a Hesai PandarXT-32M2X"));
   const std::string byte_and_name = refusal_of(read(velodyne, {"hdl32e", ""}));
   EXPECT_TRUE(contains(byte_and_name, "HDL-32E (hdl32e)") && contains(byte_and_name, "VLP-16")) << byte_and_name;
 }
@@ -172,7 +183,7 @@ TEST(Sensors, NamesAreTheTables) {
   const std::string file = folder.write("h.pcap", capture_of({payload_of(hesai(32, 8))}));
   EXPECT_TRUE(
       contains(refusal_of(read(file, {"hesai_xt23", ""})), "did you mean 'hesai_xt32'?; known are auto, vlp16"));
-  ASSERT_EQ(known_sensors().size(), static_cast<std::size_t>(SensorKind::kAvia2) + 1);
+  ASSERT_EQ(known_sensors().size(), static_cast<std::size_t>(SensorKind::kHesaiXt32m) + 1);
   for (std::size_t i = 0; i < known_sensors().size(); ++i) {
     const KnownSensor& sensor = known_sensors()[i];
     EXPECT_EQ(static_cast<std::size_t>(sensor.kind), i);

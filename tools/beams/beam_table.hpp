@@ -84,6 +84,7 @@ const BeamTable& hesai_xt32();
 const BeamTable& hesai_pandar40p();
 const BeamTable& hesai_qt64();
 const BeamTable& hesai_xt16();
+const BeamTable& hesai_xt32m();
 // The revisions of one kind differ in where their light leaves.
 const BeamTable& ouster_os0_128();
 const BeamTable& ouster_os0_128_rev7();

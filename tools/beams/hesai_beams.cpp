@@ -57,6 +57,25 @@ BeamTable xt16() {
   return table;
 }
 
+// The design from the field of view and its steps (tier4/nebula 606ac41f, pandar_xt32m.hpp; two sensors' tables are
+// within 0.1 degrees); times of PandarXT-32M2X_Firetime Correction File.csv of HesaiLidar_SDK_2.0 (ea7f86f): laser 17
+// fires with the first. The unit is that of the packets of Nebula's bag. Noise is taken from the XT32.
+BeamTable xt32m() {
+  BeamTable table{SensorMaker::kHesai,
+                  "hesai-xt32m",
+                  "Hesai PandarXT-32M2X",
+                  "HesaiLidar_SDK_2.0, firetime correction file of PandarXT-32M2X; tier4/nebula",
+                  {},
+                  1998,
+                  50'000.0,
+                  false,
+                  {},
+                  {0.005, 0.01, 0.5, 300.0, 0.0}};
+  for (int i = 0; i < 32; ++i) table.lasers.push_back({19.5 - 1.3 * i, 0.0, 0.0, 2'888.0 * (i % 16), 0});
+  number_rings(&table.lasers);
+  return table;
+}
+
 constexpr std::array<std::int32_t, 40> kPandar40pTimes_ns = {
     -42220, -28470, -16040, -3620,  -45490, -31740, -47460, -54670, -20620, -33710, -40910, -8190,  -20620, -27160,
     -50730, -8190,  -14740, -36980, -45490, -52700, -23890, -31740, -38950, -11470, -18650, -25190, -48760, -6230,
@@ -138,6 +157,11 @@ const BeamTable& hesai_xt32() {
 
 const BeamTable& hesai_xt16() {
   static const BeamTable table = xt16();
+  return table;
+}
+
+const BeamTable& hesai_xt32m() {
+  static const BeamTable table = xt32m();
   return table;
 }
 

@@ -38,6 +38,7 @@ void HesaiAssembler::set_model(HesaiModel model) {
     beams_.push_back({laser, std::cos(elevation_rad), std::sin(elevation_rad)});
   }
   traits_ = &traits;
+  last_step_deg_ = 360.0 / traits.beams.columns;
   kind_ = "packets of a " + traits.title();
   firing_.points.resize(traits.lasers());
 }
@@ -46,8 +47,7 @@ bool HesaiAssembler::add(const Datagram& datagram) {
   const std::optional<HesaiModel> model = hesai_model_of(datagram.payload);
   if (!model || (traits_ != nullptr && traits_->model != *model)) return false;
   if (traits_ == nullptr) set_model(*model);
-  const bool is_dual = is_hesai_dual(*traits_, datagram.payload);
-  const std::size_t step = is_dual ? 2 : 1;
+  const std::size_t step = hesai_returns(*traits_, datagram.payload);
   std::vector<double> azimuths_deg;
   for (std::size_t block = 0; block < traits_->blocks; block += step) {
     azimuths_deg.push_back(azimuth_of(*traits_, datagram.payload, block));
@@ -55,17 +55,16 @@ bool HesaiAssembler::add(const Datagram& datagram) {
   const PacketSteps steps(azimuths_deg, last_step_deg_);
   for (std::size_t k = 0; k < azimuths_deg.size(); ++k) {
     const auto earlier_ns = std::llround(steps.earlier_ns(k, traits_->beams.cycle_ns));
-    fill_firing(datagram.payload, k * step, is_dual, datagram.captured_ns - earlier_ns);
+    fill_firing(datagram.payload, k * step, step, datagram.captured_ns - earlier_ns);
     add_firing(firing_, steps.after_deg(k));
   }
   last_step_deg_ = steps.after_deg(azimuths_deg.size());
   return true;
 }
 
-void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, bool is_dual, std::int64_t captured_ns) {
+void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, std::size_t returns, std::int64_t captured_ns) {
   firing_.azimuth_deg = azimuth_of(*traits_, payload, block);
-  const std::size_t step = is_dual ? 2 : 1;
-  const double start_ns = traits_->firing_start_ns(block / step, traits_->blocks / step);
+  const double start_ns = traits_->firing_start_ns(block / returns, traits_->blocks / returns);
   firing_.time_ns = captured_ns + std::llround(start_ns + traits_->first_laser_ns);
   const std::size_t start = traits_->head_bytes + block * traits_->block_bytes() + traits_->block_head_bytes;
   for (std::size_t i = 0; i < traits_->lasers(); ++i) {
@@ -74,11 +73,10 @@ void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, bool is_du
     point = ScanPoint{};
     point.ring = laser.ring;
     point.t_ns = static_cast<std::uint32_t>(laser.after_ns);
-    // Whatever the order of a pair, the farther return is the later one: dust before a wall would be taken for the
-    // wall.
-    std::size_t at = start + i * traits_->return_bytes;
-    if (is_dual) {
-      const std::size_t other = at + traits_->block_bytes();
+    // Whatever their order, the farthest return is the last one: dust before a wall would be taken for the wall.
+    std::size_t at = start + i * traits_->return_bytes, other = at;
+    for (std::size_t k = 1; k < returns; ++k) {
+      other += traits_->block_bytes();
       if (little_endian_at(payload, other, 2) > little_endian_at(payload, at, 2)) at = other;
     }
     const double range_m = traits_->beams.ranges.unit_m * little_endian_at(payload, at, 2);

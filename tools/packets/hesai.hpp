@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Hesai PandarXT-32, PandarXT-16, Pandar40P and PandarQT (64 lasers): packets of blocks, a firing of all lasers each.
+// Hesai's spinning sensors (hesai_models.hpp lists them): packets of blocks, a firing of all lasers each.
 
 #pragma once
 
@@ -16,8 +16,8 @@
 namespace pose_wall::tools {
 
 // Frames are cut where the azimuth passes 0. Axes as in ROS: x at azimuth 0 (Hesai's own y), y to the left, z up. Of
-// two returns the farther is taken. Stamps are those of the capture: a sensor that nobody gave the time has a date of
-// its own.
+// two or three returns the farthest is taken. Stamps are those of the capture: a sensor that nobody gave the time has a
+// date of its own.
 class HesaiAssembler : public TurnAssembler {
  public:
   // The model of the first packet where none is stated; `angles` is a table as parse_hesai_angles reads it, the design
@@ -35,12 +35,12 @@ class HesaiAssembler : public TurnAssembler {
   };
 
   void set_model(HesaiModel model);
-  void fill_firing(ByteView payload, std::size_t block, bool is_dual, std::int64_t captured_ns);
+  void fill_firing(ByteView payload, std::size_t block, std::size_t returns, std::int64_t captured_ns);
 
   std::string angles_;
   const HesaiTraits* traits_ = nullptr;  // none: not yet known
   std::vector<Beam> beams_;
-  double last_step_deg_ = 0.2;  // from firing to firing: 600 turns a minute until two were seen
+  double last_step_deg_ = 0.0;  // from firing to firing: 600 turns a minute until two were seen
   std::string kind_ = "packets of a Hesai";
   Firing firing_;
 };

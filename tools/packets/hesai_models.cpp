@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint16_t kHesaiPacketFlag = 0xFFEE;  // bytes EE FF
 constexpr std::uint16_t kHesaiBlockFlag = 0xEEFF;   // bytes FF EE
 constexpr std::size_t kHesaiHeadBytes = 12;
-constexpr std::uint8_t kDistanceUnit_mm = 4;
+constexpr std::size_t kLasersAt = 6, kUnitAt = 9, kFlagsAt = 11;  // in a head; the blocks follow the lasers
 constexpr std::size_t kSequenceBytes = 4;
 constexpr std::uint16_t kXtProtocol = 0x0106;  // 6.1, as HesaiLidar_SDK_2.0 tells an XT from others
 constexpr double kElevationMax_deg = 90.0, kAzimuthMax_deg = 180.0;
@@ -29,29 +29,50 @@ std::uint8_t byte_at(ByteView payload, std::size_t offset) {
 }
 
 std::uint8_t mode_of(const HesaiTraits& traits, ByteView payload) {
-  return byte_at(payload, traits.bytes() - traits.tail_bytes + traits.mode_offset);
+  return byte_at(payload, traits.tail_at() + traits.mode_offset);
 }
 
-// Return modes as all of them number them: one return, two returns.
-bool is_single(std::uint8_t mode) {
-  return mode == 0x33 || mode == 0x34 || mode == 0x37 || mode == 0x38;
-}
-
-bool is_dual(std::uint8_t mode) {
-  return mode == 0x39 || mode == 0x3A || mode == 0x3B || mode == 0x3C || mode == 0x3E;
+// Return modes as all of them number them; 0: none of these.
+std::size_t returns_of_mode(std::uint8_t mode) {
+  switch (mode) {
+    case 0x33:
+    case 0x34:
+    case 0x37:
+    case 0x38:
+      return 1;
+    case 0x39:
+    case 0x3A:
+    case 0x3B:
+    case 0x3C:
+    case 0x3E:
+      return 2;
+    case 0x3D:
+      return 3;
+    default:
+      return 0;
+  }
 }
 
 bool has_head(ByteView payload) {
   return payload.size >= kHesaiHeadBytes && little_endian_at(payload, 0, 2) == kHesaiPacketFlag;
 }
 
-// What says in its head how many lasers and blocks it has, and that a number ends it.
-bool fits_head(const HesaiTraits& traits, ByteView payload) {
-  if (!has_head(payload)) return false;
+// Whose packets have such a head, apart from the unit of ranges.
+bool is_shaped(const HesaiTraits& traits, ByteView payload) {
+  if (traits.head_bytes == 0 || !has_head(payload)) return false;
   if (traits.protocol != 0 && little_endian_at(payload, 2, 2) != traits.protocol) return false;
-  const bool has_sequence = (byte_at(payload, 11) & 1U) != 0;
-  return byte_at(payload, 6) == traits.lasers() && byte_at(payload, 7) == traits.blocks &&
-         byte_at(payload, 9) == kDistanceUnit_mm &&
+  return byte_at(payload, kLasersAt) == traits.lasers() && byte_at(payload, kLasersAt + 1) == traits.blocks;
+}
+
+long unit_mm(const HesaiTraits& traits) {
+  return std::lround(1e3 * traits.beams.ranges.unit_m);
+}
+
+// What says in its head how many lasers and blocks it has, in which unit, and that a number ends it.
+bool fits_head(const HesaiTraits& traits, ByteView payload) {
+  if (!is_shaped(traits, payload)) return false;
+  const bool has_sequence = (byte_at(payload, kFlagsAt) & 1U) != 0;
+  return byte_at(payload, kUnitAt) == unit_mm(traits) &&
          payload.size >= traits.bytes() + (has_sequence ? kSequenceBytes : 0U);
 }
 
@@ -65,8 +86,8 @@ bool fits(const HesaiTraits& traits, ByteView payload) {
     if (traits.block_head_bytes == 4 && little_endian_at(payload, start, 2) != kHesaiBlockFlag) return false;
     if (little_endian_at(payload, start + traits.block_head_bytes - 2, 2) >= 36000) return false;
   }
-  const std::uint8_t mode = mode_of(traits, payload);
-  return is_single(mode) || is_dual(mode);
+  const std::size_t returns = returns_of_mode(mode_of(traits, payload));
+  return returns >= 1 && returns <= traits.returns_most;
 }
 
 }  // namespace
@@ -77,12 +98,15 @@ double HesaiTraits::firing_start_ns(std::size_t firing, std::size_t firings) con
 }
 
 const HesaiTraits& hesai_traits(HesaiModel model) {
-  // Appendix II of each manual has the times: of a packet, and the first one of a laser.
+  // Appendix II of each manual has the times: of a packet, and the first one of a laser. Those of an XT32M count from
+  // its last of six blocks, as HesaiLidar_SDK_2.0 does (udp6_1_parser.cc) and as three returns do in Nebula.
   static const std::array<HesaiTraits, kHesaiModels.size()> traits = {
-      {{HesaiModel::kXt32, hesai_xt32(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 368.0, 5'632.0, true, kXtProtocol},
-       {HesaiModel::kPandar40p, hesai_pandar40p(), 10, 0, 4, 3, 22, 14, -54'670.0, -28'580.0, true},
-       {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 12'310.0, 25'710.0, false},
-       {HesaiModel::kXt16, hesai_xt16(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 368.0, 5'632.0, true, kXtProtocol}}};
+      {{HesaiModel::kXt32, hesai_xt32(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 11, 368.0, 5'632.0, true, kXtProtocol},
+       {HesaiModel::kPandar40p, hesai_pandar40p(), 10, 0, 4, 3, 22, 14, 8, -54'670.0, -28'580.0, true},
+       {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 10, 12'310.0, 25'710.0, false},
+       {HesaiModel::kXt16, hesai_xt16(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 11, 368.0, 5'632.0, true, kXtProtocol},
+       {HesaiModel::kXt32m, hesai_xt32m(), 6, kHesaiHeadBytes, 2, 4, 24, 10, 11, 368.0, 5'632.0, true, kXtProtocol,
+        3}}};
   return traits[static_cast<std::size_t>(model)];
 }
 
@@ -95,14 +119,20 @@ std::optional<HesaiModel> hesai_model_of(ByteView payload) {
 
 std::string unread_hesai(ByteView payload) {
   if (!has_head(payload) || hesai_model_of(payload)) return "";
+  for (const HesaiModel model : kHesaiModels) {
+    const HesaiTraits& traits = hesai_traits(model);
+    if (!is_shaped(traits, payload) || byte_at(payload, kUnitAt) == unit_mm(traits)) continue;
+    return say("a {} that counts ranges in {} mm, and not in {} mm", traits.title(), byte_at(payload, kUnitAt),
+               unit_mm(traits));
+  }
   // Pandar64 and Pandar20 have a shorter head.
   const bool is_short = byte_at(payload, 2) == 64 || byte_at(payload, 2) == 20;
-  const std::size_t lasers = is_short ? 2 : 6;
+  const std::size_t lasers = is_short ? 2 : kLasersAt;
   return say("a Hesai of {} lasers in {} blocks", byte_at(payload, lasers), byte_at(payload, lasers + 1));
 }
 
-bool is_hesai_dual(const HesaiTraits& traits, ByteView payload) {
-  return is_dual(mode_of(traits, payload));
+std::size_t hesai_returns(const HesaiTraits& traits, ByteView payload) {
+  return returns_of_mode(mode_of(traits, payload));
 }
 
 std::vector<HesaiLaser> parse_hesai_angles(const std::string& text, std::size_t lasers) {

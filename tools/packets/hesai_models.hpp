@@ -17,10 +17,10 @@
 
 namespace pose_wall::tools {
 
-enum class HesaiModel { kXt32, kPandar40p, kQt64, kXt16 };
+enum class HesaiModel { kXt32, kPandar40p, kQt64, kXt16, kXt32m };
 
-constexpr std::array<HesaiModel, 4> kHesaiModels = {HesaiModel::kXt32, HesaiModel::kPandar40p, HesaiModel::kQt64,
-                                                    HesaiModel::kXt16};
+constexpr std::array<HesaiModel, 5> kHesaiModels = {HesaiModel::kXt32, HesaiModel::kPandar40p, HesaiModel::kQt64,
+                                                    HesaiModel::kXt16, HesaiModel::kXt32m};
 
 struct HesaiLaser {
   double elevation_deg = 0.0;
@@ -35,16 +35,20 @@ struct HesaiTraits {
   std::size_t block_head_bytes;  // flag and azimuth before a block's returns
   std::size_t return_bytes;
   std::size_t tail_bytes;
-  std::size_t mode_offset;  // of the return mode, within the tail
-  double first_laser_ns;    // from a firing's time to the first laser's
-  double known_firing_ns;   // from a packet's time to its first firing, or to the last
+  std::size_t mode_offset;   // of the return mode, within the tail
+  std::size_t speed_offset;  // of the turns a minute, within the tail
+  double first_laser_ns;     // from a firing's time to the first laser's
+  double known_firing_ns;    // from a packet's time to its first firing, or to the last
   bool last_is_known;
-  std::uint16_t protocol = 0;  // version of its head, the lower byte first; 0: it is not looked at
+  std::uint16_t protocol = 0;    // version of its head, the lower byte first; 0: it is not looked at
+  std::size_t returns_most = 2;  // of a laser's shot
 
   const std::string& title() const { return beams.title; }
   std::size_t lasers() const { return beams.lasers.size(); }
   std::size_t block_bytes() const { return block_head_bytes + lasers() * return_bytes; }
   std::size_t bytes() const { return head_bytes + blocks * block_bytes() + tail_bytes; }
+
+  std::size_t tail_at() const { return bytes() - tail_bytes; }
 
   // From a packet's time to that of one of its `firings`, counted from 0.
   double firing_start_ns(std::size_t firing, std::size_t firings) const;
@@ -52,13 +56,15 @@ struct HesaiTraits {
 
 const HesaiTraits& hesai_traits(HesaiModel model);
 
-// The model whose data these bytes are, with lengths, counts, azimuths and return mode that fit it.
+// The model whose data these bytes are, with lengths, counts, unit, azimuths and return mode that fit it.
 std::optional<HesaiModel> hesai_model_of(ByteView payload);
 
-// What data of a Hesai is that is not read ("a Hesai of 128 lasers in 2 blocks"); "" for anything else.
+// What data of a Hesai is that is not read ("a Hesai of 128 lasers in 2 blocks", or a model in another unit than its
+// own); "" for anything else.
 std::string unread_hesai(ByteView payload);
 
-bool is_hesai_dual(const HesaiTraits& traits, ByteView payload);
+// How many returns of a shot such data holds, one block each: 1 to 3.
+std::size_t hesai_returns(const HesaiTraits& traits, ByteView payload);
 
 // A file of angles, as the sensor or its maker gives it: a head, then a line for each laser with its number from 1,
 // elevation and azimuth in degrees. Throws FrameError unless each of `lasers` is there once.

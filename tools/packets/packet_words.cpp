@@ -78,6 +78,28 @@ const char* return_mode(std::uint32_t mode) {
   }
 }
 
+// Those that Hesai has beside them: return modes of tier4/nebula (hesai_packet.hpp).
+const char* hesai_return_mode(std::uint32_t mode) {
+  switch (mode) {
+    case 0x33:
+      return translatable("first");
+    case 0x34:
+      return translatable("second");
+    case 0x3A:
+      return translatable("two returns: first and second");
+    case 0x3B:
+      return translatable("two returns: first and last");
+    case 0x3C:
+      return translatable("two returns: first and strongest");
+    case 0x3D:
+      return translatable("three returns: first, last and strongest");
+    case 0x3E:
+      return translatable("two returns: strongest and second strongest");
+    default:
+      return return_mode(mode);
+  }
+}
+
 // Its manual: a clock that counts microseconds of the hour, then the return mode.
 class VelodyneWords : public PacketWords {
  public:
@@ -164,12 +186,8 @@ class HesaiWords : public PacketWords {
     const std::optional<HesaiModel> model = hesai_model_of(payload);
     if (!model) return;
     const HesaiTraits& traits = hesai_traits(*model);
-    const std::size_t mode_at = traits.bytes() - traits.tail_bytes + traits.mode_offset;
-    mode_ = little_endian_at(payload, mode_at, 1);
-    const bool is_xt = *model == HesaiModel::kXt32, is_older = is_older_kind(*model);
-    if (!is_xt && !is_older) return;
-    // An XT has it behind the return mode, the older two before the clock.
-    speed_rpm_ = little_endian_at(payload, is_xt ? mode_at + 1 : mode_at - 6, 2);
+    mode_ = little_endian_at(payload, traits.tail_at() + traits.mode_offset, 1);
+    speed_rpm_ = little_endian_at(payload, traits.tail_at() + traits.speed_offset, 2);
     constexpr std::size_t kNumberBytes = 4;
     const bool has_number = traits.head_bytes == 0 || (little_endian_at(payload, 11, 1) & 1U) != 0;
     if (has_number && payload.size >= traits.bytes() + kNumberBytes) {
@@ -178,14 +196,12 @@ class HesaiWords : public PacketWords {
   }
 
   void describe(SourceSender* sender) const override {
-    if (const char* const mode = return_mode(mode_)) add_fact(sender, "return mode", mode);
+    if (const char* const mode = hesai_return_mode(mode_)) add_fact(sender, "return mode", mode);
     if (speed_rpm_ > 0) add_fact(sender, "turn rate", rpm_text(speed_rpm_ / 60.0));
     add_missing(sender, packets_);
   }
 
  private:
-  static bool is_older_kind(HesaiModel model) { return model == HesaiModel::kPandar40p || model == HesaiModel::kQt64; }
-
   std::uint32_t mode_ = 0, speed_rpm_ = 0;
   MissingPackets packets_;
 };

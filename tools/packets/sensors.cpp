@@ -55,6 +55,8 @@ std::optional<HesaiModel> hesai_model(SensorKind kind) {
       return HesaiModel::kQt64;
     case SensorKind::kHesaiXt16:
       return HesaiModel::kXt16;
+    case SensorKind::kHesaiXt32m:
+      return HesaiModel::kXt32m;
     default:
       return std::nullopt;
   }
@@ -282,7 +284,8 @@ const std::vector<KnownSensor>& known_sensors() {
       {SensorKind::kHesaiXt16, "hesai_xt16", "Hesai PandarXT-16", 2368, SensorMetadata::kHesaiAngles, false},
       {SensorKind::kMid360s, "mid360s", "Livox Mid-360S", kLivoxHostPort, SensorMetadata::kNone, false},
       {SensorKind::kLivoxHap, "hap", "Livox HAP", kLivoxHapPort, SensorMetadata::kNone, false},
-      {SensorKind::kAvia2, "avia2", "Livox Avia 2", kLivoxHostPort, SensorMetadata::kNone, false}};
+      {SensorKind::kAvia2, "avia2", "Livox Avia 2", kLivoxHostPort, SensorMetadata::kNone, false},
+      {SensorKind::kHesaiXt32m, "hesai_xt32m", "Hesai PandarXT-32M2X", 2368, SensorMetadata::kHesaiAngles, false}};
   return sensors;
 }
 

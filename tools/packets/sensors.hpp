@@ -48,7 +48,8 @@ enum class SensorKind {
   kHesaiXt16,
   kMid360s,
   kLivoxHap,
-  kAvia2
+  kAvia2,
+  kHesaiXt32m
 };
 
 enum class SensorMetadata { kNone, kOusterJson, kHesaiAngles, kRoboSenseDevice };
