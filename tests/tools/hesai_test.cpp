@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: packets of Hesai's XT32, XT32M, XT16, 40P and QT64 give points and times where the manuals put them (worked
-// out by hand), of two returns the farther whatever their order, angles of a table where one is given; what does not
-// fit is not taken or refused with its reason. Real packets are looked at in tests/real.
+// Proves: packets of Hesai's XT32, XT32M, XT16, 40P, 64, QT64 and QT128 give points and times where the manuals put
+// them (worked out by hand), of two returns the farther whatever their order, angles of a table where one is given;
+// what does not fit is not taken or refused with its reason. Real packets are looked at in tests/real.
 
 #include <gtest/gtest.h>
 
@@ -80,6 +80,52 @@ TEST(Hesai, PointsOfAnXt32mLieWhereItsDesignPutsThem) {
   EXPECT_EQ(point_at(scan, 31, 3).t_ns, 150'000U);
   EXPECT_EQ(point_at(scan, 16, 3).t_ns, 150'000U + 49'320U - 6'000U);
   EXPECT_EQ(point_at(scan, 15, 3).t_ns, 150'000U);
+}
+
+TEST(Hesai, PointsOfAQt128LieWhereItsMakerPutsThem) {
+  HesaiPacket packet = test::qt128_packet();
+  packet.step_deg = 90.0;
+  const Scan scan = one_turn(packet);
+  ASSERT_EQ(scan.rings, 128U);
+  // Block 1 at 90 degrees. Channel 1: -52.6268 and 10.1083 degrees; channel 128 is its mirror image.
+  expect_at(point_at(scan, 0, 1), -1.065349, -5.975821, -7.946986);
+  expect_at(point_at(scan, 127, 1), 1.065349, -5.975821, 7.946986);
+  // Block 0 at 9 us, the next 111.11 us later. Channel 65 fires first, after 0.6 or 1.456 us, channel 1 after 2.312,
+  // channel 128 after 48.12 or 48.976.
+  EXPECT_EQ(scan.stamp_ns, kCaptured_ns + 9'000 + 1'028);
+  EXPECT_EQ(point_at(scan, 0, 1).t_ns, 111'110U + 2'312U - 1'028U);
+  EXPECT_EQ(point_at(scan, 127, 1).t_ns, 111'110U + 48'548U - 1'028U);
+  packet.mode = 0x3B;
+  EXPECT_EQ(one_turn(packet).points.size(), 128U) << "one firing of two returns";
+}
+
+// With channels of its own, or without the state of its safety, what lies where is another matter.
+TEST(Hesai, AQt128ThatHoldsSomethingElseIsRefusedByName) {
+  for (const char flags : {'\x5D', '\x19', '\x0D'}) {
+    std::string payload = payload_of(test::qt128_packet());
+    payload[11] = flags;
+    EXPECT_FALSE(hesai_model_of(test::view_of(payload)));
+    EXPECT_EQ(unread_hesai(test::view_of(payload)).find("a Hesai QT128C2X whose packets hold something else"), 0U);
+  }
+}
+
+TEST(Hesai, PointsOfAPandar64LieWhereItsMakerPutsThem) {
+  HesaiPacket packet = test::pandar64_packet();
+  packet.step_deg = 30.0;
+  const Scan scan = one_turn(packet);
+  ASSERT_EQ(scan.rings, 64U);
+  // Block 3 at 90 degrees. Channels 9, 10 and 64: elevations 1.54, 1.369, -24.879; azimuths 5.208, -5.208, -1.042.
+  expect_at(point_at(scan, 55, 3), -0.907388, -9.955120, 0.268748);
+  expect_at(point_at(scan, 54, 3), 0.907457, -9.955875, 0.238913);
+  expect_at(point_at(scan, 0, 3), 0.164977, -9.070483, -4.207033);
+  // The last block at -42.58 us, each before it 55.56 us earlier. Channel 12 fires first, 54.668 us before its block's
+  // time, channel 51 last, 3.62 us before it.
+  EXPECT_EQ(scan.stamp_ns, kCaptured_ns - 42'580 - 5 * 55'560 - 54'668);
+  EXPECT_EQ(point_at(scan, 52, 3).t_ns, 3U * 55'560U);
+  EXPECT_EQ(point_at(scan, 13, 3).t_ns, 3U * 55'560U + 54'668U - 3'620U);
+  packet.unit_mm = 2;
+  const std::string other = payload_of(packet);
+  EXPECT_EQ(unread_hesai(test::view_of(other)), "a Hesai Pandar64 that counts ranges in 2 mm, and not in 4 mm");
 }
 
 TEST(Hesai, OfThreeReturnsTheFarthestIsTaken) {
@@ -236,7 +282,8 @@ TEST(Hesai, WhatDoesNotFitIsNotTaken) {
   of_40p.blocks = 10;
   of_qt.lasers = 64;
   of_qt.blocks = 4;
-  for (const HesaiPacket& packet : {HesaiPacket{}, of_40p, of_qt, of_xt16, test::xt32m_packet()}) {
+  for (const HesaiPacket& packet :
+       {HesaiPacket{}, of_40p, of_qt, of_xt16, test::xt32m_packet(), test::pandar64_packet()}) {
     const std::string good = payload_of(packet);
     ASSERT_TRUE(hesai_model_of(test::view_of(good)));
     for (std::size_t size = 0; size < good.size(); ++size) {
@@ -246,7 +293,7 @@ TEST(Hesai, WhatDoesNotFitIsNotTaken) {
     unknown.mode = 0x55;
     EXPECT_FALSE(hesai_model_of(test::view_of(payload_of(unknown)))) << "return mode";
     std::string azimuth = good;
-    azimuth.replace(packet.lasers == 40 ? 2 : 12, 2, "\xA0\x8C");
+    azimuth.replace(packet.lasers == 40 ? 2 : packet.lasers == 64 && packet.blocks == 6 ? 8 : 12, 2, "\xA0\x8C");
     EXPECT_FALSE(hesai_model_of(test::view_of(azimuth))) << "360.00 degrees";
   }
   std::string lasers = payload_of(HesaiPacket{}), blocks = lasers, unit = lasers;

@@ -135,9 +135,12 @@ TEST(PacketFacts, AReceiverOfGpsTellsOfTheTime) {
 
 TEST(PacketFacts, OfAHesai) {
   const TempFolder folder;
-  for (const test::HesaiPacket& kind : {test::HesaiPacket{}, test::HesaiPacket{16, 8}, test::xt32m_packet(),
-                                        test::HesaiPacket{40, 10}, test::HesaiPacket{64, 4}}) {
+  for (const test::HesaiPacket& kind :
+       {test::HesaiPacket{}, test::HesaiPacket{16, 8}, test::xt32m_packet(), test::HesaiPacket{40, 10},
+        test::HesaiPacket{64, 4}, test::qt128_packet(), test::pandar64_packet()}) {
     SCOPED_TRACE(kind.lasers);
+    const std::size_t behind_number = kind.lasers == 128 ? 4 + 32 : 0;
+    const bool has_no_number = kind.lasers == 40 || (kind.lasers == 64 && kind.blocks == 6);
     std::vector<std::string> payloads;
     for (std::uint32_t i = 0; i < 40; ++i) {
       if (i == 11 || i == 20) continue;
@@ -145,8 +148,8 @@ TEST(PacketFacts, OfAHesai) {
       packet.step_deg = 4.0;
       packet.first_deg = 4.0 * static_cast<double>(kind.blocks * i % 90);
       std::string payload = payload_of(packet);
-      if (kind.lasers == 40) payload += "none";
-      payload.replace(payload.size() - 4, 4, raw(i + 0xFFFFFFF0U));
+      if (has_no_number) payload += "none";
+      payload.replace(payload.size() - behind_number - 4, 4, raw(i + 0xFFFFFFF0U));
       payloads.push_back(payload);
     }
     const SourceSender sender = only_sender(folder.write("a.pcap", test::capture_of(payloads)));

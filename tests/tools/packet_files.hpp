@@ -115,6 +115,14 @@ struct HesaiPacket {
   char unit_mm = 4;
 };
 
+inline HesaiPacket qt128_packet() {
+  return {128, 2};
+}
+
+inline HesaiPacket pandar64_packet() {
+  return {64, 6};
+}
+
 inline HesaiPacket xt32m_packet() {
   HesaiPacket packet{32, 6};
   packet.unit_mm = 5;
@@ -122,9 +130,14 @@ inline HesaiPacket xt32m_packet() {
 }
 
 inline std::string payload_of(const HesaiPacket& packet) {
-  const bool is_40p = packet.lasers == 40;
+  const bool is_40p = packet.lasers == 40, is_64 = packet.lasers == 64 && packet.blocks == 6;
+  const bool is_qt128 = packet.lasers == 128;
   std::string payload;
-  if (!is_40p) {
+  if (is_64) {
+    payload = std::string("\xEE\xFF\x40\x06\0", 5) + packet.unit_mm + std::string(2, '\0');
+  } else if (is_qt128) {
+    payload = "\xEE\xFF\x03\x02" + std::string(2, '\0') + "\x80\x02\x01" + packet.unit_mm + "\x02\x1D";
+  } else if (!is_40p) {
     payload = "\xEE\xFF\x06\x01" + std::string(2, '\0') + static_cast<char>(packet.lasers) +
               static_cast<char>(packet.blocks) + '\0' + packet.unit_mm + "\x02\x01";
   }
@@ -134,13 +147,18 @@ inline std::string payload_of(const HesaiPacket& packet) {
     if (is_40p) payload += "\xFF\xEE";
     payload += raw(static_cast<std::uint16_t>(std::lround(azimuth_deg * 100.0) % 36000));
     for (std::size_t laser = 0; laser < packet.lasers; ++laser) {
-      payload += raw(packet.distance(block, laser)) + (is_40p ? "\x2A" : "\x2A\x01");
+      payload += raw(packet.distance(block, laser)) + (is_40p || is_64 ? "\x2A" : "\x2A\x01");
     }
   }
   const std::string mode(1, static_cast<char>(packet.mode)), date("\x17\x0B\x0E\x01\x02\x03", 6);
   const std::string speed = raw(std::uint16_t{600}), clock = raw(std::uint32_t{123456});
-  if (is_40p) return payload + std::string(8, '\0') + speed + clock + mode + '\x42' + date;
+  if (is_40p || is_64) return payload + std::string(8, '\0') + speed + clock + mode + '\x42' + date;
   const std::string sequence = raw(std::uint32_t{7});
+  if (is_qt128) {
+    const std::string checksum_and_safety(4 + 17, '\x11');
+    return payload + checksum_and_safety + std::string(12, '\0') + mode + speed + date + clock + '\x42' + sequence +
+           std::string(4 + 32, '\x22');
+  }
   if (packet.lasers == 64) return payload + std::string(10, '\0') + speed + clock + mode + '\x42' + date + sequence;
   return payload + std::string(10, '\0') + mode + speed + date + clock + '\x42' + sequence;
 }

@@ -66,7 +66,8 @@ std::vector<Example> examples() {
   for (const auto& [kind, packet] :
        {std::pair(SensorKind::kHesaiXt32, hesai(32, 8)), std::pair(SensorKind::kHesai40p, hesai(40, 10)),
         std::pair(SensorKind::kHesaiQt64, hesai(64, 4)), std::pair(SensorKind::kHesaiXt16, hesai(16, 8)),
-        std::pair(SensorKind::kHesaiXt32m, xt32m())}) {
+        std::pair(SensorKind::kHesaiXt32m, xt32m()), std::pair(SensorKind::kHesaiQt128, hesai(128, 2)),
+        std::pair(SensorKind::kHesaiPandar64, hesai(64, 6))}) {
     examples.push_back({kind, std::vector<std::string>(3, payload_of(packet))});
   }
   examples.push_back({SensorKind::kMid360, mid360(), "Livox Mid-360, Mid-360S, HAP or Avia 2"});
@@ -136,11 +137,14 @@ TEST(Sensors, PacketsOfAnotherSensorAreNamed) {
 
 TEST(Sensors, WhatIsKnownAndNotReadIsNamed) {
   const TempFolder folder;
-  const std::string qt128 = payload_of(hesai(128, 2));
-  const std::string refused = refusal_of(read(folder.write("x.pcap", capture_of({qt128}))));
-  EXPECT_TRUE(contains(refused, "data of a Hesai of 128 lasers in 2 blocks, which is not read")) << refused;
+  const std::string none = payload_of(hesai(16, 2));
+  const std::string refused = refusal_of(read(folder.write("x.pcap", capture_of({none}))));
+  EXPECT_TRUE(contains(refused, "data of a Hesai of 16 lasers in 2 blocks, which is not read")) << refused;
   EXPECT_TRUE(contains(refused, "of a Velodyne VLP-16")) << "what is read";
   EXPECT_TRUE(contains(refused, "--metadata")) << "and how an Ouster is";
+  std::string ot128 = payload_of(hesai(128, 2));
+  ot128.replace(2, 3, "\x01\x04\x80");
+  EXPECT_TRUE(contains(refusal_of(read(folder.write("x.pcap", capture_of({ot128})))), "data of a Hesai OT128, which"));
   std::string vls128 = payload_of(test::VelodynePacket{});
   vls128[100] = '\xFF';
   vls128[101] = '\xDD';
@@ -183,7 +187,7 @@ TEST(Sensors, NamesAreTheTables) {
   const std::string file = folder.write("h.pcap", capture_of({payload_of(hesai(32, 8))}));
   EXPECT_TRUE(
       contains(refusal_of(read(file, {"hesai_xt23", ""})), "did you mean 'hesai_xt32'?; known are auto, vlp16"));
-  ASSERT_EQ(known_sensors().size(), static_cast<std::size_t>(SensorKind::kHesaiXt32m) + 1);
+  ASSERT_EQ(known_sensors().size(), static_cast<std::size_t>(SensorKind::kHesaiPandar64) + 1);
   for (std::size_t i = 0; i < known_sensors().size(); ++i) {
     const KnownSensor& sensor = known_sensors()[i];
     EXPECT_EQ(static_cast<std::size_t>(sensor.kind), i);

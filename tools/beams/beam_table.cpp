@@ -54,11 +54,11 @@ void number_rings(std::vector<Laser>* lasers) {
 
 const std::vector<const BeamTable*>& beam_tables() {
   static const std::vector<const BeamTable*> tables = {
-      &velodyne_vlp16(),      &velodyne_vlp16_hires(), &velodyne_hdl32e(), &velodyne_vlp32c(),    &hesai_xt32(),
-      &hesai_pandar40p(),     &hesai_qt64(),           &hesai_xt16(),      &hesai_xt32m(),        &ouster_os0_128(),
-      &ouster_os0_128_rev7(), &ouster_os1_64_gen1(),   &ouster_os1_64(),   &ouster_os1_64_rev7(), &ouster_os2_128(),
-      &ouster_os2_128_rev7(), &robosense_rs16(),       &robosense_rs32(),  &robosense_helios32(), &robosense_bpearl(),
-      &robosense_airy(),      &lslidar_c16_v3(),       &lslidar_c16_v4()};
+      &velodyne_vlp16(),   &velodyne_vlp16_hires(), &velodyne_hdl32e(),    &velodyne_vlp32c(), &hesai_xt32(),
+      &hesai_pandar40p(),  &hesai_qt64(),           &hesai_xt16(),         &hesai_xt32m(),     &hesai_pandar64(),
+      &ouster_os0_128(),   &ouster_os0_128_rev7(),  &ouster_os1_64_gen1(), &ouster_os1_64(),   &ouster_os1_64_rev7(),
+      &ouster_os2_128(),   &ouster_os2_128_rev7(),  &robosense_rs16(),     &robosense_rs32(),  &robosense_helios32(),
+      &robosense_bpearl(), &robosense_airy(),       &lslidar_c16_v3(),     &lslidar_c16_v4()};
   return tables;
 }
 

@@ -85,6 +85,8 @@ const BeamTable& hesai_pandar40p();
 const BeamTable& hesai_qt64();
 const BeamTable& hesai_xt16();
 const BeamTable& hesai_xt32m();
+const BeamTable& hesai_qt128();
+const BeamTable& hesai_pandar64();
 // The revisions of one kind differ in where their light leaves.
 const BeamTable& ouster_os0_128();
 const BeamTable& ouster_os0_128_rev7();

@@ -19,9 +19,12 @@ namespace {
 constexpr std::uint16_t kHesaiPacketFlag = 0xFFEE;  // bytes EE FF
 constexpr std::uint16_t kHesaiBlockFlag = 0xEEFF;   // bytes FF EE
 constexpr std::size_t kHesaiHeadBytes = 12;
-constexpr std::size_t kLasersAt = 6, kUnitAt = 9, kFlagsAt = 11;  // in a head; the blocks follow the lasers
+constexpr std::size_t kShortHeadBytes = 8;  // of a Pandar64, as of a Pandar20
+constexpr std::size_t kFlagsAt = 11;        // in the longer head
+constexpr std::uint8_t kHasSequence = 0x01, kHasSafety = 0x04, kHasConfidence = 0x10, kHasOwnChannels = 0x40;
 constexpr std::size_t kSequenceBytes = 4;
-constexpr std::uint16_t kXtProtocol = 0x0106;  // 6.1, as HesaiLidar_SDK_2.0 tells an XT from others
+constexpr std::uint16_t kXtProtocol = 0x0106;     // 6.1, as HesaiLidar_SDK_2.0 tells an XT from others
+constexpr std::uint16_t kQt128Protocol = 0x0203;  // 3.2
 constexpr double kElevationMax_deg = 90.0, kAzimuthMax_deg = 180.0;
 
 std::uint8_t byte_at(ByteView payload, std::size_t offset) {
@@ -57,30 +60,68 @@ bool has_head(ByteView payload) {
   return payload.size >= kHesaiHeadBytes && little_endian_at(payload, 0, 2) == kHesaiPacketFlag;
 }
 
-// Whose packets have such a head, apart from the unit of ranges.
+// Those that HesaiLidar_SDK_2.0 (ea7f86f) tells apart so and that are not read (udp_parser.cc); "": none of these.
+std::string name_by_protocol(ByteView payload) {
+  constexpr std::uint8_t kFirstOt128 = 128, kFirstJt128 = 137;  // byte 4
+  switch (little_endian_at(payload, 2, 2)) {
+    case 0x0401: {
+      const std::uint8_t kind = byte_at(payload, 4);
+      return kind >= kFirstJt128 ? "a Hesai JT128" : kind >= kFirstOt128 ? "a Hesai OT128" : "a Hesai Pandar128";
+    }
+    case 0x0801:
+      return "a Hesai JT16";
+    case 0x0104:
+    case 0x0304:
+      return "a Hesai AT128";
+    case 0x0704:
+      return "a Hesai ATX";
+    default:
+      return "";
+  }
+}
+
+// Where a head tells lasers and unit; the number of blocks follows that of lasers.
+struct HeadPlaces {
+  std::size_t lasers, unit;
+};
+
+HeadPlaces head_places(std::size_t head_bytes) {
+  return head_bytes == kShortHeadBytes ? HeadPlaces{2, 5} : HeadPlaces{6, 9};
+}
+
+// Whose packets have such a head, apart from the unit of ranges and what else they hold.
 bool is_shaped(const HesaiTraits& traits, ByteView payload) {
   if (traits.head_bytes == 0 || !has_head(payload)) return false;
   if (traits.protocol != 0 && little_endian_at(payload, 2, 2) != traits.protocol) return false;
-  return byte_at(payload, kLasersAt) == traits.lasers() && byte_at(payload, kLasersAt + 1) == traits.blocks;
+  const std::size_t lasers_at = head_places(traits.head_bytes).lasers;
+  return byte_at(payload, lasers_at) == traits.lasers() && byte_at(payload, lasers_at + 1) == traits.blocks;
 }
 
 long unit_mm(const HesaiTraits& traits) {
   return std::lround(1e3 * traits.beams.ranges.unit_m);
 }
 
-// What says in its head how many lasers and blocks it has, in which unit, and that a number ends it.
-bool fits_head(const HesaiTraits& traits, ByteView payload) {
-  if (!is_shaped(traits, payload)) return false;
-  const bool has_sequence = (byte_at(payload, kFlagsAt) & 1U) != 0;
-  return byte_at(payload, kUnitAt) == unit_mm(traits) &&
-         payload.size >= traits.bytes() + (has_sequence ? kSequenceBytes : 0U);
+std::uint8_t told_unit_mm(const HesaiTraits& traits, ByteView payload) {
+  return byte_at(payload, head_places(traits.head_bytes).unit);
+}
+
+bool has_flags(const HesaiTraits& traits, ByteView payload) {
+  return (byte_at(payload, kFlagsAt) & traits.flags_looked_at) == traits.flags;
+}
+
+// Those with the longer head say there whether a number ends a packet; of the others its length does.
+bool has_length(const HesaiTraits& traits, ByteView payload) {
+  if (traits.head_bytes == kHesaiHeadBytes) {
+    const bool has_sequence = (byte_at(payload, kFlagsAt) & kHasSequence) != 0;
+    return payload.size >= traits.bytes() + (has_sequence ? kSequenceBytes : 0U);
+  }
+  return payload.size == traits.bytes() || payload.size == traits.bytes() + kSequenceBytes;
 }
 
 bool fits(const HesaiTraits& traits, ByteView payload) {
-  if (traits.head_bytes > 0 && !fits_head(traits, payload)) return false;
-  if (traits.head_bytes == 0 && payload.size != traits.bytes() && payload.size != traits.bytes() + kSequenceBytes) {
-    return false;
-  }
+  const bool has_its_head = traits.head_bytes == 0 || (is_shaped(traits, payload) && has_flags(traits, payload) &&
+                                                       told_unit_mm(traits, payload) == unit_mm(traits));
+  if (!has_its_head || !has_length(traits, payload)) return false;
   for (std::size_t block = 0; block < traits.blocks; ++block) {
     const std::size_t start = traits.head_bytes + block * traits.block_bytes();
     if (traits.block_head_bytes == 4 && little_endian_at(payload, start, 2) != kHesaiBlockFlag) return false;
@@ -105,8 +146,11 @@ const HesaiTraits& hesai_traits(HesaiModel model) {
        {HesaiModel::kPandar40p, hesai_pandar40p(), 10, 0, 4, 3, 22, 14, 8, -54'670.0, -28'580.0, true},
        {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 10, 12'310.0, 25'710.0, false},
        {HesaiModel::kXt16, hesai_xt16(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 11, 368.0, 5'632.0, true, kXtProtocol},
-       {HesaiModel::kXt32m, hesai_xt32m(), 6, kHesaiHeadBytes, 2, 4, 24, 10, 11, 368.0, 5'632.0, true, kXtProtocol,
-        3}}};
+       {HesaiModel::kXt32m, hesai_xt32m(), 6, kHesaiHeadBytes, 2, 4, 24, 10, 11, 368.0, 5'632.0, true, kXtProtocol, 3},
+       // Checksum and state of its safety stand before its tail, as HesaiLidar_SDK_2.0 has it (udp_protocol_v3_2.h).
+       {HesaiModel::kQt128, hesai_qt128(), 2, kHesaiHeadBytes, 2, 4, 47, 33, 34, 1'028.0, 9'000.0, false,
+        kQt128Protocol, 2, kHasSafety | kHasConfidence | kHasOwnChannels, kHasSafety | kHasConfidence},
+       {HesaiModel::kPandar64, hesai_pandar64(), 6, kShortHeadBytes, 2, 3, 22, 14, 8, -54'668.0, -42'580.0, true}}};
   return traits[static_cast<std::size_t>(model)];
 }
 
@@ -121,14 +165,28 @@ std::string unread_hesai(ByteView payload) {
   if (!has_head(payload) || hesai_model_of(payload)) return "";
   for (const HesaiModel model : kHesaiModels) {
     const HesaiTraits& traits = hesai_traits(model);
-    if (!is_shaped(traits, payload) || byte_at(payload, kUnitAt) == unit_mm(traits)) continue;
-    return say("a {} that counts ranges in {} mm, and not in {} mm", traits.title(), byte_at(payload, kUnitAt),
-               unit_mm(traits));
+    if (!is_shaped(traits, payload)) continue;
+    if (const std::uint8_t told_mm = told_unit_mm(traits, payload); told_mm != unit_mm(traits)) {
+      return say("a {} that counts ranges in {} mm, and not in {} mm", traits.title(), told_mm, unit_mm(traits));
+    }
+    if (!has_flags(traits, payload)) {
+      return say("a {} whose packets hold something else than usual (byte 11 is {:02x})", traits.title(),
+                 byte_at(payload, kFlagsAt));
+    }
   }
   // Pandar64 and Pandar20 have a shorter head.
   const bool is_short = byte_at(payload, 2) == 64 || byte_at(payload, 2) == 20;
-  const std::size_t lasers = is_short ? 2 : kLasersAt;
+  const std::size_t lasers = head_places(is_short ? kShortHeadBytes : kHesaiHeadBytes).lasers;
+  const std::string name = is_short ? "" : name_by_protocol(payload);
+  if (!name.empty()) return name;
   return say("a Hesai of {} lasers in {} blocks", byte_at(payload, lasers), byte_at(payload, lasers + 1));
+}
+
+std::optional<std::uint32_t> hesai_number(const HesaiTraits& traits, ByteView payload) {
+  const bool tells = traits.head_bytes == kHesaiHeadBytes;
+  const bool has_it = !tells || (byte_at(payload, kFlagsAt) & kHasSequence) != 0;
+  if (!has_it || payload.size < traits.bytes() + kSequenceBytes) return std::nullopt;
+  return little_endian_at(payload, traits.bytes(), kSequenceBytes);
 }
 
 std::size_t hesai_returns(const HesaiTraits& traits, ByteView payload) {

@@ -17,10 +17,11 @@
 
 namespace pose_wall::tools {
 
-enum class HesaiModel { kXt32, kPandar40p, kQt64, kXt16, kXt32m };
+enum class HesaiModel { kXt32, kPandar40p, kQt64, kXt16, kXt32m, kQt128, kPandar64 };
 
-constexpr std::array<HesaiModel, 5> kHesaiModels = {HesaiModel::kXt32, HesaiModel::kPandar40p, HesaiModel::kQt64,
-                                                    HesaiModel::kXt16, HesaiModel::kXt32m};
+constexpr std::array<HesaiModel, 7> kHesaiModels = {HesaiModel::kXt32,    HesaiModel::kPandar40p, HesaiModel::kQt64,
+                                                    HesaiModel::kXt16,    HesaiModel::kXt32m,     HesaiModel::kQt128,
+                                                    HesaiModel::kPandar64};
 
 struct HesaiLaser {
   double elevation_deg = 0.0;
@@ -42,13 +43,14 @@ struct HesaiTraits {
   bool last_is_known;
   std::uint16_t protocol = 0;    // version of its head, the lower byte first; 0: it is not looked at
   std::size_t returns_most = 2;  // of a laser's shot
+  // Of those that tell what a packet holds: which are looked at, and which of these have to be there.
+  std::uint8_t flags_looked_at = 0, flags = 0;
 
   const std::string& title() const { return beams.title; }
   std::size_t lasers() const { return beams.lasers.size(); }
   std::size_t block_bytes() const { return block_head_bytes + lasers() * return_bytes; }
-  std::size_t bytes() const { return head_bytes + blocks * block_bytes() + tail_bytes; }
-
-  std::size_t tail_at() const { return bytes() - tail_bytes; }
+  std::size_t tail_at() const { return head_bytes + blocks * block_bytes(); }
+  std::size_t bytes() const { return tail_at() + tail_bytes; }
 
   // From a packet's time to that of one of its `firings`, counted from 0.
   double firing_start_ns(std::size_t firing, std::size_t firings) const;
@@ -59,9 +61,12 @@ const HesaiTraits& hesai_traits(HesaiModel model);
 // The model whose data these bytes are, with lengths, counts, unit, azimuths and return mode that fit it.
 std::optional<HesaiModel> hesai_model_of(ByteView payload);
 
-// What data of a Hesai is that is not read ("a Hesai of 128 lasers in 2 blocks", or a model in another unit than its
-// own); "" for anything else.
+// What data of a Hesai is that is not read ("a Hesai of 128 lasers in 2 blocks", or a model that counts in another unit
+// than its own); "" for anything else.
 std::string unread_hesai(ByteView payload);
+
+// The packet's number, where it has one.
+std::optional<std::uint32_t> hesai_number(const HesaiTraits& traits, ByteView payload);
 
 // How many returns of a shot such data holds, one block each: 1 to 3.
 std::size_t hesai_returns(const HesaiTraits& traits, ByteView payload);

@@ -188,10 +188,8 @@ class HesaiWords : public PacketWords {
     const HesaiTraits& traits = hesai_traits(*model);
     mode_ = little_endian_at(payload, traits.tail_at() + traits.mode_offset, 1);
     speed_rpm_ = little_endian_at(payload, traits.tail_at() + traits.speed_offset, 2);
-    constexpr std::size_t kNumberBytes = 4;
-    const bool has_number = traits.head_bytes == 0 || (little_endian_at(payload, 11, 1) & 1U) != 0;
-    if (has_number && payload.size >= traits.bytes() + kNumberBytes) {
-      packets_.hear(little_endian_at(payload, traits.bytes(), kNumberBytes), 1.0, std::int64_t{1} << 32);
+    if (const std::optional<std::uint32_t> number = hesai_number(traits, payload)) {
+      packets_.hear(*number, 1.0, std::int64_t{1} << 32);
     }
   }
 

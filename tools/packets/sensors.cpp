@@ -57,6 +57,10 @@ std::optional<HesaiModel> hesai_model(SensorKind kind) {
       return HesaiModel::kXt16;
     case SensorKind::kHesaiXt32m:
       return HesaiModel::kXt32m;
+    case SensorKind::kHesaiQt128:
+      return HesaiModel::kQt128;
+    case SensorKind::kHesaiPandar64:
+      return HesaiModel::kPandar64;
     default:
       return std::nullopt;
   }
@@ -285,7 +289,9 @@ const std::vector<KnownSensor>& known_sensors() {
       {SensorKind::kMid360s, "mid360s", "Livox Mid-360S", kLivoxHostPort, SensorMetadata::kNone, false},
       {SensorKind::kLivoxHap, "hap", "Livox HAP", kLivoxHapPort, SensorMetadata::kNone, false},
       {SensorKind::kAvia2, "avia2", "Livox Avia 2", kLivoxHostPort, SensorMetadata::kNone, false},
-      {SensorKind::kHesaiXt32m, "hesai_xt32m", "Hesai PandarXT-32M2X", 2368, SensorMetadata::kHesaiAngles, false}};
+      {SensorKind::kHesaiXt32m, "hesai_xt32m", "Hesai PandarXT-32M2X", 2368, SensorMetadata::kHesaiAngles, false},
+      {SensorKind::kHesaiQt128, "hesai_qt128", "Hesai QT128C2X", 2368, SensorMetadata::kHesaiAngles, false},
+      {SensorKind::kHesaiPandar64, "hesai_pandar64", "Hesai Pandar64", 2368, SensorMetadata::kHesaiAngles, false}};
   return sensors;
 }
 

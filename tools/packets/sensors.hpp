@@ -49,7 +49,9 @@ enum class SensorKind {
   kMid360s,
   kLivoxHap,
   kAvia2,
-  kHesaiXt32m
+  kHesaiXt32m,
+  kHesaiQt128,
+  kHesaiPandar64
 };
 
 enum class SensorMetadata { kNone, kOusterJson, kHesaiAngles, kRoboSenseDevice };

@@ -101,10 +101,13 @@ std::vector<std::string> HesaiEncoder::packets(const RangeImage& image, std::int
   std::vector<std::string> packets;
   for (std::uint32_t first = 0; first + of_packet <= image.columns; first += of_packet) {
     std::string packet;
-    if (traits_.head_bytes > 0) {
-      const auto unit_mm = static_cast<char>(std::lround(1e3 * traits_.beams.ranges.unit_m));
-      packet = std::string("\xEE\xFF\x06\x01", 4) + std::string(2, '\0') + static_cast<char>(traits_.lasers()) +
-               static_cast<char>(traits_.blocks) + '\0' + unit_mm + std::string("\x01\0", 2);
+    const auto unit_mm = static_cast<char>(std::lround(1e3 * traits_.beams.ranges.unit_m));
+    const std::string sizes = {static_cast<char>(traits_.lasers()), static_cast<char>(traits_.blocks), '\0', unit_mm};
+    constexpr std::size_t kShortHeadBytes = 8;  // of a Pandar64
+    if (traits_.head_bytes == kShortHeadBytes) {
+      packet = "\xEE\xFF" + sizes + std::string(2, '\0');
+    } else if (traits_.head_bytes > 0) {
+      packet = std::string("\xEE\xFF\x06\x01", 4) + std::string(2, '\0') + sizes + std::string("\x01\0", 2);
     }
     for (std::uint32_t firing = first; firing < first + of_packet; ++firing) {
       if (traits_.block_head_bytes > 2) put(&packet, std::uint16_t{0xEEFF});
