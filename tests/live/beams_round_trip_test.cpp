@@ -140,6 +140,8 @@ INSTANTIATE_TEST_SUITE_P(RoboSense, MeasuredRoad,
                          ::testing::Values("robosense-rs16", "robosense-rs32", "robosense-helios32"),
                          round_trip_test_name);
 
+INSTANTIATE_TEST_SUITE_P(Hesai, MeasuredRoad, ::testing::Values("hesai-xt32m", "hesai-pandar64"), round_trip_test_name);
+
 // The comparison sees offsets: a sensor without any, read as one that has them.
 TEST(RoundTrip, ASensorWithoutOffsetsIsSeenToHaveNone) {
   const sim::SceneSetup setup = round_trip_road("vlp16");
