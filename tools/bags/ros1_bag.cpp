@@ -15,13 +15,15 @@ namespace {
 
 constexpr std::string_view kRosbagMagic = "#ROSBAG V2.0\n";
 
-enum RosbagOp : std::uint8_t {
-  kMessage = 0x02,
-  kBagHeader = 0x03,
-  kIndexData = 0x04,
-  kChunk = 0x05,
-  kChunkInfo = 0x06,
-  kConnection = 0x07
+struct RosbagOp {
+  enum : std::uint8_t {
+    kMessage = 0x02,
+    kBagHeader = 0x03,
+    kIndexData = 0x04,
+    kChunk = 0x05,
+    kChunkInfo = 0x06,
+    kConnection = 0x07
+  };
 };
 
 // "name=value" entries, each behind its length.
@@ -89,24 +91,24 @@ BagRecord Ros1Bag::cut_record(ByteCursor& cursor) const {
 std::optional<BagMessage> Ros1Bag::interpret(BagRecord& record, bool in_chunk) {
   Fields fields = fields_of(record.header);
   const auto op = required_number<std::uint8_t>(fields, "op", record.header);
-  if (op != kChunk) require_whole(record, "record");
-  if (!header_seen_ && op != kBagHeader) record.header.refuse(tr("the first record is no bag header"));
+  if (op != RosbagOp::kChunk) require_whole(record, "record");
+  if (!header_seen_ && op != RosbagOp::kBagHeader) record.header.refuse(tr("the first record is no bag header"));
   switch (op) {
-    case kBagHeader:
+    case RosbagOp::kBagHeader:
       note_bag_header(fields);
       break;
-    case kChunk: {
+    case RosbagOp::kChunk: {
       if (in_chunk) record.header.refuse(tr("a chunk within a chunk"));
       const std::string compression = text_field(fields, "compression", record.header);
       enter_chunk(record, compression, required_number<std::uint32_t>(fields, "size", record.header));
       break;
     }
-    case kConnection:
+    case RosbagOp::kConnection:
       note_connection(record, fields, in_chunk);
       break;
-    case kMessage:
+    case RosbagOp::kMessage:
       return message_of(record, fields);
-    case kChunkInfo:
+    case RosbagOp::kChunkInfo:
       ++chunks_indexed_;
       break;
     default:  // index data, and what later versions may add
