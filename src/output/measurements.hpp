@@ -19,6 +19,9 @@ struct Measurement {
   double raw = 0.0;
   double sigma = 0.0;
   ProtectionParts protection;
+  // How far off motion within a scan may have put it that nobody took out, as far as it shows. Widens the value's
+  // level, but explains no jump: it follows from the same change.
+  double shown_motion = 0.0;
   std::uint32_t reasons = 0;
 };
 

@@ -89,8 +89,7 @@ class ByChange {
     return larger(0.0, std::fabs(change_of(quantity)) - noise);
   }
 
-  // Where nobody tells the motion, and nothing of it was taken out: of a steady one, or of one that began beyond all
-  // noise.
+  // Where nothing of the motion was taken out: of a steady one, or of one that began beyond all noise.
   double untold(std::uint32_t quantity, double seconds, double lever_m) const {
     return larger(steady(quantity, seconds, lever_m), began(quantity, seconds));
   }
@@ -116,15 +115,14 @@ class ByChange {
   }
   bool has_two(std::uint32_t quantity) const { return is_known(quantity) && is_finite(last_.change[quantity]); }
 
-  // At the mean rate between the frames, however far apart. Of the last two changes the larger one, as above.
+  // At the mean rate between the frames, however far apart.
   double steady(std::uint32_t quantity, double seconds, double lever_m) const {
     if (!later_ || !shows(quantity)) return 0.0;
     const double random = measured_.quantity[quantity].protection[POSE_WALL_PART_RANDOM];
-    const auto now = [this](std::uint32_t q) { return change_of(q); };
-    const auto before = [this](std::uint32_t q) { return last_.change[q]; };
     const bool by_ends = !is_distance(quantity) || shows(other_end_of(quantity));
-    double moved = by_ends ? reach(quantity, lever_m, seconds, 0.0, now) : kBentByTurn * std::fabs(change_of(quantity));
-    if (tells(quantity)) moved = larger(moved, reach(quantity, lever_m, seconds, 0.0, before));
+    const double moved = by_ends
+                             ? reach(quantity, lever_m, seconds, 0.0, [this](std::uint32_t q) { return change_of(q); })
+                             : kBentByTurn * std::fabs(change_of(quantity));
     const double c = seconds / since_s_;
     // This noise is in the change, too.
     const double noise = std::sqrt(square_of((1.0 - c) * random) + square_of(c * last_.random[quantity]));
@@ -132,15 +130,17 @@ class ByChange {
   }
 
   // c r = R - (1 - c) r', where r' is the change before: of a motion that was slower before that, r' is more, and the
-  // error less. Below its noise this shows nothing that a steady motion of R does not have, too.
+  // error less. It is not more than R, unless the motion turned round. Below its noise this shows nothing that a steady
+  // motion of R does not have, too.
   double began(std::uint32_t quantity, double seconds) const {
     if (!is_known(quantity)) return 0.0;
-    const double random = measured_.quantity[quantity].protection[POSE_WALL_PART_RANDOM];
+    const double random = measured_.quantity[quantity].protection[POSE_WALL_PART_RANDOM], R = change_of(quantity);
     const double before = has_two(quantity) ? larger(0.0, 1.0 - seconds / since_s_) : 0.0;
-    const double moved = change_of(quantity) - (before > 0.0 ? before * last_.change[quantity] : 0.0);
+    const double left = std::fabs(R - (before > 0.0 ? before * last_.change[quantity] : 0.0));
+    const double moved = left < std::fabs(R) ? left : std::fabs(R);
     const double noise_before = std::sqrt(square_of(1.0 + before) + square_of(before)) * last_.random[quantity];
-    const bool is_beyond_noise = std::fabs(moved) > std::sqrt(square_of(random) + square_of(noise_before));
-    return is_beyond_noise ? larger(0.0, std::fabs(moved) + noise_before - random) : 0.0;
+    const bool is_beyond_noise = moved > std::sqrt(square_of(random) + square_of(noise_before));
+    return is_beyond_noise ? larger(0.0, moved + noise_before - random) : 0.0;
   }
 
   // How large an error may be that a change shows; least: 1 of a motion that may begin with this scan, 0 of a steady
@@ -195,9 +195,9 @@ OwnChanges kept_of(const Measurements& measured, const ByChange& by_change, cons
 }  // namespace
 
 ScanInTime scan_in_time(const ScanTime& scan, double since_last_s, const Settings& settings) {
-  if (scan.whole_s > 0.0) return {scan, since_last_s};
-  const double whole_s = since_last_s > 0.0 && since_last_s < settings.scan_max ? since_last_s : settings.scan_max;
-  return {{whole_s, 0.5 * whole_s}, since_last_s};
+  if (scan.whole_s > 0.0) return {scan, since_last_s, true};
+  const double whole_s = since_last_s < settings.scan_max ? larger(0.0, since_last_s) : settings.scan_max;
+  return {{whole_s, 0.5 * whole_s}, since_last_s, false};
 }
 
 void OwnChanges::forget() {
@@ -299,12 +299,22 @@ void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling
         by_change.tells(q) ? by_change.added(q, seconds, taken_out_rate[q], lever_m(q)) : kNobodyKnows;
     return by_values < by_rates ? by_values : by_rates;
   };
+  const auto shown = [&](std::uint32_t q, double seconds) {
+    const double by_values = by_change.untold(q, seconds, lever_m(q));
+    if (!is_told_) return by_values;
+    constexpr double kNoNoise = 0.0;
+    return larger(by_values, seconds * moves(q, *last) - by_odometry(q, seconds, kNoNoise, *last));
+  };
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    if (!measured->quantity[q].measured || !(time.scan.whole_s > 0.0)) continue;
+    Measurement& m = measured->quantity[q];
+    if (!m.measured || !(time.scan.whole_s > 0.0)) continue;
     if (taken_out) taken_out_rate[q] = rate_of(q, *last);
     const double seconds = acts_for_s(q, time.scan, measured->has_yaw_difference);
-    added[q] =
-        is_told_ ? larger(left_by_odometry(q, seconds), by_change.least(q)) : by_change.untold(q, seconds, lever_m(q));
+    if (is_told_ && time.has_times) {
+      added[q] = larger(left_by_odometry(q, seconds), by_change.least(q));
+    } else {
+      m.shown_motion = shown(q, seconds);
+    }
   }
   const OwnChanges kept = kept_of(*measured, by_change, *last, taken_out_rate);
   *last = kept;

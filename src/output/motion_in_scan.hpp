@@ -39,13 +39,13 @@ struct OwnChanges {
 struct ScanInTime {
   ScanTime scan;
   double since_last_s = 0.0;
+  bool has_times = true;  // which an odometry can use
 };
 
 // scan: by the times that freed it of motion; none: as long as the step from the last frame, up to scan_max.
 ScanInTime scan_in_time(const ScanTime& scan, double since_last_s, const Settings& settings);
 
-// The odometry's motion in base, for walls whose normals are known there. Without an odometry only what the values of
-// the last frames show is known of it.
+// The odometry's motion in base, for walls whose normals are known there. odometry: null for none.
 class MotionInScan {
  public:
   MotionInScan(const pose_wall_odometry* odometry, const Settings& settings, const Axes& axes);
@@ -55,7 +55,8 @@ class MotionInScan {
   bool improves(const OwnChanges& last) const;
 
   // Adds what is unknown of the motion to the levels: what the odometry leaves, or what the values of the last frames
-  // show, if that is less; without an odometry what these show. Keeps the values. Deviations stay those of the
+  // show, if that is less. Where nothing could be taken out, for want of times or of an odometry, sets shown_motion:
+  // what the values show, or what the odometry tells for sure. Keeps the values. Deviations stay those of the
   // measurement.
   void widen(bool taken_out, const ScanInTime& time, const Levelling& levelling, const JudgedWall (&walls)[2],
              OwnChanges* last, Measurements* measured) const;

@@ -138,7 +138,11 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   keep_doubts(s, t, &m);
   check_innovation(m, s, t);
   const double seen_protection = m.protection.sum();
-  if (t->to_confirm > 0) reach_to_last_good(quantity, s, *t, &m);
+  if (t->to_confirm > 0) {
+    reach_to_last_good(quantity, s, *t, &m);
+  } else {
+    m.protection[POSE_WALL_PART_AGE] += m.shown_motion;
+  }
   if (afresh) {
     t->value = m.raw;
     t->rate = 0.0;

@@ -40,10 +40,6 @@ Scan decoded(const sim::Sensor& sensor, const sim::Frame& frame) {
   if (ouster != nullptr) choice.metadata = ouster->metadata();
   const std::unique_ptr<ScanAssembler> decoder = make_assembler(choice);
   const std::string device = encoder->device_packet(kRoundTrip_ns);
-  if (!device.empty()) {
-    EXPECT_TRUE(decoder->add({0, {}, {reinterpret_cast<const std::byte*>(device.data()), device.size()}}))
-        << sensor.name;
-  }
   const RangeImage image = range_image(sensor, frame);
   for (std::int64_t turn = 0; turn < 3; ++turn) {
     const std::vector<std::string> packets = encoder->packets(image, turn * kRoundTrip_ns, kRoundTrip_ns);
@@ -52,6 +48,10 @@ Scan decoded(const sim::Sensor& sensor, const sim::Frame& frame) {
       const auto sent_ns = turn * kRoundTrip_ns + std::llround(share * static_cast<double>(kRoundTrip_ns));
       const ByteView bytes{reinterpret_cast<const std::byte*>(packets[k].data()), packets[k].size()};
       EXPECT_TRUE(decoder->add({sent_ns, {}, bytes})) << sensor.name;
+      // Packets of data tell which sensor this is, so a device packet comes behind the first.
+      if (turn > 0 || k > 0 || device.empty()) continue;
+      const ByteView of_device{reinterpret_cast<const std::byte*>(device.data()), device.size()};
+      EXPECT_TRUE(decoder->add({sent_ns, {}, of_device})) << sensor.name;
     }
   }
   std::optional<Scan> scan = decoder->take();

@@ -251,14 +251,18 @@ TEST(MotionInScan, AScanWithoutTimesTakesAsLongAsItsStep) {
     EXPECT_EQ(scan_in_time({}, since_s, settings).scan.whole_s, 0.2) << since_s;
 }
 
-// The first scan as well: it may be the machine's first one after a start while it turns.
+// As far as it tells it for sure, and not where its level allows that nothing turns.
 TEST(MotionInScan, WhatAnOdometryTellsIsLeftInAScanWithoutTimes) {
-  Frames frames;
-  Measurements m = frames.measured;
-  const pose_wall_odometry turns = with_rates(0.3, 0.0);
-  MotionInScan(&turns, frames.settings, kAxes)
-      .widen(false, scan_in_time({}, 0.0, frames.settings), {}, frames.walls, &frames.own, &m);
-  EXPECT_NEAR(added(m, POSE_WALL_YAW), kActs * 0.2 * 0.3, 1e-6);
+  for (const double level : {0.0, 0.1, 0.3, 2.0, kInfinite}) {
+    Frames frames;
+    Measurements m = frames.measured;
+    const pose_wall_odometry turns = with_rates(0.3, level);
+    MotionInScan(&turns, frames.settings, kAxes)
+        .widen(false, scan_in_time({}, kScan_s, frames.settings), {}, frames.walls, &frames.own, &m);
+    const double sure = std::max(0.0, 0.3 - level);
+    EXPECT_NEAR(m.quantity[POSE_WALL_YAW].shown_motion, kActs * kScan_s * sure, 1e-6) << level;
+    EXPECT_EQ(added(m, POSE_WALL_YAW), 0.0) << "of the level that jumps are judged by";
+  }
 }
 
 // As the key scan_max: 0 says.
@@ -271,7 +275,7 @@ TEST(MotionInScan, CloudsThatComeFreedOfMotionAreNotWidened) {
       m.quantity[POSE_WALL_YAW].raw = 0.1 * frame;
       MotionInScan(told, frames.settings, kAxes)
           .widen(false, scan_in_time({}, 0.1, frames.settings), {}, frames.walls, &frames.own, &m);
-      for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) EXPECT_EQ(added(m, q), 0.0) << q;
+      for (const Measurement& q : m.quantity) EXPECT_EQ(q.shown_motion + q.protection[POSE_WALL_PART_AGE], 0.0);
     }
   }
 }
@@ -289,7 +293,7 @@ struct Untold {
     m.quantity[POSE_WALL_YAW].raw = yaw_rad + error_rad;
     MotionInScan(nullptr, frames.settings, kAxes)
         .widen(false, scan_in_time({}, since_s, frames.settings), {}, frames.walls, &frames.own, &m);
-    return added(m, POSE_WALL_YAW);
+    return m.quantity[POSE_WALL_YAW].shown_motion;
   }
 };
 
