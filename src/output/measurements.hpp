@@ -20,7 +20,7 @@ struct Measurement {
   double sigma = 0.0;
   ProtectionParts protection;
   // How far off motion within a scan may have put it that nobody took out, as far as it shows. Widens the value's
-  // level, but explains no jump: it follows from the same change.
+  // level, and the last good one's, but explains no jump of this frame: it follows from the same change.
   double shown_motion = 0.0;
   std::uint32_t reasons = 0;
 };

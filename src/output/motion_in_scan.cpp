@@ -90,7 +90,7 @@ class ByChange {
   }
 
   // Where nothing of the motion was taken out: of a steady one, or of one that began beyond all noise.
-  double untold(std::uint32_t quantity, double seconds, double lever_m) const {
+  double without_taking_out(std::uint32_t quantity, double seconds, double lever_m) const {
     return larger(steady(quantity, seconds, lever_m), began(quantity, seconds));
   }
 
@@ -300,7 +300,7 @@ void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling
     return by_values < by_rates ? by_values : by_rates;
   };
   const auto shown = [&](std::uint32_t q, double seconds) {
-    const double by_values = by_change.untold(q, seconds, lever_m(q));
+    const double by_values = by_change.without_taking_out(q, seconds, lever_m(q));
     if (!is_told_) return by_values;
     constexpr double kNoNoise = 0.0;
     return larger(by_values, seconds * moves(q, *last) - by_odometry(q, seconds, kNoNoise, *last));

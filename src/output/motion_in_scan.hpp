@@ -39,10 +39,11 @@ struct OwnChanges {
 struct ScanInTime {
   ScanTime scan;
   double since_last_s = 0.0;
-  bool has_times = true;  // which an odometry can use
+  bool has_times = true;  // of its points, by which an odometry could free it
 };
 
-// scan: by the times that freed it of motion; none: as long as the step from the last frame, up to scan_max.
+// scan: by the times that freed it of motion; none: as long as the step from the last frame, up to
+// scan_max. Of a first frame and of a clock that went back it is unknown: 0.
 ScanInTime scan_in_time(const ScanTime& scan, double since_last_s, const Settings& settings);
 
 // The odometry's motion in base, for walls whose normals are known there. odometry: null for none.
