@@ -302,8 +302,7 @@ void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling
   const auto shown = [&](std::uint32_t q, double seconds) {
     const double by_values = by_change.without_taking_out(q, seconds, lever_m(q));
     if (!is_told_) return by_values;
-    constexpr double kNoNoise = 0.0;
-    return larger(by_values, seconds * moves(q, *last) - by_odometry(q, seconds, kNoNoise, *last));
+    return larger(by_values, seconds * moves(q, *last) - by_odometry(q, seconds, 0.0, *last));
   };
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Measurement& m = measured->quantity[q];

@@ -70,6 +70,7 @@ std::vector<EngineSetting> engine_setting_list(const Setup& setup) {
     const bool is_fastest = fastest_mps(machine) > kFastSpeed_mps;
     list.push_back({"motion_speed_max", is_fastest ? kFastestTopSpeed_mps : kFastTopSpeed_mps});
   }
+  if (setup.sequence.scan_s == 0.0) list.push_back({"scan_max", "0"});  // all rays of a frame at one instant
   list.push_back({"floor_region_min", number_text(setup.sensor.floor_from_m)});
   list.push_back({"floor_region_max", number_text(setup.sensor.floor_to_m)});
   if (const SensorModel* const model = find_sensor(setup.sensor.name)) {
