@@ -34,8 +34,12 @@ double acts_for_s(std::uint32_t quantity, const ScanTime& scan, bool by_both_wal
 }
 
 // Errors that do not depend on each other add up as variances do.
+double together(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
+
 double added_to(double random, double level) {
-  return std::sqrt(random * random + level * level) - random;
+  return together(random, level) - random;
 }
 
 bool is_distance(std::uint32_t quantity) {
@@ -85,7 +89,7 @@ class ByChange {
   double least(std::uint32_t quantity) const {
     if (!is_known(quantity)) return 0.0;
     const double random = measured_.quantity[quantity].protection[POSE_WALL_PART_RANDOM];
-    const double noise = std::sqrt(random * random + last_.random[quantity] * last_.random[quantity]);
+    const double noise = together(random, last_.random[quantity]);
     return larger(0.0, std::fabs(change_of(quantity)) - noise);
   }
 
@@ -108,7 +112,6 @@ class ByChange {
   }
 
  private:
-  static double square_of(double x) { return x * x; }
   bool shows(std::uint32_t quantity) const {
     const Measurement& m = measured_.quantity[quantity];
     return m.measured && !m.stale && last_.level[quantity] < kNobodyKnows;
@@ -125,7 +128,7 @@ class ByChange {
                              : kBentByTurn * std::fabs(change_of(quantity));
     const double c = seconds / since_s_;
     // This noise is in the change, too.
-    const double noise = std::sqrt(square_of((1.0 - c) * random) + square_of(c * last_.random[quantity]));
+    const double noise = together((1.0 - c) * random, c * last_.random[quantity]);
     return larger(0.0, moved + noise - random);
   }
 
@@ -138,8 +141,8 @@ class ByChange {
     const double before = has_two(quantity) ? larger(0.0, 1.0 - seconds / since_s_) : 0.0;
     const double left = std::fabs(R - (before > 0.0 ? before * last_.change[quantity] : 0.0));
     const double moved = left < std::fabs(R) ? left : std::fabs(R);
-    const double noise_before = std::sqrt(square_of(1.0 + before) + square_of(before)) * last_.random[quantity];
-    const bool is_beyond_noise = moved > std::sqrt(square_of(random) + square_of(noise_before));
+    const double noise_before = together(1.0 + before, before) * last_.random[quantity];
+    const bool is_beyond_noise = moved > together(random, noise_before);
     return is_beyond_noise ? larger(0.0, moved + noise_before - random) : 0.0;
   }
 
@@ -160,7 +163,7 @@ class ByChange {
   // Of noise in both values, beside that of one.
   double left_of_noise(double acts_s) const {
     const double c = acts_s / since_s_;
-    return larger(0.0, std::sqrt((1.0 - c) * (1.0 - c) + c * c) - 1.0);
+    return larger(0.0, together(1.0 - c, c) - 1.0);
   }
 
   // The largest c (1 - c) P for all shares up to what acts_s gives.

@@ -21,7 +21,6 @@ constexpr std::uint32_t kPointsLeast = 64;            // fewer may be of one mom
 constexpr double kUnusableShareLeast = 0.2;           // single scans may be broken
 constexpr double kBendSpeed_m_s = 0.2;                // 0.02 m of 0.10 m in 0.1 s; judgement, 2026-11-29
 constexpr double kBendTurn_rad_s = 2.0 * kRadPerDeg;  // 0.2 of 1 degree in 0.1 s; judgement, 2026-11-29
-constexpr std::size_t kBentLeast = 3;                 // a single step may be a mistake
 constexpr TimeFault kUnusable[] = {TimeFault::kType, TimeFault::kOne, TimeFault::kUnit};
 
 }  // namespace
@@ -83,7 +82,7 @@ std::string UsableTimes::doubt() const {
     facts.fault = kUnusable[most - std::begin(faulty_)];
     facts.scans = scans_;
     facts.faulty = *most;
-  } else if (bent_ >= kBentLeast) {
+  } else if (bent_ >= kBentScansLeast) {
     facts.fault = TimeFault::kMissing;
     facts.scans = all_scans_;
     facts.faulty = bent_;

@@ -20,6 +20,8 @@ TimeFault unusable_times(const Frame& frame);
 
 bool has_times(const Frame& frame);
 
+constexpr std::size_t kBentScansLeast = 3;  // in which the machine moved: a single step may be a mistake
+
 // The machine surely moves so fast that a scan without times is bent by it: a fifth of the usual alert limits in the
 // 0.1 s of a scan.
 bool bends_scan(const pose_wall_motion_result& moved);

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::uint64_t kLookEvery = 10;  // frames: a look at 65,000 times takes as long as reading them, 0.2 ms
 constexpr std::uint64_t kLooksAlike = 2;  // a single scan may be broken
-constexpr std::uint64_t kBentLeast = 3;   // frames, as UsableTimes takes them: a single step may be a mistake
 
 }  // namespace
 
@@ -29,7 +28,7 @@ void TimesWatch::note(const Frame& frame, const pose_wall_publication& publicati
     seen_ = seen;
   }
   if (alike_ < kLooksAlike) return;
-  if (seen_ == TimeFault::kNone && bent_ >= kBentLeast) {
+  if (seen_ == TimeFault::kNone && bent_ >= kBentScansLeast) {
     decide(TimeFault::kMissing, without_, bent_, carries);
   } else {
     decide(seen_, alike_, alike_, carries);

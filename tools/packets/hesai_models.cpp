@@ -19,8 +19,7 @@ namespace {
 constexpr std::uint16_t kHesaiPacketFlag = 0xFFEE;  // bytes EE FF
 constexpr std::uint16_t kHesaiBlockFlag = 0xEEFF;   // bytes FF EE
 constexpr std::size_t kHesaiHeadBytes = 12;
-constexpr std::size_t kShortHeadBytes = 8;  // of a Pandar64, as of a Pandar20
-constexpr std::size_t kFlagsAt = 11;        // in the longer head
+constexpr std::size_t kFlagsAt = 11;  // in the longer head
 constexpr std::uint8_t kHasSequence = 0x01, kHasSafety = 0x04, kHasConfidence = 0x10, kHasOwnChannels = 0x40;
 constexpr std::size_t kSequenceBytes = 4;
 constexpr std::uint16_t kXtProtocol = 0x0106;     // 6.1, as HesaiLidar_SDK_2.0 tells an XT from others
@@ -86,7 +85,7 @@ struct HeadPlaces {
 };
 
 HeadPlaces head_places(std::size_t head_bytes) {
-  return head_bytes == kShortHeadBytes ? HeadPlaces{2, 5} : HeadPlaces{6, 9};
+  return head_bytes == kHesaiShortHeadBytes ? HeadPlaces{2, 5} : HeadPlaces{6, 9};
 }
 
 // Whose packets have such a head, apart from the unit of ranges and what else they hold.
@@ -150,7 +149,8 @@ const HesaiTraits& hesai_traits(HesaiModel model) {
        // Checksum and state of its safety stand before its tail, as HesaiLidar_SDK_2.0 has it (udp_protocol_v3_2.h).
        {HesaiModel::kQt128, hesai_qt128(), 2, kHesaiHeadBytes, 2, 4, 47, 33, 34, 1'028.0, 9'000.0, false,
         kQt128Protocol, 2, kHasSafety | kHasConfidence | kHasOwnChannels, kHasSafety | kHasConfidence},
-       {HesaiModel::kPandar64, hesai_pandar64(), 6, kShortHeadBytes, 2, 3, 22, 14, 8, -54'668.0, -42'580.0, true}}};
+       {HesaiModel::kPandar64, hesai_pandar64(), 6, kHesaiShortHeadBytes, 2, 3, 22, 14, 8, -54'668.0, -42'580.0,
+        true}}};
   return traits[static_cast<std::size_t>(model)];
 }
 
@@ -176,7 +176,7 @@ std::string unread_hesai(ByteView payload) {
   }
   // Pandar64 and Pandar20 have a shorter head.
   const bool is_short = byte_at(payload, 2) == 64 || byte_at(payload, 2) == 20;
-  const std::size_t lasers = head_places(is_short ? kShortHeadBytes : kHesaiHeadBytes).lasers;
+  const std::size_t lasers = head_places(is_short ? kHesaiShortHeadBytes : kHesaiHeadBytes).lasers;
   const std::string name = is_short ? "" : name_by_protocol(payload);
   if (!name.empty()) return name;
   return say("a Hesai of {} lasers in {} blocks", byte_at(payload, lasers), byte_at(payload, lasers + 1));

@@ -23,6 +23,8 @@ constexpr std::array<HesaiModel, 7> kHesaiModels = {HesaiModel::kXt32,    HesaiM
                                                     HesaiModel::kXt16,    HesaiModel::kXt32m,     HesaiModel::kQt128,
                                                     HesaiModel::kPandar64};
 
+constexpr std::size_t kHesaiShortHeadBytes = 8;  // of a Pandar64, as of a Pandar20
+
 struct HesaiLaser {
   double elevation_deg = 0.0;
   double azimuth_deg = 0.0;  // beside the head's; clockwise from above
@@ -61,8 +63,8 @@ const HesaiTraits& hesai_traits(HesaiModel model);
 // The model whose data these bytes are, with lengths, counts, unit, azimuths and return mode that fit it.
 std::optional<HesaiModel> hesai_model_of(ByteView payload);
 
-// What data of a Hesai is that is not read ("a Hesai of 128 lasers in 2 blocks", or a model that counts in another unit
-// than its own); "" for anything else.
+// What data of a Hesai is that is not read: "a Hesai of 16 lasers in 2 blocks". A model that counts in another unit
+// than its own is named with both. "" for anything else.
 std::string unread_hesai(ByteView payload);
 
 // The packet's number, where it has one.

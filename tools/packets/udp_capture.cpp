@@ -93,9 +93,8 @@ class PcapFile : public DatagramSource {
     if (why.find("type of the first interface") != std::string::npos) {
       throw FrameError(say(
           "offset {}: the capture is of interfaces with different link layers, and only packets before the second "
-          "one's "
-          "description can be read. Record the sensor's interface alone: tcpdump -i NAME -w ONE.pcap; or all as one: "
-          "tcpdump -i any -w ALL.pcap",
+          "one's description can be read. Record the sensor's interface alone: tcpdump -i NAME -w ONE.pcap; or all as "
+          "one: tcpdump -i any -w ALL.pcap",
           offset));
     }
     throw FrameError(say("offset {}: the capture is cut: {}", offset, why));

@@ -103,8 +103,7 @@ std::vector<std::string> HesaiEncoder::packets(const RangeImage& image, std::int
     std::string packet;
     const auto unit_mm = static_cast<char>(std::lround(1e3 * traits_.beams.ranges.unit_m));
     const std::string sizes = {static_cast<char>(traits_.lasers()), static_cast<char>(traits_.blocks), '\0', unit_mm};
-    constexpr std::size_t kShortHeadBytes = 8;  // of a Pandar64
-    if (traits_.head_bytes == kShortHeadBytes) {
+    if (traits_.head_bytes == kHesaiShortHeadBytes) {
       packet = "\xEE\xFF" + sizes + std::string(2, '\0');
     } else if (traits_.head_bytes > 0) {
       packet = std::string("\xEE\xFF\x06\x01", 4) + std::string(2, '\0') + sizes + std::string("\x01\0", 2);
