@@ -24,7 +24,7 @@ using pose_wall::test::fact;
 enum class Times { kGood, kNone, kOne, kUnit, kType };
 
 Frame cloud(Times times) {
-  constexpr std::uint32_t kPoints = 100;
+  constexpr std::uint32_t kPoints = 100;  // unusable_times looks at 64 and more
   std::vector<float> numbers;
   for (std::uint32_t i = 0; i < kPoints; ++i) {
     const auto part = static_cast<float>(i) / static_cast<float>(kPoints);

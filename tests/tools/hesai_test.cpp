@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: packets of Hesai's XT32, XT32M, XT16, 40P, 64, QT64 and QT128 give points and times where the manuals put
-// them (worked out by hand), of two returns the farther whatever their order, angles of a table where one is given;
-// what does not fit is not taken or refused with its reason. Real packets are looked at in tests/real.
+// Proves: packets of each Hesai give points and times where its manual puts them, worked out by hand. The farther of
+// two returns is taken, whatever their order. Where a table of angles is given, they are the table's. What does not fit
+// is not taken, or refused with its reason. Real packets are looked at in tests/real.
 
 #include <gtest/gtest.h>
 

@@ -17,6 +17,7 @@
 
 namespace pose_wall::tools::test {
 
+// Data types: livox_lidar_def.h of Livox-SDK2, commit 08f523c9.
 constexpr std::uint8_t kLivoxMm = 0x01, kLivoxCm = 0x02, kLivoxSpherical = 0x03, kLivoxDual = 0x11;
 
 inline std::string livox_cartesian(double x_m, double y_m, double z_m) {

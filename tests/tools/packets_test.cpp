@@ -134,7 +134,7 @@ std::string pcapng_interface(std::uint16_t link) {
 
 // Of the first interface, as the classic capture has them.
 std::string pcapng_packets(const std::string& capture) {
-  constexpr std::size_t kCaptureHead = 24, kPacketHead = 16;
+  constexpr std::size_t kCaptureHead = 24, kPacketHead = 16;  // bytes, of a classic capture
   const std::size_t size = (capture.size() - kCaptureHead) / 14;
   std::string blocks;
   for (std::uint32_t i = 0; i < 14; ++i) {
