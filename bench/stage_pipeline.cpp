@@ -4,11 +4,11 @@
 #include "stage_pipeline.hpp"
 
 #include "bench_frames.hpp"
-#include "cloud/outliers.hpp"
-#include "cloud/voxels.hpp"
-#include "floor/floor.hpp"
-#include "floor/levelling.hpp"
-#include "walls/walls.hpp"
+#include "engine/cloud/outliers.hpp"
+#include "engine/cloud/voxels.hpp"
+#include "engine/floor/floor.hpp"
+#include "engine/floor/levelling.hpp"
+#include "engine/walls/walls.hpp"
 
 namespace pose_wall::bench {
 namespace {

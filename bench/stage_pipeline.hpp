@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine.hpp"
+#include "engine/engine.hpp"
 #include "sim/simulator.hpp"
 
 namespace pose_wall::bench {

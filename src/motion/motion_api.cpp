@@ -8,13 +8,13 @@
 
 #include "base/estimation/protection.hpp"
 #include "base/math/rotation.hpp"
-#include "export.hpp"
 #include "motion/motion_image.hpp"
 #include "motion/motion_report.hpp"
 #include "motion/odometry.hpp"
+#include "part/export.hpp"
+#include "part/struct_sizes.hpp"
+#include "part/struct_versions.hpp"
 #include "pose_wall_motion.h"
-#include "struct_sizes.hpp"
-#include "struct_versions.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #pragma once
 
-#include "cloud/seen_clouds.hpp"
+#include "lidar/seen_clouds.hpp"
 #include "motion/frame.hpp"
 #include "motion/range_image.hpp"
 #include "motion/relief_map.hpp"

@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "base/simd/four_floats.hpp"
-#include "cloud/body_boxes.hpp"
-#include "cloud/cloud_reader.hpp"
+#include "lidar/body_boxes.hpp"
+#include "lidar/cloud_reader.hpp"
 
 namespace pose_wall::motion {
 namespace {

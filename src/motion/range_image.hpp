@@ -11,8 +11,8 @@
 
 #include "base/containers/arena.hpp"
 #include "base/containers/span.hpp"
-#include "cloud/cloud_print.hpp"
-#include "config.hpp"
+#include "lidar/box.hpp"
+#include "lidar/cloud_print.hpp"
 #include "motion/pose.hpp"
 #include "pose_wall.h"
 

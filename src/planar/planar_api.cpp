@@ -4,9 +4,9 @@
 // What the C ABIs of all parts share.
 
 #include "base/math/elementary.hpp"
-#include "export.hpp"
+#include "part/export.hpp"
+#include "place/pose2.hpp"
 #include "planar/forward_axis.hpp"
-#include "planar/pose2.hpp"
 #include "pose_wall_planar_types.h"
 
 namespace {

@@ -3,10 +3,10 @@
 //
 // Finds records in untrusted bytes. Every offset is checked in 64 bits before it is used.
 
-#include "../export.hpp"
 #include "box_layout.hpp"
 #include "checksums.hpp"
 #include "finish_result.hpp"
+#include "part/export.hpp"
 #include "pose_wall_box.h"
 #include "status.hpp"
 

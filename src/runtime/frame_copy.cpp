@@ -6,8 +6,8 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "../struct_sizes.hpp"
 #include "overload.hpp"
+#include "part/struct_sizes.hpp"
 
 namespace pose_wall::runtime {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <new>
 
-#include "../export.hpp"
 #include "box_layout.hpp"
 #include "options.hpp"
+#include "part/export.hpp"
 #include "pose_wall_runtime.h"
 #include "runtime.hpp"
 #include "status.hpp"

@@ -3,7 +3,7 @@
 //
 // Names and sentences.
 
-#include "../export.hpp"
+#include "part/export.hpp"
 #include "pose_wall_runtime.h"
 
 extern "C" {

@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-#include "../struct_sizes.hpp"
+#include "part/struct_sizes.hpp"
 #include "pose_wall_runtime.h"
 
 namespace pose_wall::runtime {

@@ -8,14 +8,14 @@ a colon, for the row of declarations below it, up to a blank line, another comme
 Looked at is what is declared constexpr with an arithmetic type, or as an array of one, in any scope. What gates.def
 lists needs no constant in C++ and is not looked at.
 
-usage: check_constants.py ROOT [FOLDER...]      folders and files below src/, all rooms of the engine if none is given;
+usage: check_constants.py ROOT [FOLDER...]      folders and files below src/, the trunk and the engine if none is given;
                                                 exit status 1 and one line per constant without a reason"""
 
 import pathlib
 import re
 import sys
 
-ROOMS = ("base", "cloud", "floor", "walls", "output", "gates", "trace", "*.?pp")
+ROOMS = ("base", "part", "lidar", "place", "engine")
 WORDS_MIN = 3
 NUMBER = (r"(?:double|float|auto|bool|char|short|(?:unsigned|signed|long|int)(?:\s+(?:long|int|char|short))*"
           r"|(?:std::)?(?:u?int(?:_fast|_least)?\d+_t|u?intptr_t|size_t|ptrdiff_t)"

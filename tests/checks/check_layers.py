@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Includes go one way, in the order in which a frame goes through the house: base <- config <- trace <- gates <- cloud
-<- floor <- walls <- output <- engine <- c_api; within the walls propose <- choose <- fit <- sample <- doubts. Motion
-and planar take the base and the cloud reader and are no part of the engine; all take nothing but Eigen and small
-parts of the standard library; tools and the runtime see them by their headers.
+"""Includes go one way. A trunk carries all libraries: base <- part <- lidar <- place. Engine, motion, planar and
+runtime stand on it side by side, and inside each of them the rooms stand one on the other as a frame goes through them.
+All take nothing but Eigen and small parts of the standard library; tools and the runtime see them by their headers.
 
 usage: check_layers.py ROOT        exit status 1 and one line per broken rule"""
 
@@ -12,48 +11,55 @@ import pathlib
 import re
 import sys
 
-# From the ground up: a room includes itself and what stands before it.
-ROOMS = ["base/math", "base/simd", "base/containers", "base/estimation", "config", "types", "trace", "gates", "cloud",
-         "region", "floor", "walls", "output", "engine"]
-# A wall goes from one to the next; what lies in walls/ itself is of all.
-WALL_STEPS = ["propose", "choose", "fit", "sample", "doubts"]
-# Those that stand beside the rooms: what each may include, besides itself.
-BESIDE = {
-    "struct_sizes": {"public"},
-    "struct_versions": {"struct_sizes", "public"},
-    "export": set(),
-    "self_test": {"base/math", "public"},
-    "motion": {*ROOMS[:5], "struct_sizes", "struct_versions", "export", "public"},
-    "planar": {*ROOMS[:5], "struct_sizes", "struct_versions", "export", "public"},
-    "c_api": {*ROOMS, "self_test", "struct_sizes", "struct_versions", "export", "public"},
+# From the ground up: a room includes itself and what stands before it in its own row, and the trunk. A room is a
+# folder below src/, or a file and those whose names go on with a _; the longest name that fits a file is its room.
+TRUNK = ["base/math", "base/simd", "base/containers", "base/estimation", "part", "lidar", "place"]
+WALLS = ["wall", "scene", "propose", "choose", "fit", "sample", "doubts", "scratch", "doubts/doubts"]
+ROWS = [
+    ["config", "types", "trace", "gates", "cloud", "region", "floor",
+     *[f"walls/{step}" for step in WALLS], "walls", "output", "report", "image", "engine"],
+    ["pose", "frame_steps", "range_image", "segmentation", "relief_map", "features", "registration", "along_match", "far_match",
+     "start_counts", "wide_start", "machine_prior", "travel", "scan_motion", "frame", "motion_report", "motion_image",
+     "odometry", "motion_api"],
+]
+MAY_INCLUDE = {room: set(TRUNK[:k]) for k, room in enumerate(TRUNK)}
+for library, row in zip(("engine", "motion"), ROWS):
+    rooms = [f"{library}/{room}" for room in row]
+    MAY_INCLUDE.update({room: {*TRUNK, *rooms[:k]} for k, room in enumerate(rooms)})
+ENGINE_ROOMS = {room for room in MAY_INCLUDE if room.startswith("engine/")}
+MAY_INCLUDE.update({
+    "engine/self_test": {"base/math", "part"},
+    "engine/names": set(),
+    "engine/c_api": {*TRUNK, *ENGINE_ROOMS, "engine/self_test", "engine/names"},
+    # Planar's parts stand side by side; two of them follow scans.
+    "planar": set(TRUNK),
+    **{f"planar/{part}": {*TRUNK, "planar"} for part in ("scan", "match", "map", "route", "stop")},
+    **{f"planar/{part}": {*TRUNK, "planar", "planar/match"} for part in ("slam", "localise")},
+    "runtime": {"part"},
+})
+# Public headers, by the beginning of a room's name.
+PUBLIC = {
+    "base/containers": {"pose_wall.h"},  # the arena's alignment is the interface's
+    "base": set(),
+    "part": {"pose_wall.h"},
+    "lidar": {"pose_wall.h"},
+    "place": {"pose_wall.h", "pose_wall_planar_types.h"},
+    "engine": {"pose_wall.h", "pose_wall.hpp", "pose_wall_trace.h"},
+    "motion": {"pose_wall.h", "pose_wall_motion.h"},
+    "planar": {"pose_wall.h", "pose_wall_motion.h", "pose_wall_planar*.h"},
+    # Of motion the types alone: its functions come through the options.
+    "runtime": {"pose_wall.h", "pose_wall_runtime.h", "pose_wall_box.h", "pose_wall_motion.h"},
 }
-# The base knows nothing of the C interface.
-MAY_INCLUDE = {room: {*ROOMS[:k], *([] if room.startswith("base/") else ["public"])} for k, room in enumerate(ROOMS)}
-MAY_INCLUDE["base/containers"].add("public")  # the arena's alignment is the interface's
-MAY_INCLUDE.update(BESIDE)
-# Files of src/ itself belong to a room by how their names begin.
-ROOT_FILES = {"config": "config", "number_text": "config", "types": "types", "report": "engine", "engine": "engine",
-              "image": "engine", "self_test": "self_test", "names": "c_api", "c_api": "c_api",
-              "struct_versions": "struct_versions", "struct_sizes": "struct_sizes", "export": "export"}
-# No heap, no clock, no printing, no threads: what is not listed here does not get in.
-ENGINE_HEADERS = {
-    "algorithm", "array", "cfloat", "climits", "cmath", "cstddef", "cstdint", "cstring", "initializer_list",
-    "iterator", "limits", "new", "numeric", "tuple", "type_traits", "utility",
-    "Eigen/Core", "Eigen/Cholesky", "Eigen/Dense", "Eigen/Eigenvalues", "Eigen/Geometry", "Eigen/LU", "Eigen/SVD",
-}
-PUBLIC_HEADERS = {"pose_wall.h", "pose_wall.hpp", "pose_wall_trace.h"}
-MOTION_PUBLIC = {"pose_wall.h", "pose_wall_motion.h"}
 # The trace reads the table of the gates, which judge and then note.
-GATE_TABLE = "gates/gates.def"
-# What motion and planar share of a room: how a cloud is read, what of it is the machine, and whether it came before.
-OF_CLOUDS = {"cloud/cloud_reader.hpp", "cloud/body_boxes.hpp", "cloud/cloud_print.hpp", "cloud/seen_clouds.hpp"}
+EXCEPTION = ("engine/trace", "engine/gates/gates.def")
+# No heap, no clock, no printing, no threads: what is not listed here does not get in.
+SMALL_HEADERS = {
+    "algorithm", "array", "cfloat", "climits", "cmath", "cstddef", "cstdint", "cstring", "initializer_list",
+    "iterator", "limits", "new", "numeric", "tuple", "type_traits", "utility"}
+EIGEN = {f"Eigen/{part}" for part in ("Core", "Cholesky", "Dense", "Eigenvalues", "Geometry", "LU", "SVD")}
 # The threads around the engine: no part of it, no Eigen.
-RUNTIME_HEADERS = {h for h in ENGINE_HEADERS if not h.startswith("Eigen/")} | {
-    "atomic", "pthread.h", "sched.h", "errno.h", "time.h", "sys/mman.h"}
-# Of motion the types alone: its functions come through the options.
-RUNTIME_PUBLIC = {"pose_wall.h", "pose_wall_runtime.h", "pose_wall_box.h", "pose_wall_motion.h"}
-# How both read and write structs of callers: no part of the engine either.
-RUNTIME_SHARED = {"../struct_sizes.hpp", "../export.hpp"}
+THREAD_HEADERS = {"atomic", "pthread.h", "sched.h", "errno.h", "time.h", "sys/mman.h"}
+MOTION_PUBLIC = {"pose_wall.h", "pose_wall_motion.h"}
 C_HEADERS = {"stddef.h", "stdint.h"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 
@@ -66,63 +72,45 @@ def includes(path):
     return INCLUDE.findall(path.read_text(encoding="utf-8"))
 
 
-def layer_of(relative):
-    """Room of a path below src/: its folder (of base/ the one below), or what ROOT_FILES says."""
-    if relative.parts[0] == "base" and len(relative.parts) > 2:
-        return "/".join(relative.parts[:2])
-    if len(relative.parts) > 1:
-        return relative.parts[0]
-    return next((layer for start, layer in ROOT_FILES.items() if relative.stem.startswith(start)), relative.stem)
+def room_of(relative):
+    """The room of a path below src/, or None."""
+    name = relative.with_suffix("").as_posix()
+    fitting = [room for room in MAY_INCLUDE if re.match(rf"{room}($|[/_])", name)]
+    return max(fitting, key=len, default=None)
 
 
-def wall_step_of(relative):
-    in_step = relative.parts[0] == "walls" and len(relative.parts) > 2 and relative.parts[1] in WALL_STEPS
-    return WALL_STEPS.index(relative.parts[1]) if in_step else None
+def public_of(room):
+    return PUBLIC[max((start for start in PUBLIC if room.startswith(start)), key=len)]
 
 
-def engine_fault(src, path, bracket, name):
-    """Why a file of the engine may not include `name`, or None."""
-    relative = path.relative_to(src)
-    layer = layer_of(relative)
-    if layer not in MAY_INCLUDE:
+def fault_of(src, path, bracket, name):
+    """Why a file of src/ may not include `name`, or None."""
+    room = room_of(path.relative_to(src))
+    if room is None:
         return f"belongs to no room; rooms are {', '.join(MAY_INCLUDE)}"
-    if layer == "trace" and name == GATE_TABLE:
+    if any(pathlib.PurePath(name).match(pattern) for pattern in public_of(room)) and "/" not in name:
         return None
-    if layer == "motion" and (name in MOTION_PUBLIC or name in OF_CLOUDS):
-        return None
-    if layer == "planar" and (name in MOTION_PUBLIC or name.startswith("pose_wall_planar") or name in OF_CLOUDS):
-        return None
-    if name in PUBLIC_HEADERS:
-        return None if "public" in MAY_INCLUDE[layer] else f"{layer} may not include the public header"
     if bracket == "<":
-        return None if name in ENGINE_HEADERS | C_HEADERS else f"<{name}> is not on the engine's list of headers"
-    target = src / name if (src / name).exists() else (path.parent / name).resolve()
-    if not target.is_relative_to(src.resolve()) and not target.is_relative_to(src):
-        return f'"{name}" is not a file of src/'
-    target = target.relative_to(src if target.is_relative_to(src) else src.resolve())
-    step, target_step = wall_step_of(relative), wall_step_of(target)
-    if step is not None and target_step is not None and target_step > step:
-        return f'{WALL_STEPS[step]} includes "{name}" of {WALL_STEPS[target_step]}, which comes later'
-    if layer_of(target) != layer and layer_of(target) not in MAY_INCLUDE[layer]:
-        allowed = ", ".join(sorted(MAY_INCLUDE[layer])) or "nothing"
-        return f'{layer} includes "{name}" of {layer_of(target)}; it may include {allowed}'
-    return None
-
-
-def runtime_fault(path, bracket, name):
-    """Why a file of the runtime may not include `name`, or None."""
-    if bracket == "<":
-        return None if name in RUNTIME_HEADERS | C_HEADERS else f"<{name}> is not on the runtime's list of headers"
-    known = name in RUNTIME_PUBLIC | RUNTIME_SHARED or ("/" not in name and (path.parent / name).exists())
-    return None if known else f'the runtime includes "{name}"; it sees the engine only through pose_wall.h'
+        allowed = SMALL_HEADERS | C_HEADERS | (THREAD_HEADERS if room == "runtime" else EIGEN)
+        kind = "runtime" if room == "runtime" else "engine"
+        return None if name in allowed else f"<{name}> is not on the {kind}'s list of headers"
+    target = src / name if (src / name).exists() else path.parent / name
+    target = target.resolve()
+    if not target.exists() or not target.is_relative_to(src.resolve()):
+        return f'"{name}" is no file of src/ and no public header that {room} may include'
+    there = room_of(target.relative_to(src.resolve()))
+    if there == room or there in MAY_INCLUDE[room] or (room, name) == EXCEPTION:
+        return None
+    if room == "runtime":
+        return f'the runtime includes "{name}"; it sees the engine only through pose_wall.h'
+    return f'{room} includes "{name}" of {there}; it may include {", ".join(sorted(MAY_INCLUDE[room])) or "nothing"}'
 
 
 def faults(root):
     src, include, tools = root / "src", root / "include", root / "tools"
     for path in sources(src):
         for bracket, name in includes(path):
-            of_runtime = path.is_relative_to(src / "runtime")
-            fault = runtime_fault(path, bracket, name) if of_runtime else engine_fault(src, path, bracket, name)
+            fault = fault_of(src, path, bracket, name)
             if fault:
                 yield path, fault
     for header, allowed in ((include / "pose_wall.h", C_HEADERS),

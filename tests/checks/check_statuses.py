@@ -5,8 +5,8 @@
 
 usage: check_statuses.py ROOT PROGRAM...     exit status 1 and one line per fault
 
-The enums pose_wall_*status of the headers, the ranges of include/README.md and the rows STATUS of src/names.def must
-agree. PROGRAM is built from statuses.c."""
+The enums pose_wall_*status of the headers, the ranges of include/README.md and the rows STATUS of
+src/engine/names.def must agree. PROGRAM is built from statuses.c."""
 
 import pathlib
 import re
@@ -47,7 +47,7 @@ def faults_of_rows(statuses, rows):
     listed = {name: int(number) for name, number, _ in rows}
     for name in sorted(numbers.keys() | listed.keys()):
         if numbers.get(name) != listed.get(name):
-            yield f"{name} is {numbers.get(name)} in the headers and {listed.get(name)} in src/names.def"
+            yield f"{name} is {numbers.get(name)} in the headers and {listed.get(name)} in src/engine/names.def"
     texts = [text for _, _, text in rows]
     for text in sorted({text for text in texts if texts.count(text) > 1}):
         yield f"'{text}' is said of two statuses"
@@ -68,7 +68,7 @@ def main():
     statuses = statuses_of(root)
     page = (root / "include/README.md").read_text(encoding="utf-8")
     ranges = {header: (int(first), int(last)) for first, last, header in RANGE.findall(page)}
-    rows = ROW.findall((root / "src/names.def").read_text(encoding="utf-8"))
+    rows = ROW.findall((root / "src/engine/names.def").read_text(encoding="utf-8"))
     faults = list(faults_of_numbers(statuses, ranges)) + list(faults_of_rows(statuses, rows))
     if not statuses or not ranges:
         faults.append("no statuses or no ranges: nothing was checked")

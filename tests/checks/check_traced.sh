@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 #
-# Nothing of src/trace is in the archive that is delivered, not even a local symbol; and the one that takes notes
+# Nothing of src/engine/trace is in the archive that is delivered, not even a local symbol; and the one that takes notes
 # defines what its header declares and no more, so that both may be in one program.
 # usage: check_traced.sh NM ARCHIVE TRACED_ARCHIVE HEADER
 set -eu

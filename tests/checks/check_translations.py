@@ -5,8 +5,8 @@
 
 usage: check_translations.py ROOT     exit status 1 and one line per text that
   - is marked in tools/ (say("..."), tr("..."), translatable("...")), or stands in a table of the engine that tools
-    print (keys' help in src/config_keys.def; states, parts, senses, reasons and statuses of values in src/names.def;
-    rules over two keys in src/config.cpp), and is in no tools/language/zh/*.po
+    print (in src/engine: keys' help in config_keys.def; states, parts, senses, reasons and statuses of values in names.def;
+    rules over two keys in config.cpp), and is in no tools/language/zh/*.po
   - stands in a catalogue and is marked nowhere, or stands there twice
   - fills in other arguments than the English one or gives one another type ({:d} for {:.2f}), or holds no Chinese"""
 
@@ -46,7 +46,7 @@ def marked(root):
     for table, rows, spoken in (("config_keys.def", KEY_HELP, False), ("names.def", NAME, True),
                                 ("names.def", REASON, False), ("names.def", STATUS, False),
                                 ("config.cpp", RULE, False)):
-        path = root / "src" / table
+        path = root / "src" / "engine" / table
         for found in rows.finditer(path.read_text(encoding="utf-8") if path.exists() else ""):
             text = unescaped(found.group(1))
             texts.setdefault(text.replace("_", " ") if spoken else text, path.relative_to(root))

@@ -36,7 +36,7 @@ class BrokenProject(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = pathlib.Path(folder.name)
         self.write("include/pose_wall.h", HEADER)
-        self.write("src/c_api.cpp", SOURCE)
+        self.write("src/engine/c_api.cpp", SOURCE)
         for folder_name in ("tools", "tests", "bench"):
             self.write(f"{folder_name}/empty.cpp", LICENCE)
 
@@ -75,35 +75,36 @@ class Layers(BrokenProject):
         self.write(path, LICENCE + line + "\n")
 
     def test_passes(self):
-        self.include("src/walls/walls.cpp", '#include "types.hpp"\n#include "walls/propose/candidates.hpp"')
-        self.include("src/walls/propose/search.hpp", "#include <Eigen/Core>")
-        self.include("src/types.hpp", "#include <cstdint>")
+        self.include("src/engine/walls/walls.cpp", '#include "engine/types.hpp"\n'
+                     '#include "engine/walls/propose/candidates.hpp"')
+        self.include("src/engine/walls/propose/candidates.hpp", "#include <Eigen/Core>")
+        self.include("src/engine/types.hpp", "#include <cstdint>")
         self.passes(*self.check())
 
     def test_room_includes_a_later_one(self):
-        self.include("src/walls/walls.hpp", "")
-        self.include("src/floor/floor.cpp", '#include "walls/walls.hpp"')
-        self.fails('floor includes "walls/walls.hpp" of walls', *self.check())
+        self.include("src/engine/walls/walls.hpp", "")
+        self.include("src/engine/floor/floor.cpp", '#include "engine/walls/walls.hpp"')
+        self.fails('engine/floor includes "engine/walls/walls.hpp" of engine/walls', *self.check())
 
     def test_room_includes_a_later_one_by_neighbouring_path(self):
-        self.include("src/walls/walls.hpp", "")
-        self.include("src/floor/floor.cpp", '#include "../walls/walls.hpp"')
-        self.fails('floor includes "../walls/walls.hpp" of walls', *self.check())
+        self.include("src/engine/walls/walls.hpp", "")
+        self.include("src/engine/floor/floor.cpp", '#include "../walls/walls.hpp"')
+        self.fails('engine/floor includes "../walls/walls.hpp" of engine/walls', *self.check())
 
     def test_a_wall_goes_back(self):
-        self.include("src/walls/fit/surface.hpp", "")
-        self.include("src/walls/propose/search.cpp", '#include "walls/fit/surface.hpp"')
-        self.fails('propose includes "walls/fit/surface.hpp" of fit, which comes later', *self.check())
+        self.include("src/engine/walls/fit/surface.hpp", "")
+        self.include("src/engine/walls/propose/search.cpp", '#include "engine/walls/fit/surface.hpp"')
+        self.fails('engine/walls/propose includes "engine/walls/fit/surface.hpp" of engine/walls/fit', *self.check())
 
     def test_base_includes_a_room(self):
-        self.include("src/floor/floor.hpp", "")
-        self.include("src/base/estimation/irls.cpp", '#include "floor/floor.hpp"')
+        self.include("src/engine/floor/floor.hpp", "")
+        self.include("src/base/estimation/irls.cpp", '#include "engine/floor/floor.hpp"')
         self.fails("base/estimation includes", *self.check())
 
     def test_room_includes_the_engine(self):
-        self.include("src/engine.hpp", "")
-        self.include("src/floor/floor.cpp", '#include "engine.hpp"')
-        self.fails("floor includes", *self.check())
+        self.include("src/engine/engine.hpp", "")
+        self.include("src/engine/floor/floor.cpp", '#include "engine/engine.hpp"')
+        self.fails("engine/floor includes", *self.check())
 
     def test_iostream(self):
         self.include("src/base/math/angles.hpp", "#include <iostream>")
@@ -119,18 +120,18 @@ class Layers(BrokenProject):
         self.fails("tools see the engine only through", *self.check())
 
     def test_tool_includes_engine_by_path(self):
-        self.include("tools/main.cpp", '#include "../src/engine.hpp"')
+        self.include("tools/main.cpp", '#include "../src/engine/engine.hpp"')
         self.fails("tools see the engine only through", *self.check())
 
     def test_runtime_includes_engine(self):
-        self.include("src/engine.hpp", "")
-        self.include("src/runtime/worker.cpp", '#include "engine.hpp"')
+        self.include("src/engine/engine.hpp", "")
+        self.include("src/runtime/worker.cpp", '#include "engine/engine.hpp"')
         self.fails("it sees the engine only through pose_wall.h", *self.check())
 
     def test_engine_includes_runtime(self):
         self.include("src/runtime/worker.hpp", "")
-        self.include("src/engine.cpp", '#include "runtime/worker.hpp"')
-        self.fails('engine includes "runtime/worker.hpp"', *self.check())
+        self.include("src/engine/engine.cpp", '#include "runtime/worker.hpp"')
+        self.fails('engine/engine includes "runtime/worker.hpp"', *self.check())
 
     def test_runtime_takes_the_heap(self):
         self.include("src/runtime/worker.hpp", "#include <vector>")
@@ -142,36 +143,53 @@ class Layers(BrokenProject):
         self.passes(*self.check())
 
     def test_motion_passes(self):
-        self.include("src/cloud/cloud_reader.hpp", "")
-        self.include("src/struct_versions.hpp", "")
-        self.include("src/motion/travel.cpp", '#include "travel.hpp"\n#include "cloud/cloud_reader.hpp"\n'
-                     '#include "struct_versions.hpp"\n#include "pose_wall_motion.h"')
+        self.include("src/lidar/cloud_reader.hpp", "")
+        self.include("src/part/struct_versions.hpp", "")
+        self.include("src/motion/travel.cpp", '#include "motion/travel.hpp"\n#include "lidar/cloud_reader.hpp"\n'
+                     '#include "part/struct_versions.hpp"\n#include "pose_wall_motion.h"')
         self.include("src/motion/travel.hpp", "#include <Eigen/Core>")
         self.passes(*self.check())
 
     def test_motion_includes_a_room(self):
-        self.include("src/walls/walls.hpp", "")
-        self.include("src/motion/travel.cpp", '#include "walls/walls.hpp"')
-        self.fails("motion includes", *self.check())
+        self.include("src/engine/walls/walls.hpp", "")
+        self.include("src/motion/travel.cpp", '#include "engine/walls/walls.hpp"')
+        self.fails("motion/travel includes", *self.check())
 
     def test_motion_includes_the_engine(self):
-        self.include("src/engine.hpp", "")
-        self.include("src/motion/travel.cpp", '#include "engine.hpp"')
-        self.fails("motion includes", *self.check())
+        self.include("src/engine/engine.hpp", "")
+        self.include("src/motion/travel.cpp", '#include "engine/engine.hpp"')
+        self.fails("motion/travel includes", *self.check())
+
+    def test_motion_goes_back(self):
+        self.include("src/motion/odometry.hpp", "")
+        self.include("src/motion/travel.cpp", '#include "motion/odometry.hpp"')
+        self.fails('motion/travel includes "motion/odometry.hpp" of motion/odometry', *self.check())
+
+    def test_a_part_of_planar_includes_another(self):
+        self.include("src/planar/match/matcher.hpp", "")
+        self.include("src/planar/slam/slam.cpp", '#include "planar/match/matcher.hpp"')
+        self.passes(*self.check())
+        self.include("src/planar/stop/stop.cpp", '#include "planar/match/matcher.hpp"')
+        self.fails('planar/stop includes "planar/match/matcher.hpp" of planar/match', *self.check())
+
+    def test_the_trunk_includes_a_library(self):
+        self.include("src/engine/config.hpp", "")
+        self.include("src/lidar/box.hpp", '#include "engine/config.hpp"')
+        self.fails('lidar includes "engine/config.hpp" of engine/config', *self.check())
 
     def test_engine_includes_motion(self):
         self.include("src/motion/travel.hpp", "")
-        self.include("src/engine.cpp", '#include "motion/travel.hpp"')
-        self.fails('engine includes "motion/travel.hpp"', *self.check())
-        self.include("src/engine.cpp", '#include "pose_wall_motion.h"')
-        self.fails("src/engine.cpp", *self.check())
+        self.include("src/engine/engine.cpp", '#include "motion/travel.hpp"')
+        self.fails('engine/engine includes "motion/travel.hpp"', *self.check())
+        self.include("src/engine/engine.cpp", '#include "pose_wall_motion.h"')
+        self.fails("src/engine/engine.cpp", *self.check())
 
     def test_public_header_includes_more(self):
         self.write("include/pose_wall.h", HEADER + "#include <stdio.h>\n")
         self.fails("includes stdio.h", *self.check())
 
     def test_nothing_to_check(self):
-        (self.root / "src/c_api.cpp").unlink()
+        (self.root / "src/engine/c_api.cpp").unlink()
         self.fails("nothing was checked", *self.check())
 
 
@@ -256,8 +274,8 @@ class Stack(BrokenProject):
 class Constants(BrokenProject):
     def check(self, *lines, folders=()):
         if lines:
-            self.write("src/walls/walls.cpp", LICENCE + "\n" + "\n".join(lines) + "\n")
-        return CHECKS / "check_constants.py", self.root, *(folders or ["walls"])
+            self.write("src/engine/walls/walls.cpp", LICENCE + "\n" + "\n".join(lines) + "\n")
+        return CHECKS / "check_constants.py", self.root, *(folders or ["engine/walls"])
 
     def test_passes(self):
         self.passes(*self.check(
@@ -274,7 +292,7 @@ class Constants(BrokenProject):
         self.assertEqual((status, text), (0, "2 constants, 0 without a reason\n"))
 
     def test_no_comment(self):
-        self.fails("src/walls/walls.cpp:4 kEnd_m", *self.check("constexpr double kEnd_m = 2.0;"))
+        self.fails("src/engine/walls/walls.cpp:4 kEnd_m", *self.check("constexpr double kEnd_m = 2.0;"))
 
     def test_two_words(self):
         self.fails("kEnd_m", *self.check("constexpr double kEnd_m = 2.0;  // two metres"))
@@ -311,7 +329,7 @@ class Constants(BrokenProject):
         self.fails("kEnd_m", *self.check("constexpr double kEnd_m = 2.0;  // NO" "LINT(some-rule-of-a-tool)"))
 
     def test_no_sources(self):
-        self.fails("floor holds no sources", *self.check("int f();", folders=["floor"]))
+        self.fails("engine/floor holds no sources", *self.check("int f();", folders=["engine/floor"]))
 
     def test_no_constants(self):
         self.fails("nothing was checked", *self.check("int f();"))
@@ -325,20 +343,20 @@ class House(BrokenProject):
         self.passes(*self.check())
 
     def test_no_licence(self):
-        self.write("src/engine.cpp", "int x;\n")
-        self.fails("src/engine.cpp:1: does not begin", *self.check())
+        self.write("src/engine/engine.cpp", "int x;\n")
+        self.fails("src/engine/engine.cpp:1: does not begin", *self.check())
 
     def test_long_line(self):
-        self.write("src/engine.cpp", LICENCE + "// " + "x" * 118 + "\n")
-        self.fails("src/engine.cpp:3: 121 characters", *self.check())
+        self.write("src/engine/engine.cpp", LICENCE + "// " + "x" * 118 + "\n")
+        self.fails("src/engine/engine.cpp:3: 121 characters", *self.check())
 
     def test_unfinished(self):
-        self.write("src/engine.cpp", LICENCE + "// TO" + "DO\n")
-        self.fails("src/engine.cpp:3: unfinished", *self.check())
+        self.write("src/engine/engine.cpp", LICENCE + "// TO" + "DO\n")
+        self.fails("src/engine/engine.cpp:3: unfinished", *self.check())
 
     def test_machine_path(self):
-        self.write("src/engine.cpp", LICENCE + "// /ho" + "me/somebody\n")
-        self.fails("src/engine.cpp:3: a path of one machine", *self.check())
+        self.write("src/engine/engine.cpp", LICENCE + "// /ho" + "me/somebody\n")
+        self.fails("src/engine/engine.cpp:3: a path of one machine", *self.check())
 
     def test_heaps(self):
         for path in self.root.rglob("*.*"):
@@ -352,15 +370,15 @@ class Format(BrokenProject):
         super().setUp()
         if not shutil.which("clang-format") and not shutil.which("clang-format-14"):
             self.skipTest("clang-format is not installed")
-        self.write("src/c_api.cpp", LICENCE)
+        self.write("src/engine/c_api.cpp", LICENCE)
         shutil.copy(CHECKS.parent.parent / ".clang-format", self.root)
 
     def test_passes(self):
         self.passes(CHECKS / "check_format.sh", self.root)
 
     def test_other_style(self):
-        self.write("src/engine.cpp", LICENCE + "int  x ;\n")
-        self.fails("src/engine.cpp:3", CHECKS / "check_format.sh", self.root)
+        self.write("src/engine/engine.cpp", LICENCE + "int  x ;\n")
+        self.fails("src/engine/engine.cpp:3", CHECKS / "check_format.sh", self.root)
 
 
 class Archive(BrokenProject):
@@ -609,9 +627,9 @@ class Translations(BrokenProject):
         self.fails("the wall", *self.check('say("the wall {name}");\n', self.WALL.replace("{name}侧", "侧")))
 
     def test_texts_of_the_engine(self):
-        self.write("src/names.def",
+        self.write("src/engine/names.def",
                    'STATUS(POSE_WALL_E_VALUE_TYPE, -2, "no value")\nSTATUS(POSE_WALL_E_NULL, -1, "no pointer")\n')
-        self.write("src/config.cpp", 'Rule rule = {true, {"a_min", "a_max", "a_min too great"}};\n')
+        self.write("src/engine/config.cpp", 'Rule rule = {true, {"a_min", "a_max", "a_min too great"}};\n')
         broken = self.check('say("the wall {name}");\n', self.WALL)
         self.fails("no value", *broken)
         self.fails("a_min too great", *broken)
@@ -883,7 +901,7 @@ class Statuses(BrokenProject):
         self.write("include/pose_wall.h", f"enum pose_wall_status {{ POSE_WALL_E_NULL = {number} /* = 7 */ }};\n")
         self.write("include/pose_wall_box.h", f"enum pose_wall_box_status {{\n  POSE_WALL_BOX_E_END = {other}\n}};\n")
         self.write("include/README.md", "| -1 to -89 | [pose_wall.h](x) |\n| -90 to -110 | [pose_wall_box.h](x) |\n")
-        self.write("src/names.def", f'{row}\nSTATUS(POSE_WALL_BOX_E_END, {other}, "no record")\n')
+        self.write("src/engine/names.def", f'{row}\nSTATUS(POSE_WALL_BOX_E_END, {other}, "no record")\n')
         self.write("said", f"-1\tplanar\t{said}\n{other}\tplanar\tno record\n-5\tplanar\tunknown status\n")
         return CHECKS / "check_statuses.py", self.root, "cat", self.root / "said"
 

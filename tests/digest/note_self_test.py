@@ -4,7 +4,7 @@
 """Notes the digest that the self test comes to now, after a change of the engine that is meant to change results. It
 refuses to note one under which a value of the self test's road is wrong. Then build again.
 
-    note_self_test.py src/self_test_digest.hpp COMMAND...      COMMAND: pose_wall_digest, with an emulator before it
+    note_self_test.py src/engine/self_test_digest.hpp COMMAND...   COMMAND: pose_wall_digest, an emulator before it
 """
 
 import pathlib

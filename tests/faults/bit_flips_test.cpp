@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include "engine.hpp"
+#include "engine/engine.hpp"
 #include "fault_room.hpp"
 #include "support/moments.hpp"
 

@@ -20,7 +20,8 @@ namespace pose_wall::test {
 constexpr std::int64_t kPeriod_ns = 100000000;
 
 // What is promised of the time after a fault: a good frame is measured at once, and where it lies further from the last
-// good value than the machine can have moved, it is valid when it has come three times more (src/output/README.md).
+// good value than the machine can have moved, it is valid when it has come three times more
+// (src/engine/output/README.md).
 constexpr int kBackWithin = 4;
 
 // The room of room.hpp: the machine stands straight and level in its middle.

@@ -8,9 +8,9 @@
 
 #include <cstdint>
 
+#include "engine/self_test.hpp"
+#include "engine/self_test_digest.hpp"
 #include "fault.hpp"
-#include "self_test.hpp"
-#include "self_test_digest.hpp"
 #include "support/aligned_block.hpp"
 
 namespace pose_wall::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "planar/beams.hpp"
+#include "place/beams.hpp"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@
 #include "base/math/crc32.hpp"
 #include "base/math/elementary.hpp"
 #include "base/math/random.hpp"
-#include "planar/held.hpp"
+#include "part/held.hpp"
 #include "planar/map/grid_map.hpp"
 #include "planar/map/tile_record.hpp"
 #include "pose_wall_planar_map.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "planar/beams.hpp"
+#include "place/beams.hpp"
 #include "planar/scan_scenes.hpp"
 #include "planar/scanner_under_test.hpp"
 #include "support/engine_under_test.hpp"

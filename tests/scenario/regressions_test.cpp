@@ -34,7 +34,7 @@ constexpr Mended kMended[] = {
     {"kerb_beside_a_turned_machine", "kerb", "os0-128", 116571021, POSE_WALL_ROLL},
     // A distance 58.4 mm off, its level 57.9.
     {"cables_before_a_wall", "cables", "mid360", 523208987, POSE_WALL_D_LB},
-    // The rest are wrong without one gate, which a few draws of each scene do not show (src/gates/README.md).
+    // The rest are wrong without one gate, which a few draws of each scene do not show (src/engine/gates/README.md).
     // wall_grooves: distances valid and 0.13, 0.67 and 0.54 m off, by pipes that touch.
     {"pipes_that_touch", "pipes", "vlp16", 556073565, POSE_WALL_YAW},
     {"pipes_that_touch_before_a_dark_wall", "pipes_before_dark_wall", "os0-128", 146898475, POSE_WALL_ROLL},

@@ -11,8 +11,8 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/walls/walls.hpp"
 #include "support/stage_fixtures.hpp"
-#include "walls/walls.hpp"
 
 namespace pose_wall::test {
 

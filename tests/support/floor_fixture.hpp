@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "base/math/rotation.hpp"
-#include "floor/floor.hpp"
+#include "engine/floor/floor.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall::test {

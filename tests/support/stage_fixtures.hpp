@@ -13,7 +13,7 @@
 #include "base/containers/bounded_points.hpp"
 #include "base/estimation/patch_sums.hpp"
 #include "base/estimation/tangent_points.hpp"
-#include "config.hpp"
+#include "engine/config.hpp"
 #include "support/aligned_block.hpp"
 #include "support/engine_under_test.hpp"
 

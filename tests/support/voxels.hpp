@@ -7,8 +7,8 @@
 
 #include <array>
 
-#include "cloud/voxel_grid.hpp"
-#include "cloud/voxel_key.hpp"
+#include "engine/cloud/voxel_grid.hpp"
+#include "engine/cloud/voxel_key.hpp"
 
 namespace pose_wall::test {
 

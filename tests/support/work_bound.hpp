@@ -12,10 +12,10 @@
 #include "base/containers/work.hpp"
 #include "base/estimation/patch_fit.hpp"
 #include "base/estimation/surface_patches.hpp"
-#include "cloud/leaf.hpp"
-#include "config.hpp"
-#include "floor/floor.hpp"
-#include "walls/fit/points.hpp"
+#include "engine/cloud/leaf.hpp"
+#include "engine/config.hpp"
+#include "engine/floor/floor.hpp"
+#include "engine/walls/fit/points.hpp"
 
 namespace pose_wall::test {
 

@@ -99,7 +99,7 @@ TEST(Sentences, OfManyRivalsTheStrongestIsToldOnce) {
   }
 }
 
-// By src/floor/rivals.cpp: what such a floor is doubted by, and its tilt, for it may be a heap's flank.
+// By src/engine/floor/rivals.cpp: what such a floor is doubted by, and its tilt, for it may be a heap's flank.
 TEST(Sentences, AFloorThatMayBeARampSaysAllThatItsLevelsGrowBy) {
   const auto told = [](std::uint32_t gate) {
     Noted noted;

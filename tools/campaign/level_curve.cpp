@@ -13,7 +13,7 @@ namespace {
 // Reasons that keep no value back. Valid values have them as well:
 constexpr std::uint32_t kHarmless = POSE_WALL_R_STAMP_BACK | POSE_WALL_R_STAMP_LEAP | POSE_WALL_R_RATE_LIMITED |
                                     POSE_WALL_R_LEAF_GROWN | POSE_WALL_R_PRIOR;
-// The level holds these; as in src/types.hpp.
+// The level holds these; as in src/engine/types.hpp.
 constexpr std::uint32_t kDoubts = POSE_WALL_R_FLOOR_AMBIGUOUS | POSE_WALL_R_WALL_AMBIGUOUS |
                                   POSE_WALL_R_WALL_SEEN_THROUGH | POSE_WALL_R_EXTRAPOLATED | POSE_WALL_R_CURVED;
 

@@ -9,7 +9,7 @@
 
 namespace pose_wall::tools::explain {
 
-// Measured quantities of the gates, as in src/gates/gates.def.
+// Measured quantities of the gates, as in src/engine/gates/gates.def.
 inline constexpr const char* kGateMeasures[] = {
     translatable("edge of the voxels; voxel_leaf, where points_max has room for them, and had in the last frames"),
     translatable("its voxels fit, with the leaf as large as it may be"),

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Names and texts of the engine as people read them. The engine speaks English; its table of names
-// (src/names.def) counts as marked for translation.
+// (src/engine/names.def) counts as marked for translation.
 
 #pragma once
 

@@ -7,10 +7,10 @@
 
 #include <limits>
 
-#include "export.hpp"
-#include "planar/held.hpp"
+#include "part/export.hpp"
+#include "part/held.hpp"
+#include "part/struct_sizes.hpp"
 #include "planar/localise/localiser.hpp"
-#include "struct_sizes.hpp"
 
 namespace {
 

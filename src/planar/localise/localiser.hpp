@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "cloud/seen_clouds.hpp"
+#include "lidar/seen_clouds.hpp"
 #include "planar/localise/recent.hpp"
 #include "planar/localise/tracker.hpp"
 #include "planar/localise/verdict.hpp"

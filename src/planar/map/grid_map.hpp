@@ -7,11 +7,11 @@
 
 #include <cstdint>
 
-#include "planar/beams.hpp"
+#include "place/beams.hpp"
+#include "place/pose2.hpp"
 #include "planar/map/beam_walk.hpp"
 #include "planar/map/distance_field.hpp"
 #include "planar/map/tile_table.hpp"
-#include "planar/pose2.hpp"
 
 namespace pose_wall::planar {
 

@@ -3,12 +3,12 @@
 //
 // The only extern "C" file of the map: checks arguments, translates, calls.
 
-#include "export.hpp"
-#include "planar/held.hpp"
+#include "part/export.hpp"
+#include "part/held.hpp"
+#include "part/struct_sizes.hpp"
 #include "planar/map/grid_map.hpp"
 #include "planar/map/map_queries.hpp"
 #include "planar/map/tile_record.hpp"
-#include "struct_sizes.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 
 #include <cstring>
 
+#include "part/struct_sizes.hpp"
 #include "planar/fast_crc32.hpp"
 #include "planar/map/grid_map.hpp"
-#include "struct_sizes.hpp"
 
 namespace pose_wall::planar {
 namespace {

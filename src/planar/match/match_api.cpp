@@ -7,11 +7,11 @@
 #include <algorithm>
 
 #include "base/math/finite.hpp"
-#include "export.hpp"
-#include "planar/held.hpp"
+#include "part/export.hpp"
+#include "part/held.hpp"
+#include "part/struct_sizes.hpp"
 #include "planar/match/matcher.hpp"
 #include "pose_wall_planar_match.h"
-#include "struct_sizes.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "base/containers/span.hpp"
-#include "planar/beams.hpp"
+#include "place/beams.hpp"
 
 namespace pose_wall::planar {
 

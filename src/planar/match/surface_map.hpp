@@ -11,8 +11,8 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
+#include "place/pose2.hpp"
 #include "planar/match/scan_points.hpp"
-#include "planar/pose2.hpp"
 
 namespace pose_wall::planar {
 

@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "base/math/finite.hpp"
-#include "planar/pose2.hpp"
-#include "struct_sizes.hpp"
+#include "part/struct_sizes.hpp"
+#include "place/pose2.hpp"
 
 namespace pose_wall::planar::route {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "base/containers/arena.hpp"
 #include "base/containers/span.hpp"
-#include "planar/pose2.hpp"
+#include "place/pose2.hpp"
 #include "planar/route/bit_grid.hpp"
 
 namespace pose_wall::planar::route {

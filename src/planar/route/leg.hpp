@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "base/containers/span.hpp"
-#include "planar/pose2.hpp"
+#include "place/pose2.hpp"
 
 namespace pose_wall::planar::route {
 

@@ -4,11 +4,11 @@
 // The extern "C" file of the tracker: checks arguments, translates, calls.
 
 #include "base/math/finite.hpp"
-#include "export.hpp"
-#include "planar/held.hpp"
+#include "part/export.hpp"
+#include "part/held.hpp"
+#include "part/struct_sizes.hpp"
 #include "planar/route/tracker.hpp"
 #include "pose_wall_planar_track.h"
-#include "struct_sizes.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "base/containers/span.hpp"
-#include "planar/pose2.hpp"
+#include "place/pose2.hpp"
 #include "pose_wall_planar_plan.h"
 
 namespace pose_wall::planar::route {

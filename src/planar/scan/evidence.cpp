@@ -8,8 +8,8 @@
 #include "base/math/elementary.hpp"
 #include "base/simd/four_floats.hpp"
 #include "base/simd/four_turns.hpp"
-#include "cloud/body_boxes.hpp"
-#include "cloud/cloud_reader.hpp"
+#include "lidar/body_boxes.hpp"
+#include "lidar/cloud_reader.hpp"
 
 namespace pose_wall::planar {
 namespace {

@@ -3,13 +3,13 @@
 //
 // The extern "C" file of the planar scan: checks arguments, translates, calls.
 
-#include "export.hpp"
-#include "planar/beams.hpp"
-#include "planar/held.hpp"
+#include "part/export.hpp"
+#include "part/held.hpp"
+#include "part/struct_sizes.hpp"
+#include "part/struct_versions.hpp"
+#include "place/beams.hpp"
 #include "planar/scan/laserscan.hpp"
 #include "planar/scan/scanner.hpp"
-#include "struct_sizes.hpp"
-#include "struct_versions.hpp"
 
 namespace {
 

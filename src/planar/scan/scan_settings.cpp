@@ -7,7 +7,7 @@
 
 #include "base/math/elementary.hpp"
 #include "base/math/rotation.hpp"
-#include "struct_sizes.hpp"
+#include "part/struct_sizes.hpp"
 
 namespace pose_wall::planar {
 namespace {

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
-#include "planar/pose2.hpp"
+#include "place/pose2.hpp"
 
 namespace pose_wall::planar {
 

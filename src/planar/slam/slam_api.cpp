@@ -3,12 +3,12 @@
 //
 // The only extern "C" file of SLAM: checks arguments, translates, calls.
 
-#include "export.hpp"
-#include "planar/held.hpp"
+#include "part/export.hpp"
+#include "part/held.hpp"
+#include "part/struct_sizes.hpp"
 #include "planar/slam/slam.hpp"
 #include "planar/slam/trail_image.hpp"
 #include "pose_wall_planar_slam.h"
-#include "struct_sizes.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/math/elementary.hpp"
-#include "planar/pose2.hpp"
+#include "place/pose2.hpp"
 
 namespace pose_wall::planar {
 namespace {

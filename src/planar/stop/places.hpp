@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
-#include "planar/pose2.hpp"
+#include "place/pose2.hpp"
 #include "planar/stop/sight.hpp"
 #include "planar/stop/sweep.hpp"
 

@@ -9,8 +9,8 @@
 #include <cstring>
 
 #include "base/simd/four_floats.hpp"
-#include "cloud/body_boxes.hpp"
-#include "cloud/cloud_reader.hpp"
+#include "lidar/body_boxes.hpp"
+#include "lidar/cloud_reader.hpp"
 #include "planar/stop/settings.hpp"
 
 namespace pose_wall::planar {

@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "base/math/rotation.hpp"
+#include "part/struct_sizes.hpp"
 #include "planar/forward_axis.hpp"
-#include "struct_sizes.hpp"
 
 namespace pose_wall::planar {
 namespace {

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "config.hpp"
+#include "lidar/box.hpp"
 #include "pose_wall_planar_stop.h"
 
 namespace pose_wall::planar {

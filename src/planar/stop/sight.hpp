@@ -12,7 +12,7 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
-#include "cloud/cloud_print.hpp"
+#include "lidar/cloud_print.hpp"
 #include "planar/stop/ground.hpp"
 #include "planar/stop/rays.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
-#include "planar/pose2.hpp"
+#include "place/pose2.hpp"
 #include "planar/stop/stop_image.hpp"
 
 namespace pose_wall::planar {

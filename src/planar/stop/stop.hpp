@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
-#include "cloud/seen_clouds.hpp"
+#include "lidar/seen_clouds.hpp"
 #include "planar/stop/places.hpp"
 #include "planar/stop/settings.hpp"
 #include "planar/stop/sight.hpp"

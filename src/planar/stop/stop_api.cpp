@@ -3,14 +3,14 @@
 //
 // The C ABI of the stop: pointers and sizes are checked here, once.
 
-#include "cloud/cloud_reader.hpp"
-#include "export.hpp"
-#include "planar/held.hpp"
+#include "lidar/cloud_reader.hpp"
+#include "part/export.hpp"
+#include "part/held.hpp"
+#include "part/struct_sizes.hpp"
+#include "part/struct_versions.hpp"
 #include "planar/stop/stop.hpp"
 #include "planar/stop/stop_image.hpp"
 #include "pose_wall_planar_stop.h"
-#include "struct_sizes.hpp"
-#include "struct_versions.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 // Proves: every field type is read at any offset and in both byte orders, and every malformed description of a cloud
 // gets the status that the header names, with arithmetic that no 32-bit number can overflow.
 
-#include "cloud/cloud_reader.hpp"
+#include "lidar/cloud_reader.hpp"
 
 #include <gtest/gtest.h>
 

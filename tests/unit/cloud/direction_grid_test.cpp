@@ -5,7 +5,7 @@
 // say; full cells stay full; axes, poles and rays of any length have a cell. No border of rows parts a ring of a sparse
 // sensor, near or far, and the rows of a dense one are even.
 
-#include "cloud/direction_grid.hpp"
+#include "engine/cloud/direction_grid.hpp"
 
 #include <gtest/gtest.h>
 

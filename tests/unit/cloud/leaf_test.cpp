@@ -5,7 +5,7 @@
 // that fits. It costs one pass a cloud as long as the clouds stay alike, and no sequence of clouds takes more than
 // four.
 
-#include "cloud/leaf.hpp"
+#include "engine/cloud/leaf.hpp"
 
 #include <gtest/gtest.h>
 

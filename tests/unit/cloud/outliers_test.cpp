@@ -3,7 +3,7 @@
 
 // Proves: exactly the points with too few others within the radius go, counted by looking at all pairs.
 
-#include "cloud/outliers.hpp"
+#include "engine/cloud/outliers.hpp"
 
 #include <gtest/gtest.h>
 

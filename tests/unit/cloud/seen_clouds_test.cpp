@@ -7,7 +7,7 @@
 // old as its first copy. A scene that stands still under real noise is none, however coarse the steps of its ranges
 // are.
 
-#include "cloud/seen_clouds.hpp"
+#include "lidar/seen_clouds.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "base/math/elementary.hpp"
-#include "cloud/direction_grid.hpp"
+#include "engine/cloud/direction_grid.hpp"
 #include "support/clouds.hpp"
 
 namespace pose_wall {

@@ -4,7 +4,7 @@
 // Proves: a point that was measured later lies where it would have been seen at the stamp, in every unit and type of
 // times; without an odometry, without times or with times that make no scan, points stay where they are.
 
-#include "cloud/skew.hpp"
+#include "engine/cloud/skew.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "base/math/rotation.hpp"
-#include "cloud/cloud_reader.hpp"
+#include "lidar/cloud_reader.hpp"
 
 namespace pose_wall {
 namespace {

@@ -3,7 +3,7 @@
 
 // Proves: the runs around a voxel hold every one within the reach once, and no more than lies about there.
 
-#include "cloud/voxel_columns.hpp"
+#include "engine/cloud/voxel_columns.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: centroids are right to a quantisation step, do not depend on the order of points, come out in the order of
 // their cells, and a grid without room says so.
 
-#include "cloud/voxel_grid.hpp"
+#include "engine/cloud/voxel_grid.hpp"
 
 #include <gtest/gtest.h>
 

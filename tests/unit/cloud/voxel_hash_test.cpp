@@ -4,7 +4,7 @@
 // Proves: keys keep their indices through crowding, collisions and clears, and a full table says so. What a key costs
 // has a bound that no choice of keys can stretch.
 
-#include "cloud/voxel_hash.hpp"
+#include "engine/cloud/voxel_hash.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 // Proves: a key tells its cell, keys are in the order of columns and heights, and a column's keys are a run.
 
-#include "cloud/voxel_key.hpp"
+#include "engine/cloud/voxel_key.hpp"
 
 #include <gtest/gtest.h>
 

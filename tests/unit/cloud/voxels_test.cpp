@@ -5,7 +5,7 @@
 // the extrinsic and the byte layout are applied; a cloud with more voxels than there is room for gets a larger leaf,
 // the same for any order of its points.
 
-#include "cloud/voxels.hpp"
+#include "engine/cloud/voxels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: the table of keys is consistent in itself; every key takes its own default and its limits and refuses what
 // lies beyond; refusals leave the config as it was; the rules over several keys hold.
 
-#include "config.hpp"
+#include "engine/config.hpp"
 
 #include <gtest/gtest.h>
 

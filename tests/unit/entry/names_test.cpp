@@ -3,7 +3,7 @@
 
 // Proves: every status, reason, state, quantity and stage has a name of its own, and numbers beyond have one too.
 
-#include "names.hpp"
+#include "engine/names.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 // Proves: decimal text becomes the number it says whatever the locale, and nothing but a number is taken for one.
 
-#include "number_text.hpp"
+#include "part/number_text.hpp"
 
 #include <gtest/gtest.h>
 

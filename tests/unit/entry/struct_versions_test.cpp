@@ -4,7 +4,7 @@
 // Proves: a struct of an earlier header is read with zeros where it ends and written no further; every other size has
 // a status of its own.
 
-#include "struct_versions.hpp"
+#include "part/struct_versions.hpp"
 
 #include <gtest/gtest.h>
 

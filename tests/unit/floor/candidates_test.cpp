@@ -4,7 +4,7 @@
 // Proves: hypotheses for the floor lie below the sensor by an allowed height and tilt, lead with the floor, differ from
 // each other and are bounded in number.
 
-#include "floor/candidates.hpp"
+#include "engine/floor/candidates.hpp"
 
 #include <gtest/gtest.h>
 

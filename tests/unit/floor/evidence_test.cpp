@@ -4,7 +4,7 @@
 // Proves: open ground is told from walls and heaps, its area is measured in plan, and a reflection is recognised by the
 // rays that pass through the floor above it.
 
-#include "floor/evidence.hpp"
+#include "engine/floor/evidence.hpp"
 
 #include <gtest/gtest.h>
 

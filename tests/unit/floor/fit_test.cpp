@@ -5,7 +5,7 @@
 // bends or waves has a level that says so, and a wall's foot does not tilt it; inliers are those within the radius; of
 // many points no side goes short.
 
-#include "floor/fit.hpp"
+#include "engine/floor/fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: the floor is found below a level or tilted machine, near or only far away, neither roof nor bench nor heap
 // nor reflection is taken for it without a word, and where several planes are about as good the levels reach to all.
 
-#include "floor/floor.hpp"
+#include "engine/floor/floor.hpp"
 
 #include <gtest/gtest.h>
 

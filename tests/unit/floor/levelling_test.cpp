@@ -3,7 +3,7 @@
 
 // Proves: the level frame's heights are heights above the floor plane, and the wall band is cut by them.
 
-#include "floor/levelling.hpp"
+#include "engine/floor/levelling.hpp"
 
 #include <gtest/gtest.h>
 

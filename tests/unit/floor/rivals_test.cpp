@@ -8,7 +8,7 @@
 // tilted plane through the floor's own rough ground is no rival; one that shows ground which the floor leaves out is.
 // Does not prove what share of a floor must be seen: next to nothing of it is too little.
 
-#include "floor/rivals.hpp"
+#include "engine/floor/rivals.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: each point is labelled by the surface that it lies on, the floor before a wall, a wall within the band only,
 // whatever the number of points; nothing lies on what was refused.
 
-#include "output/labels.hpp"
+#include "engine/output/labels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 // is left in the scan moves a value. Without an odometry the values alone tell. A motion is taken out only where that
 // narrows the levels.
 
-#include "output/motion_in_scan.hpp"
+#include "engine/output/motion_in_scan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,15 +4,15 @@
 // Proves: fits become measurements by the stated arithmetic: weighted mean of both walls, range bias, splay, which
 // reasons come along, and that nothing is measured from what was refused.
 
-#include "output/quality.hpp"
+#include "engine/output/quality.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/math/elementary.hpp"
+#include "engine/walls/doubts/doubts.hpp"
 #include "support/stage_fixtures.hpp"
-#include "walls/doubts/doubts.hpp"
 
 namespace pose_wall {
 namespace {

@@ -6,7 +6,7 @@
 // motion within a scan widens levels by what the odometry does not know or by what the values of two frames show, and
 // is taken out only where that narrows them.
 
-#include "output/temporal_odometry.hpp"
+#include "engine/output/temporal_odometry.hpp"
 
 #include <gtest/gtest.h>
 

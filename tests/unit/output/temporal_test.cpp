@@ -5,7 +5,7 @@
 // jumps, stale values and stamps that stand still, jump back or leap ahead; and that no NaN stands where a number is
 // promised, nor a number where there is none.
 
-#include "output/temporal.hpp"
+#include "engine/output/temporal.hpp"
 
 #include <gtest/gtest.h>
 

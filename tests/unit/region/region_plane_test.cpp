@@ -6,7 +6,7 @@
 // within the level. Where another plane may as well be the region's, where the unseen part bends, or most of it is
 // open, that is told.
 
-#include "region/region_plane.hpp"
+#include "engine/region/region_plane.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: no plane across the machine is solid over more than the bound says, whatever is seen and at any limits; the
 // bound is low enough that in a road nothing need be looked for, and high enough that in a junction it is.
 
-#include "walls/choose/across.hpp"
+#include "engine/walls/choose/across.hpp"
 
 #include <gtest/gtest.h>
 

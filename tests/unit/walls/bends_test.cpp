@@ -6,16 +6,16 @@
 // is left whole, and of what is seen half a metre stays. Scenes are cast ray by ray. Does not prove it for voxels or
 // bends along the road.
 
-#include "walls/fit/surface.hpp"
+#include "engine/walls/fit/surface.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "engine/walls/fit/surface.hpp"
 #include "support/ray_scene.hpp"
 #include "support/rock.hpp"
 #include "support/wall_profiles.hpp"
-#include "walls/fit/surface.hpp"
 
 namespace pose_wall {
 namespace {

@@ -4,7 +4,7 @@
 // Proves: out of candidates on four sides the parallel pair with the most evidence is chosen, doubtful or
 // crossing ones are refused with the reason, and a rival is named.
 
-#include "walls/choose/choose.hpp"
+#include "engine/walls/choose/choose.hpp"
 
 #include <gtest/gtest.h>
 

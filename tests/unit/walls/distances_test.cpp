@@ -4,7 +4,7 @@
 // Proves: ranks and shares of a histogram of distances agree with the sorted distances to half a bin, of a single one
 // as of many; what is negative or no number is not counted, what is far counts as 10 m.
 
-#include "walls/sample/distances.hpp"
+#include "engine/walls/sample/distances.hpp"
 
 #include <gtest/gtest.h>
 

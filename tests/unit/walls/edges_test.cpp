@@ -7,7 +7,7 @@
 // that does not look up has not seen the top. Scenes are cast ray by ray on flat panels, without noise. Does not prove
 // it for rough rock, nor for voxels.
 
-#include "walls/doubts/edges.hpp"
+#include "engine/walls/doubts/edges.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 // sets are not. Residuals come from the plane that fits. Does not prove that pipes which hide each other's grooves are
 // found.
 
-#include "walls/fit/groove_profile.hpp"
+#include "engine/walls/fit/groove_profile.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 // above the band, and where the wall's top was cut off. It reaches no further inside a band that is one plane. A wall
 // is told to be straight over its height if it is and shows it. Does not prove yaw and distances: walls_test does.
 
-#include "walls/sample/measure.hpp"
+#include "engine/walls/sample/measure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: two good walls of nearly one direction are turned onto their mean about their pivots and pay for it in their
 // bounds; doubtful, refused or truly splayed ones are left alone.
 
-#include "walls/direction.hpp"
+#include "engine/walls/direction.hpp"
 
 #include <gtest/gtest.h>
 

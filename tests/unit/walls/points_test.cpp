@@ -6,7 +6,7 @@
 // patch and no other; within a patch each lies where its column belongs, and knows what that says; what lies behind the
 // last point is a number.
 
-#include "walls/fit/points.hpp"
+#include "engine/walls/fit/points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: the scene that the walls are looked for in is the specification's: directions horizontal, sampling points in
 // the levelled frame, the band above the floor; and a plane is read with the stated signs.
 
-#include "walls/scene.hpp"
+#include "engine/walls/scene.hpp"
 
 #include <gtest/gtest.h>
 

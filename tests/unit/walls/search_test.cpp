@@ -4,7 +4,7 @@
 // Proves: hypotheses are found on the right side, near vertical and within the allowed angle, keep apart from each
 // other, and their number is bounded.
 
-#include "walls/propose/candidates.hpp"
+#include "engine/walls/propose/candidates.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: what is expected of a row is what most of it gives, by the width of its columns; two sectors without returns
 // are out of sight if they are wide, and a third is a gap.
 
-#include "walls/doubts/sight_lines.hpp"
+#include "engine/walls/doubts/sight_lines.hpp"
 
 #include <gtest/gtest.h>
 

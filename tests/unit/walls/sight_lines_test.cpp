@@ -3,7 +3,7 @@
 
 // Proves: a crossing lies on the plane and on its ray, and a column that is said to look away has none.
 
-#include "walls/doubts/sight_lines.hpp"
+#include "engine/walls/doubts/sight_lines.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 // panels, without noise. Does not prove the shares for rough rock, for a moving machine, nor for a sensor that is not
 // in the road's middle.
 
-#include "walls/doubts/sight.hpp"
+#include "engine/walls/doubts/sight.hpp"
 
 #include <gtest/gtest.h>
 

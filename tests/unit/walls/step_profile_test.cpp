@@ -7,7 +7,7 @@
 // seen behind it; what is lower, narrower or has gaps does not. How long a hole around the place is, and that one
 // without an end is the longest. Does not prove what a step is.
 
-#include "walls/sample/step_profile.hpp"
+#include "engine/walls/sample/step_profile.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 // further out. Residuals come from the true plane. Does not prove
 // it where the plane is off, see walls_strips_test, nor that the two edges of wide bulges are no strips.
 
-#include "walls/fit/strip_profile.hpp"
+#include "engine/walls/fit/strip_profile.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,15 +5,15 @@
 // where the strips are; rock without strips is left alone. Scenes are cast ray by ray. Does not prove it for voxels or
 // for strips that stand irregularly.
 
-#include "walls/fit/strips.hpp"
+#include "engine/walls/fit/strips.hpp"
 
 #include <gtest/gtest.h>
 
+#include "engine/walls/fit/surface.hpp"
+#include "engine/walls/propose/candidates.hpp"
+#include "engine/walls/sample/measure.hpp"
 #include "support/ray_scene.hpp"
 #include "support/rock.hpp"
-#include "walls/fit/surface.hpp"
-#include "walls/propose/candidates.hpp"
-#include "walls/sample/measure.hpp"
 
 namespace pose_wall {
 namespace {

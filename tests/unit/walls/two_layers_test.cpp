@@ -4,7 +4,7 @@
 // Proves: a second layer in front of a surface is found where there is one, with the surface behind it; rough rock
 // alone has none.
 
-#include "walls/fit/two_layers.hpp"
+#include "engine/walls/fit/two_layers.hpp"
 
 #include <gtest/gtest.h>
 

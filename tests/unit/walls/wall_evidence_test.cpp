@@ -4,7 +4,7 @@
 // Proves: the grid on a plane tells solid wall from things seen through, and measures length and area in whole
 // cells; a ray speaks against it where it crosses it, as often as it stands for.
 
-#include "walls/propose/evidence.hpp"
+#include "engine/walls/propose/evidence.hpp"
 
 #include <gtest/gtest.h>
 

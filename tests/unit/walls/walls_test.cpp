@@ -5,7 +5,7 @@
 // side what is none: a face, a short patch, a leaning plane, things seen through, walls that run apart. It tells where
 // both sides lean as only a wrong level makes them.
 
-#include "walls/walls.hpp"
+#include "engine/walls/walls.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+//
+// What the self test must come to, the same on every machine. After a change of the engine that is meant to change
+// results: tests/digest/note_self_test.py src/engine/self_test_digest.hpp build/release/tests/pose_wall_digest
+
+#pragma once
+
+#include <cstdint>
+
+namespace pose_wall {
+
+// Noted by that script; tests/digest holds every build to it.
+constexpr std::uint64_t kSelfTestDigest = 0xD74B4D9BFA9A33D9ULL;
+
+}  // namespace pose_wall

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "engine/walls/region.hpp"
+
+#include <cmath>
+
+#include "base/estimation/protection.hpp"
+#include "engine/gates/gate.hpp"
+#include "engine/walls/doubts/edges.hpp"
+#include "engine/walls/doubts/sight.hpp"
+#include "engine/walls/fit/groove_profile.hpp"
+
+namespace pose_wall {
+namespace {
+
+constexpr double kAlong_m = 2.5;    // of the definition
+constexpr double kNearest_m = 0.3;  // from the machine's middle: what is nearer is the machine
+// A share that is seen through counts so often: a cell with a prop in it is seen. Props half a metre apart cover 36 %
+// of a row, and a third of it counts as open. Of 902 walls of a real gallery no more than 0.21 does (2026-11-28).
+constexpr double kOpenCounts = 2.0;
+// Half the second derivative: the roof arch of a road of 4 m, where it comes down into the band.
+constexpr double kBend_per_m = 0.1;
+
+// The cells hold a window of depth about the wall, as far as one is known.
+double nearest_of(const Region& region, const JudgedWall& endless) {
+  constexpr double kBefore_m = 3.0;  // half of the window and less: what stands nearer is no wall's
+  if (!endless.fit.found) return kNearest_m;
+  const Plane& plane = endless.fit.plane;
+  const double out = -plane.n.dot(region.h), skew = std::fabs(plane.n.dot(region.u)) * region.u_to_m;
+  return larger(kNearest_m, (plane.d - skew) / out - kBefore_m);
+}
+
+Region region_of(const WallScene& scene, int side, const JudgedWall& endless) {
+  Region region;
+  region.u = scene.forward_level;
+  region.v = Eigen::Vector3d::UnitZ();
+  region.h = side == 0 ? scene.left_level : Eigen::Vector3d(-scene.left_level);
+  region.u_from_m = 0.0;
+  region.u_to_m = kAlong_m;
+  region.v_min_m = scene.z_min_level_m;
+  region.v_max_m = scene.z_max_level_m;
+  region.sensor_m = scene.sensor_level_m;
+  region.bend_per_m.fill(kBend_per_m);
+  region.h_min_m = nearest_of(region, endless);
+  return region;
+}
+
+// Pipes one above the other, all along the wall.
+bool is_grooved(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level) {
+  constexpr float kNear_m = 0.3F;  // twice the formula's width
+  GrooveProfile profile(scene.z_min_level_m, scene.z_max_level_m, along_level.dot(scene.sensor_level_m));
+  const Eigen::Vector3f n = plane.n.cast<float>(), along = along_level.cast<float>();
+  const auto d = static_cast<float>(plane.d);
+  for_each_four_points(
+      scene.band_level, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
+        const FourFloats off = n.x() * x + n.y() * y + n.z() * z + d;
+        profile.add(along.x() * x + along.y() * y, z, off, counts & (magnitude_of(off) < all_four(kNear_m)));
+      });
+  return profile.is_grooved();
+}
+
+// A thing that hides the wall is none. The gates are those of an endless plane, but for rays through gaps: an opening
+// is no wall and weighs little in the region's plane. A row of props has gaps that show nothing, so what is seen
+// through lowers the region's weight.
+bool is_wall(const WallScene& scene, const JudgedWall& wall, WallsScratch* scratch, RegionPlane* region) {
+  POSE_WALL_NOTE(const trace::Silence silence);  // a plane that fails is not taken, and its gates stop nothing else
+  const Settings& s = scene.settings;
+  Verdict verdict;
+  demand<gate::WALL_INLIERS>(&verdict, region->points, s);
+  demand<gate::WALL_LENGTH>(&verdict, region->length_m, s);
+  demand<gate::WALL_LEAN>(&verdict, std::fabs(wall.lean_rad), s);
+  demand<gate::WALL_YAW>(&verdict, std::fabs(wall.yaw_rad), s);
+  if (verdict.refused) return false;
+  const Plane& plane = wall.fit.plane;
+  demand<gate::WALL_GROOVES>(&verdict, !is_grooved(scene, plane, wall.along_level));
+  scratch->fit.work.add(steps::kWallLookedAt);
+  scratch->fit.work.add(scene.band_level.count, steps::kPointLookedAt);
+  const WallSight sight = look_at(scene, plane, wall.along_level, kWellBehind_m, &scratch->sight);
+  const WallEdges edges = look_past(scene, plane, wall.along_level, on_wall_m(s), &scratch->edges);
+  demand<gate::WALL_BRIGHT>(&verdict, !sight.dim);
+  demand<gate::WALL_SILENT>(&verdict, sight.silent, s);
+  demand<gate::WALL_ISLAND>(&verdict, !edges.island);
+  demand<gate::WALL_LOW>(&verdict, !edges.low);
+  demand<gate::WALL_TOP_SEEN>(&verdict, !edges.top_unseen);
+  region->near *= larger(1.0 - kOpenCounts * sight.open, 0.0);
+  return verdict.reasons == 0;
+}
+
+double level_of(const JudgedWall& wall, int end, const Settings& s) {
+  const double factor = protection_factor(s.protection_sigmas, wall.distance_dof[end]);
+  return factor * wall.distance_sigma_m[end] + wall.distance_bound_m[end].sum();
+}
+
+// Of both ends.
+bool agree(const JudgedWall& endless, const JudgedWall& region, const Settings& s) {
+  for (int end = 0; end < 2; ++end) {
+    const Known a = {endless.distance_m[end], level_of(endless, end, s)};
+    if (!agree(a, {region.distance_m[end], level_of(region, end, s)})) return false;
+  }
+  return true;
+}
+
+double worse_of(const JudgedWall& wall, const Settings& s) {
+  return larger(level_of(wall, 0, s), level_of(wall, 1, s));
+}
+
+// Either may be the wall.
+void reach_to(const JudgedWall& region, const Settings& s, JudgedWall* endless) {
+  for (int end = 0; end < 2; ++end) {
+    endless->distance_bound_m[end][POSE_WALL_PART_RIVAL] +=
+        std::fabs(endless->distance_m[end] - region.distance_m[end]) + level_of(region, end, s);
+  }
+}
+
+// How distances and direction follow from h = at[0] + at[1] u + at[2] v. A distance is square to the plane, so it
+// follows a lean as well.
+Eigen::Vector3d of_distance(const WallScene& scene, const Region& region, const Eigen::Vector3d& at, int side,
+                            int end) {
+  const Eigen::Vector3d sample = region.coordinates(scene.sample_level_m[side][end]);
+  const Eigen::Vector3d row(1.0, sample.x(), sample.y()), slopes(0.0, at[1], at[2]);
+  const double length2 = 1.0 + slopes.squaredNorm();
+  return (row - (at.dot(row) - sample.z()) / length2 * slopes) / std::sqrt(length2);
+}
+
+Eigen::Vector3d of_yaw(const Eigen::Vector3d& at) {
+  return {0.0, 1.0 / (1.0 + at[1] * at[1]), 0.0};
+}
+
+void widen(double waves, double* sigma) {
+  *sigma = std::sqrt(*sigma * *sigma + waves * waves);
+}
+
+JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPlane& found, int side,
+                   const JudgedWall& before) {
+  const Settings& s = scene.settings;
+  JudgedWall wall;
+  wall.fit.found = true;
+  wall.fit.reasons = before.fit.reasons & kDoubts;  // told, and answered by the level
+  wall.fit.inliers = static_cast<std::uint32_t>(found.points);
+  wall.fit.iterations = before.fit.iterations;
+  wall.fit.rms_m = found.rough_m;
+  wall.fit.plane = found.plane_in(region);
+  wall.along_level = along_of(wall.fit.plane, scene.forward_level);
+  wall.lean_rad = lean_of(wall.fit.plane);
+  wall.area_m2 = found.area_m2;
+  wall.along_min_m = -kAlong_m;
+  wall.along_max_m = kAlong_m;
+  wall.yaw_rad = yaw_of(wall.along_level, scene.forward_level);
+  wall.yaw_sigma_rad = found.sigma(of_yaw(found.at));
+  wall.yaw_bound_rad = found.bound(of_yaw(found.at), s.range_bias_max);
+  wall.yaw_dof = found.dof;
+  for (int end = 0; end < 2; ++end) {
+    const Eigen::Vector3d of = of_distance(scene, region, found.at, side, end);
+    wall.distance_m[end] = distance_at(wall.fit.plane, scene.sample_level_m[side][end]);
+    wall.distance_sigma_m[end] = found.sigma(of);
+    wall.distance_bound_m[end] = found.bound(of, s.range_bias_max);
+    wall.distance_dof[end] = found.dof;
+    // A distance has no sign: a point in the rock has that of one before it.
+    const bool in_rock = wall.fit.plane.signed_distance(scene.sample_level_m[side][end]) < 0.0;
+    wall.distance_bound_m[end][POSE_WALL_PART_EXTRAPOLATION] = in_rock ? 2.0 * wall.distance_m[end] : 0.0;
+  }
+  return wall;
+}
+
+// A side without an endless wall shows none in its region either, but it may be shown to have none. The endless
+// distances are widened to stand for the region's.
+RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless, WallsScratch* scratch) {
+  using Kind = RegionWall::Kind;
+  RegionWall out;
+  const Region region = region_of(scene, side, *endless);
+  RegionPlane found =
+      scratch->region.fit(scene.band_level, region, scene.settings, &scratch->fit.patches.waves(), &scratch->fit.work);
+  if (!found.found) return out;
+  if (found.is_none()) {
+    out.kind = Kind::kNone;
+    return out;
+  }
+  // The region's plane answers doubts about what lies elsewhere, and a plane that is looked past.
+  if (!endless->fit.found || (endless->fit.refused && (endless->fit.reasons & ~kDoubts) != 0)) return out;
+  out.wall = wall_of(scene, region, found, side, *endless);
+  for (int end = 0; end < 2; ++end) {
+    const double step_m = scratch->region.step_at(region.u.dot(scene.sample_level_m[side][end]), found.at);
+    out.wall.extrapolated[end] = step_m > 0.0;
+    out.wall.distance_bound_m[end][POSE_WALL_PART_EXTRAPOLATION] += step_m;
+  }
+  if (!is_wall(scene, out.wall, scratch, &found)) return out;
+  out.kind = found.is_there() ? Kind::kWall : Kind::kDoubtful;
+  out.yaw_waves_rad = found.sigma_about_endless(of_yaw(found.at));
+  for (int end = 0; end < 2; ++end) {
+    const Eigen::Vector3d of = of_distance(scene, region, found.at, side, end);
+    widen(found.sigma_about_endless(of), &endless->distance_sigma_m[end]);
+  }
+  return out;
+}
+
+// By the definition the region's wall is right, and the endless one where that is known better.
+void choose(const RegionWall& region, const Settings& s, JudgedWall* wall) {
+  if (!region.has_plane()) return;
+  if (region.kind == RegionWall::Kind::kDoubtful) {
+    if (!wall->fit.refused) reach_to(region.wall, s, wall);
+  } else if (wall->fit.refused || !agree(*wall, region.wall, s) || worse_of(region.wall, s) < worse_of(*wall, s)) {
+    *wall = region.wall;
+    POSE_WALL_NOTE(trace::answered(POSE_WALL_TRACE_REFUSES));
+  }
+}
+
+// Endless walls tell the direction of the regions' as well as their waves allow, on an unknown side those of the other.
+// By the definition a side that is none tells nothing where the other one is a wall.
+void let_direct(const RegionWall& region, const RegionWall& other, JudgedWall* endless) {
+  if (region.has_plane()) {
+    widen(region.yaw_waves_rad, &endless->yaw_sigma_rad);
+  } else if (other.has_plane()) {
+    widen(other.yaw_waves_rad, &endless->yaw_sigma_rad);
+    if (region.kind == RegionWall::Kind::kNone) endless->fit.refused = true;
+  }
+}
+
+}  // namespace
+
+void measure_wall_regions(const WallScene& scene, WallsScratch* scratch, MeasuredWalls* walls) {
+  Work& work = scratch->fit.work;
+  for (int side = 0; side < 2; ++side) {
+    POSE_WALL_NOTE(const trace::About about(trace::side_subject(side)));
+    JudgedWall& wall = walls->side[side];
+    if (work.stops()) {
+      demand_work_left(work, &wall.fit);
+    } else {
+      walls->region[side] = measure_region(scene, side, &wall, scratch);
+    }
+    walls->endless[side] = wall;
+    choose(walls->region[side], scene.settings, &wall);
+  }
+  for (int side = 0; side < 2; ++side) let_direct(walls->region[side], walls->region[1 - side], &walls->endless[side]);
+  walls->has_regions = true;
+}
+
+}  // namespace pose_wall
