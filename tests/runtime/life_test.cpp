@@ -309,11 +309,14 @@ TEST(RuntimeLife, Storm) {
     }
     Reader reader(&runtime, &told), beside(&runtime, &told);
     threads.emplace_back([&] {
-      while (!over) {
+      for (int round = 1; !over; ++round) {
         reader.look();
         broken += accounts_balance(runtime.statistics()) ? 0 : 1;
         runtime.clock.advance(kMs);
         (void)pose_wall_runtime_tick(runtime.get());
+        // The pushers never pause, so two that both wait for idleness may wait for good: a stop ends that.
+        constexpr int kRoundsToStop = 64;  // a start lasts several, so frames are worked
+        if (round % kRoundsToStop == 0) (void)pose_wall_runtime_request_stop(runtime.get());
       }
     });
     threads.emplace_back([&] {
