@@ -32,22 +32,7 @@ const Engine* engine_of(const pose_wall_engine* handle) {
   return reinterpret_cast<const Engine*>(handle);
 }
 
-// One call inside an engine, as long as this lives.
-class Inside {
- public:
-  explicit Inside(const pose_wall_engine* handle) : engine_(engine_of(handle)), status_(engine_->enter()) {}
-  ~Inside() {
-    if (status_ == POSE_WALL_OK) engine_->leave();
-  }
-  Inside(const Inside&) = delete;
-  Inside& operator=(const Inside&) = delete;
-
-  std::int32_t status() const { return status_; }
-
- private:
-  const Engine* engine_;
-  std::int32_t status_;
-};
+using Inside = pose_wall::Inside<Engine>;
 
 std::int32_t check_inputs(const pose_wall_inputs* inputs) {
   // The bits of pose_wall_inputs.given; others are of a later version.
@@ -88,10 +73,6 @@ std::int32_t image_status(const pose_wall_result& result, std::uint32_t image_si
   if (status != POSE_WALL_OK) return status;
   *whole = pose_wall::read_struct<pose_wall_result>(&result, result.struct_size);
   return whole->mark == pose_wall::mark_of(*whole) ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_RESULT;
-}
-
-bool is_aligned(const void* block) {
-  return reinterpret_cast<std::uintptr_t>(block) % POSE_WALL_BLOCK_ALIGNMENT == 0;
 }
 
 }  // namespace
@@ -236,7 +217,7 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
   uint64_t needed = 0;
   const int32_t status = pose_wall_memory_needed(config, &needed);
   if (status != POSE_WALL_OK) return status;
-  if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
+  if (!pose_wall::is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
   if (block_bytes < needed) return POSE_WALL_E_BLOCK_SMALL;
   if (Engine::is_inside(block)) return POSE_WALL_E_BUSY;
   const pose_wall::Settings settings = pose_wall::read_settings(*config);
@@ -253,22 +234,22 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
 
 POSE_WALL_EXPORT int32_t pose_wall_reset(pose_wall_engine* engine) {
   if (engine == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine);
-  if (inside.status() == POSE_WALL_OK) engine_of(engine)->reset();
+  const Inside inside(engine_of(engine));
+  if (inside.status() == POSE_WALL_OK) inside->reset();
   return inside.status();
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, void* user) {
   if (engine == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine);
-  if (inside.status() == POSE_WALL_OK) engine_of(engine)->set_clock(clock, user);
+  const Inside inside(engine_of(engine));
+  if (inside.status() == POSE_WALL_OK) inside->set_clock(clock, user);
   return inside.status();
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud,
                                            pose_wall_result* result) {
   if (engine == nullptr || cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine);
+  const Inside inside(engine_of(engine));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   std::int32_t status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
   if (status == POSE_WALL_OK) status = check_whole_cloud(*cloud);
@@ -281,20 +262,20 @@ POSE_WALL_EXPORT int32_t pose_wall_process(pose_wall_engine* engine, const pose_
   }
   pose_wall_result whole{};
   whole.struct_size = sizeof(whole);
-  engine_of(engine)->process(whole_cloud, &whole);
+  inside->process(whole_cloud, &whole);
   pose_wall::write_struct(whole, result->struct_size, result);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result) {
   if (engine == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine);
+  const Inside inside(engine_of(engine));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   const std::int32_t status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
   if (status != POSE_WALL_OK) return status;
   pose_wall_result whole{};
   whole.struct_size = sizeof(whole);
-  engine_of(engine)->age(stamp_ns, &whole);
+  inside->age(stamp_ns, &whole);
   pose_wall::write_struct(whole, result->struct_size, result);
   return POSE_WALL_OK;
 }
@@ -306,21 +287,21 @@ POSE_WALL_EXPORT uint64_t pose_wall_memento_bytes(void) {
 POSE_WALL_EXPORT int32_t pose_wall_save(const pose_wall_engine* engine, const pose_wall_moment* now, void* memento,
                                         uint64_t bytes) {
   if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine);
+  const Inside inside(engine_of(engine));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   const std::int32_t status = check_moment(now);
   if (status != POSE_WALL_OK) return status;
   if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_BUFFER_SMALL;
   const pose_wall_moment moment =
       now != nullptr ? pose_wall::read_struct<pose_wall_moment>(now, now->struct_size) : pose_wall_moment{};
-  pose_wall::save_memory(engine_of(engine)->memory(), moment, engine_of(engine)->config_crc32(), memento);
+  pose_wall::save_memory(inside->memory(), moment, inside->config_crc32(), memento);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_load(pose_wall_engine* engine, const pose_wall_moment* now, const void* memento,
                                         uint64_t bytes) {
   if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine);
+  const Inside inside(engine_of(engine));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   const std::int32_t status = check_moment(now);
   if (status != POSE_WALL_OK) return status;
@@ -328,7 +309,7 @@ POSE_WALL_EXPORT int32_t pose_wall_load(pose_wall_engine* engine, const pose_wal
   pose_wall::Memory memory;
   std::memset(static_cast<void*>(&memory), 0, sizeof(memory));  // padding, too: see pose_wall_open
   pose_wall_moment then{};
-  if (!pose_wall::load_memory(memento, engine_of(engine)->config_crc32(), &then, &memory)) return POSE_WALL_E_MEMENTO;
+  if (!pose_wall::load_memory(memento, inside->config_crc32(), &then, &memory)) return POSE_WALL_E_MEMENTO;
   const pose_wall_moment moment =
       now != nullptr ? pose_wall::read_struct<pose_wall_moment>(now, now->struct_size) : pose_wall_moment{};
   pose_wall::take_up(memory, then, moment, engine_of(engine));
@@ -337,8 +318,8 @@ POSE_WALL_EXPORT int32_t pose_wall_load(pose_wall_engine* engine, const pose_wal
 
 POSE_WALL_EXPORT int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* points) {
   if (engine == nullptr || points == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine);
-  if (inside.status() == POSE_WALL_OK) *points = engine_of(engine)->points();
+  const Inside inside(engine_of(engine));
+  if (inside.status() == POSE_WALL_OK) *points = inside->points();
   return inside.status();
 }
 
@@ -349,7 +330,7 @@ POSE_WALL_EXPORT uint64_t pose_wall_self_test_bytes(void) {
 POSE_WALL_EXPORT int32_t pose_wall_self_test(void* block, uint64_t bytes, pose_wall_self_test_report* report) {
   if (block == nullptr || report == nullptr) return POSE_WALL_E_NULL;
   if (const std::int32_t size = pose_wall::check_struct(*report); size != POSE_WALL_OK) return size;
-  if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
+  if (!pose_wall::is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
   if (bytes < pose_wall::self_test_bytes()) return POSE_WALL_E_BLOCK_SMALL;
   return pose_wall::self_test(pose_wall::kSelfTestDigest, block, report);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/math/fnv1a.hpp"
 #include "base/math/rotation.hpp"
 #include "base/simd/four_floats.hpp"
 #include "engine/cloud/outliers.hpp"
@@ -105,8 +106,7 @@ void Engine::open(const Settings& settings, std::uint32_t config_crc32) {
   axes_ = axes_of(settings.forward_axis);
   extrinsic_ = extrinsic_of(settings);
   reset();
-  self_ = this;
-  magic_ = kMagic;
+  door_.open(kMagic, this);
   seal();
 }
 
@@ -124,27 +124,19 @@ void Engine::set_clock(pose_wall_clock clock, void* user) {
 
 // Magic and place are written by open() alone, so that two calls at once may read them.
 std::int32_t Engine::enter() const {
-  if (magic_ != kMagic || self_ != this) return POSE_WALL_E_ENGINE;
-  std::uint64_t inside = kNobodyInside;
-  if (!__atomic_compare_exchange_n(&inside_, &inside, kOneInside, false, __ATOMIC_ACQUIRE, __ATOMIC_RELAXED)) {
-    return inside == kOneInside ? POSE_WALL_E_BUSY : POSE_WALL_E_ENGINE;
-  }
-  if (is_whole()) return POSE_WALL_OK;
+  const std::int32_t status = door_.enter(kMagic, this);
+  if (status != POSE_WALL_OK || is_whole()) return status;
   leave();
   return POSE_WALL_E_ENGINE;
 }
 
 void Engine::leave() const {
-  __atomic_store_n(&inside_, kNobodyInside, __ATOMIC_RELEASE);
+  door_.leave();
 }
 
-#if defined(__clang__)
-__attribute__((no_sanitize("memory")))  // a block may hold bytes that were never written
-#endif
 bool Engine::is_inside(const void* block) {
   const Engine* const there = static_cast<const Engine*>(block);
-  return there->magic_ == kMagic && there->self_ == there &&
-         __atomic_load_n(&there->inside_, __ATOMIC_RELAXED) == kOneInside;
+  return there->door_.is_entered(kMagic, there);
 }
 
 void Engine::set_memory(const Memory& memory) {
@@ -168,11 +160,11 @@ std::uint64_t Engine::sum() const {
   static_assert(alignof(Engine) == alignof(Scratch) && (sizeof(Engine) - sizeof(Scratch)) % sizeof(std::uint64_t) == 0,
                 "the scratch is the last member, and whole words stand before it");
   const unsigned char* const bytes = reinterpret_cast<const unsigned char*>(this);
-  std::uint64_t sum = 0xCBF29CE484222325ULL;
-  for (std::size_t at = sizeof(seal_) + sizeof(inside_); at < guarded_bytes(); at += sizeof(std::uint64_t)) {
+  std::uint64_t sum = kFnv1aOfNothing;
+  for (std::size_t at = sizeof(seal_) + Door::kChangingBytes; at < guarded_bytes(); at += sizeof(std::uint64_t)) {
     std::uint64_t word;
     std::memcpy(&word, bytes + at, sizeof(word));
-    sum = (sum ^ word) * 0x100000001B3ULL;
+    sum = fnv1a_with(sum, word);
   }
   return sum;
 }

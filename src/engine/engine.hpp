@@ -17,6 +17,7 @@
 #include "engine/types.hpp"
 #include "engine/walls/walls.hpp"
 #include "lidar/seen_clouds.hpp"
+#include "part/door.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall {
@@ -88,9 +89,6 @@ class Engine {
 
  private:
   static constexpr std::uint64_t kMagic = 0x706F73652D77616CULL;  // 'pose-wal' in ASCII: an engine was placed here
-  // Far apart in bits, so that a flipped bit does not look like a call inside:
-  static constexpr std::uint64_t kNobodyInside = 0x6964CC33A55A6C65ULL;
-  static constexpr std::uint64_t kOneInside = 0x96813C5A5AA5939AULL;
 
   void place(Scratch* scratch) const;
   bool can_begin(FrameFindings* found);
@@ -116,12 +114,10 @@ class Engine {
   bool is_whole() const { return seal_ == sum(); }
   void seal() { seal_ = sum(); }
 
-  // The sum of all that follows, except the scratch. A bit of settings or memory flipped between two calls would become
-  // a wrong value.
+  // The sum of all that follows, except the scratch and the door's word that changes with each call. A bit of settings
+  // or memory flipped between two calls would become a wrong value.
   std::uint64_t seal_ = 0;
-  mutable std::uint64_t inside_ = kNobodyInside;  // outside the sum, since refused calls read it, too
-  std::uint64_t magic_ = 0;
-  const Engine* self_ = nullptr;
+  Door door_;
   std::uint32_t config_crc32_ = 0;
   Settings settings_{};
   Axes axes_{};

@@ -4,19 +4,9 @@
 #include "lidar/cloud_reader.hpp"
 
 #include <cstdint>
-#include <cstring>
 
 namespace pose_wall {
 namespace {
-
-template <typename T>
-double load(const unsigned char* bytes, bool swap_bytes) {
-  unsigned char ordered[sizeof(T)];
-  for (std::size_t i = 0; i < sizeof(T); ++i) ordered[i] = bytes[swap_bytes ? sizeof(T) - 1 - i : i];
-  T value;
-  std::memcpy(&value, ordered, sizeof(T));
-  return static_cast<double>(value);
-}
 
 bool is_floating(std::uint32_t type) {
   return type == POSE_WALL_FIELD_FLOAT32 || type == POSE_WALL_FIELD_FLOAT64;
@@ -26,52 +16,7 @@ bool fits_point(const pose_wall_field& field, std::uint32_t point_step) {
   return static_cast<std::uint64_t>(field.offset) + field_bytes(field.type) <= point_step;
 }
 
-std::uint64_t row_step_of(const pose_wall_cloud& cloud) {
-  return cloud.row_step != 0 ? cloud.row_step : static_cast<std::uint64_t>(cloud.width) * cloud.point_step;
-}
-
 }  // namespace
-
-std::uint32_t field_bytes(std::uint32_t type) {
-  switch (type) {
-    case POSE_WALL_FIELD_INT8:
-    case POSE_WALL_FIELD_UINT8:
-      return 1;
-    case POSE_WALL_FIELD_INT16:
-    case POSE_WALL_FIELD_UINT16:
-      return 2;
-    case POSE_WALL_FIELD_INT32:
-    case POSE_WALL_FIELD_UINT32:
-    case POSE_WALL_FIELD_FLOAT32:
-      return 4;
-    case POSE_WALL_FIELD_FLOAT64:
-      return 8;
-    default:
-      return 0;
-  }
-}
-
-double read_field(const unsigned char* point, const pose_wall_field& field, bool swap_bytes) {
-  const unsigned char* bytes = point + field.offset;
-  switch (field.type) {
-    case POSE_WALL_FIELD_INT8:
-      return load<std::int8_t>(bytes, swap_bytes);
-    case POSE_WALL_FIELD_UINT8:
-      return load<std::uint8_t>(bytes, swap_bytes);
-    case POSE_WALL_FIELD_INT16:
-      return load<std::int16_t>(bytes, swap_bytes);
-    case POSE_WALL_FIELD_UINT16:
-      return load<std::uint16_t>(bytes, swap_bytes);
-    case POSE_WALL_FIELD_INT32:
-      return load<std::int32_t>(bytes, swap_bytes);
-    case POSE_WALL_FIELD_UINT32:
-      return load<std::uint32_t>(bytes, swap_bytes);
-    case POSE_WALL_FIELD_FLOAT32:
-      return load<float>(bytes, swap_bytes);
-    default:
-      return load<double>(bytes, swap_bytes);
-  }
-}
 
 double time_unit_s(double spread) {
   // Units of drivers: s, ms, us, ns. A scan takes 10 ms to 1 s, so no two of them fit one cloud.
@@ -88,14 +33,6 @@ double time_of_stamp(double least, double most, double unit_s) {
   return least >= 0.0 && most * unit_s <= kScanMost_s ? 0.0 : least;
 }
 
-bool needs_swap(const pose_wall_cloud& cloud) {
-  const std::uint16_t probe = 1;
-  unsigned char first;
-  std::memcpy(&first, &probe, 1);
-  const bool machine_is_big = first == 0;
-  return (cloud.big_endian != 0) != machine_is_big;
-}
-
 bool is_plain_xyz32(const pose_wall_cloud& cloud) {
   return cloud.x.type == POSE_WALL_FIELD_FLOAT32 && cloud.y.type == POSE_WALL_FIELD_FLOAT32 &&
          cloud.z.type == POSE_WALL_FIELD_FLOAT32 && !needs_swap(cloud);
@@ -105,14 +42,6 @@ bool is_xyz32_in_a_row(const pose_wall_cloud& cloud) {
   constexpr std::uint32_t kBytes = sizeof(float), kOfFour = 4 * kBytes;  // one load reads x, y, z and the next bytes
   return is_plain_xyz32(cloud) && cloud.y.offset - cloud.x.offset == kBytes &&
          cloud.z.offset - cloud.y.offset == kBytes && cloud.point_step - cloud.x.offset >= kOfFour;
-}
-
-std::uint32_t rows_of(const pose_wall_cloud& cloud) {
-  return cloud.width != 0 ? cloud.height : 0;
-}
-
-const unsigned char* row_of(const pose_wall_cloud& cloud, std::uint32_t row) {
-  return static_cast<const unsigned char*>(cloud.data) + row * row_step_of(cloud);
 }
 
 std::int32_t check_cloud(const pose_wall_cloud& cloud) {

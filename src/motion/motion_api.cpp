@@ -7,22 +7,21 @@
 #include <cstring>
 
 #include "base/estimation/protection.hpp"
-#include "base/math/rotation.hpp"
 #include "motion/motion_image.hpp"
 #include "motion/motion_report.hpp"
 #include "motion/odometry.hpp"
 #include "part/export.hpp"
+#include "part/held.hpp"
 #include "part/struct_sizes.hpp"
 #include "part/struct_versions.hpp"
 #include "pose_wall_motion.h"
 
 namespace {
 
-using pose_wall::Arena;
+using pose_wall::number_of;
 using pose_wall::StructSizes;
 using pose_wall::motion::MotionSettings;
 using pose_wall::motion::Odometry;
-using pose_wall::motion::Reading;
 
 constexpr StructSizes kSettingsSizes = {0, sizeof(pose_wall_motion_settings), sizeof(pose_wall_motion_settings)};
 constexpr StructSizes kMotionResultSizes = {0, offsetof(pose_wall_motion_result, run), sizeof(pose_wall_motion_result)};
@@ -46,108 +45,47 @@ constexpr const char* kReasons[POSE_WALL_MOTION_REASON_COUNT][2] = {
     {"map_full", "The oldest part of the map gave way to the newest."},
     {"repeated", "Points that came before came again, so sensor or driver hang, and the frame is not used."}};
 
-// The head of a motion's block.
-struct Holder {
-  static constexpr std::uint64_t kMagic = 0x6E6F69746F6D5750ULL;
-
-  std::uint64_t magic;
-  const Holder* self;
-  mutable std::uint64_t inside;
-  std::uint32_t config_crc32, source_id;
-  std::uint64_t frames;
-  std::int64_t last_stamp_ns;
+// What a motion's block holds.
+struct Body {
+  std::uint32_t config_crc32 = 0, source_id = 0;
+  std::uint64_t frames = 0;
+  std::int64_t last_stamp_ns = 0;
   Odometry odometry;
+
+  void lay_out(pose_wall::Arena& arena) { odometry.lay_out(arena); }
 };
+using Held = pose_wall::Held<Body, 0x6E6F69746F6D5750ULL>;
+using Inside = pose_wall::Inside<Held>;
 
-Holder* holder_of(pose_wall_motion* motion) {
-  return reinterpret_cast<Holder*>(motion);
+Held* held_of(pose_wall_motion* motion) {
+  return reinterpret_cast<Held*>(motion);
 }
-const Holder* holder_of(const pose_wall_motion* motion) {
-  return reinterpret_cast<const Holder*>(motion);
-}
-
-// One call inside a motion, as long as this lives.
-class Inside {
- public:
-  explicit Inside(const Holder* holder) : holder_(holder), status_(enter()) {}
-  ~Inside() {
-    if (status_ == POSE_WALL_OK) __atomic_store_n(&holder_->inside, std::uint64_t{0}, __ATOMIC_RELEASE);
-  }
-  Inside(const Inside&) = delete;
-  Inside& operator=(const Inside&) = delete;
-
-  std::int32_t status() const { return status_; }
-
- private:
-  std::int32_t enter() const {
-    if (holder_->magic != Holder::kMagic || holder_->self != holder_) return POSE_WALL_E_ENGINE;
-    std::uint64_t nobody = 0;
-    const bool entered = __atomic_compare_exchange_n(&holder_->inside, &nobody, std::uint64_t{1}, false,
-                                                     __ATOMIC_ACQUIRE, __ATOMIC_RELAXED);
-    return entered ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_BUSY;
-  }
-
-  const Holder* holder_;
-  std::int32_t status_;
-};
-
-// One walk both measures and places.
-std::uint64_t lay_out(void* block, Holder** out) {
-  Arena arena(block);
-  Holder* const holder = arena.take_one<Holder>();
-  Odometry measured;
-  (holder != nullptr ? holder->odometry : measured).lay_out(arena);
-  if (out != nullptr) *out = holder;
-  return arena.bytes();
+const Held* held_of(const pose_wall_motion* motion) {
+  return reinterpret_cast<const Held*>(motion);
 }
 
 // The common part of all results of a motion.
-pose_wall_motion_result begun(const Holder& holder) {
+pose_wall_motion_result begun(const Body& body) {
   pose_wall_motion_result result{};
   result.mark = kMark;
-  result.config_crc32 = holder.config_crc32;
-  result.source_id = holder.source_id;
+  result.config_crc32 = body.config_crc32;
+  result.source_id = body.source_id;
   return result;
 }
 
-void forget_frames(Holder* holder) {
-  holder->frames = 0;
-  holder->last_stamp_ns = 0;
+void forget_frames(Body* body) {
+  body->frames = 0;
+  body->last_stamp_ns = 0;
 }
 
-double number_of(const pose_wall_config& config, const char* key) {
-  double value = 0.0;
-  (void)pose_wall_config_get_number(&config, key, &value);
-  return value;
-}
-
-Reading reading_of(const pose_wall_config& config, const pose_wall_motion_settings& settings) {
-  Reading reading;
-  reading.R_base_lidar = pose_wall::rotation_zyx(
-      number_of(config, "extrinsic_roll"), number_of(config, "extrinsic_pitch"), number_of(config, "extrinsic_yaw"));
-  reading.lidar_base_m = Eigen::Vector3d(number_of(config, "extrinsic_x"), number_of(config, "extrinsic_y"),
-                                         number_of(config, "extrinsic_z"));
-  reading.range_min_m = number_of(config, "range_min");
-  reading.range_max_m = settings.range_max_m;
-  static constexpr const char* boxes[] = {"body_box_1", "body_box_2", "body_box_3", "body_box_4"};
-  for (int i = 0; i < 4; ++i) {
-    double edges_m[6] = {};
-    (void)pose_wall_config_get_box(&config, boxes[i], edges_m);
-    reading.body[i] = pose_wall::box_of(edges_m);
-  }
-  return reading;
-}
-
-MotionSettings settings_of(const pose_wall_config& config, const pose_wall_motion_settings& settings) {
+MotionSettings settings_of(const pose_wall_config& config, const pose_wall::Mount& mount,
+                           const pose_wall_motion_settings& settings) {
   MotionSettings out;
   out.speed_max_m_s = settings.speed_max_m_s;
   out.turn_max_rad_s = settings.turn_max_rad_s;
   out.keyframe_m = settings.keyframe_m;
   out.protection_sigmas = pose_wall::sigmas_at_risk(number_of(config, "integrity_risk"));
-  char axis[POSE_WALL_TEXT_MAX] = {};
-  (void)pose_wall_config_get_text(&config, "forward_axis", axis, sizeof(axis));
-  out.forward_base =
-      (axis[0] == '-' ? -1.0 : 1.0) * (axis[1] == 'Y' ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX()).eval();
+  out.forward_base << mount.forward_base, 0.0;
   return out;
 }
 
@@ -206,7 +144,7 @@ POSE_WALL_EXPORT const char* pose_wall_motion_direction_name(uint32_t direction)
 }
 
 POSE_WALL_EXPORT uint64_t pose_wall_motion_memory_needed(void) {
-  return lay_out(nullptr, nullptr);
+  return Held::bytes();
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_open(const pose_wall_config* config,
@@ -219,45 +157,43 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_open(const pose_wall_config* config,
   if (status == POSE_WALL_OK && settings != nullptr) status = pose_wall_motion_settings_check(settings, nullptr);
   if (status != POSE_WALL_OK) return status;
   if (settings != nullptr) chosen = *settings;
-  if (reinterpret_cast<std::uintptr_t>(block) % POSE_WALL_BLOCK_ALIGNMENT != 0) return POSE_WALL_E_BLOCK_ALIGN;
-  if (block_bytes < pose_wall_motion_memory_needed()) return POSE_WALL_E_BLOCK_SMALL;
-  Holder* holder = nullptr;
-  lay_out(block, &holder);
-  holder->odometry.open(reading_of(*config, chosen), settings_of(*config, chosen));
-  (void)pose_wall_config_crc(config, &holder->config_crc32);
-  holder->source_id = static_cast<std::uint32_t>(number_of(*config, "source_id"));
-  forget_frames(holder);
-  holder->inside = 0;
-  holder->self = holder;
-  holder->magic = Holder::kMagic;
-  *motion = reinterpret_cast<pose_wall_motion*>(holder);
+  Held* held = nullptr;
+  status = Held::place(block, block_bytes, &held);
+  if (status != POSE_WALL_OK) return status;
+  Body& body = held->body();
+  pose_wall::Mount mount = pose_wall::mount_of(*config);
+  mount.range_max_m = chosen.range_max_m;
+  body.odometry.open(mount, settings_of(*config, mount, chosen));
+  (void)pose_wall_config_crc(config, &body.config_crc32);
+  body.source_id = static_cast<std::uint32_t>(number_of(*config, "source_id"));
+  *motion = reinterpret_cast<pose_wall_motion*>(held);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_reset(pose_wall_motion* motion) {
   if (motion == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(holder_of(motion));
+  const Inside inside(held_of(motion));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  holder_of(motion)->odometry.reset();
-  forget_frames(holder_of(motion));
+  inside->body().odometry.reset();
+  forget_frames(&inside->body());
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_process(pose_wall_motion* motion, const pose_wall_cloud* cloud,
                                                   pose_wall_motion_result* result) {
   if (motion == nullptr || cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(holder_of(motion));
+  const Inside inside(held_of(motion));
   std::int32_t status = inside.status();
   if (status == POSE_WALL_OK) status = pose_wall_cloud_check(cloud);
   if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(result->struct_size, kMotionResultSizes);
   if (status != POSE_WALL_OK) return status;
   const auto whole = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
-  Holder* const holder = holder_of(motion);
-  pose_wall_motion_result found = begun(*holder);
-  holder->odometry.process(whole, &found);
-  found.run = found.along_state != POSE_WALL_ALONG_LOST ? holder->odometry.run() : 0;
-  holder->frames = found.frame_index + 1;
-  holder->last_stamp_ns = found.stamp_ns;
+  Body& body = inside->body();
+  pose_wall_motion_result found = begun(body);
+  body.odometry.process(whole, &found);
+  found.run = found.along_state != POSE_WALL_ALONG_LOST ? body.odometry.run() : 0;
+  body.frames = found.frame_index + 1;
+  body.last_stamp_ns = found.stamp_ns;
   pose_wall::write_struct(found, result->struct_size, result);
   return POSE_WALL_OK;
 }
@@ -265,9 +201,9 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_process(pose_wall_motion* motion, cons
 POSE_WALL_EXPORT int32_t pose_wall_motion_give(const pose_wall_motion* motion, pose_wall_inputs* inputs) {
   if (motion == nullptr || inputs == nullptr) return POSE_WALL_E_NULL;
   if (const std::int32_t size = pose_wall::check_struct(*inputs); size != POSE_WALL_OK) return size;
-  const Inside inside(holder_of(motion));
+  const Inside inside(held_of(motion));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  const bool told = holder_of(motion)->odometry.tell(&inputs->odometry);
+  const bool told = inside->body().odometry.tell(&inputs->odometry);
   const std::uint32_t bit = POSE_WALL_INPUT_ODOMETRY;
   inputs->given = told ? inputs->given | bit : inputs->given & ~bit;
   return POSE_WALL_OK;
@@ -298,15 +234,15 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_process_both(pose_wall_motion* motion,
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_blank(const pose_wall_motion* motion, pose_wall_motion_result* result) {
   if (motion == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(holder_of(motion));
+  const Inside inside(held_of(motion));
   std::int32_t status = inside.status();
   if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(result->struct_size, kMotionResultSizes);
   if (status != POSE_WALL_OK) return status;
-  const Holder& holder = *holder_of(motion);
-  pose_wall_motion_result none = begun(holder);
+  const Body& body = inside->body();
+  pose_wall_motion_result none = begun(body);
   pose_wall::motion::report_nothing(&none);
-  none.frame_index = holder.frames - 1;
-  none.stamp_ns = holder.last_stamp_ns;
+  none.frame_index = body.frames - 1;
+  none.stamp_ns = body.last_stamp_ns;
   pose_wall::write_struct(none, result->struct_size, result);
   return POSE_WALL_OK;
 }
@@ -345,8 +281,8 @@ POSE_WALL_EXPORT const pose_wall_motion_functions* pose_wall_motion_functions_ge
 POSE_WALL_EXPORT int32_t pose_wall_motion_map(const pose_wall_motion* motion, uint32_t first, float* xyz_m,
                                               uint32_t capacity, uint32_t* total) {
   if (motion == nullptr || total == nullptr || (xyz_m == nullptr && capacity > 0)) return POSE_WALL_E_NULL;
-  const Inside inside(holder_of(motion));
-  if (inside.status() == POSE_WALL_OK) *total = holder_of(motion)->odometry.map_points(first, capacity, xyz_m);
+  const Inside inside(held_of(motion));
+  if (inside.status() == POSE_WALL_OK) *total = inside->body().odometry.map_points(first, capacity, xyz_m);
   return inside.status();
 }
 

@@ -63,8 +63,8 @@ void Odometry::lay_out(Arena& arena) {
   print_ = arena.take_one<CloudPrint>();
 }
 
-void Odometry::open(const Reading& reading, const MotionSettings& settings) {
-  reading_ = reading;
+void Odometry::open(const Mount& mount, const MotionSettings& settings) {
+  mount_ = mount;
   settings_ = settings;
   reset();
 }
@@ -92,7 +92,7 @@ void Odometry::reset() {
 void Odometry::begin_map(Frame* frame) {
   if (!has_map_) {  // not where the map begins anew
     const Eigen::Matrix3d R = frame->expected.R;
-    const Eigen::Matrix3d level = upright(frame->observations, R, reading_.lidar_base_m) * R;
+    const Eigen::Matrix3d level = upright(frame->observations, R, mount_.sensor_base_m) * R;
     frame->expected.R = turn_by(Eigen::Vector3d(0.0, 0.0, squaring_yaw_rad(frame->observations, level))) * level;
     start_ = frame->expected;
   }
@@ -132,9 +132,9 @@ void Odometry::begin_map_here() {
 
 void Odometry::take_in_scan() {
   keyframe_ = pose_;
-  map_.begin_keyframe(pose_.R * reading_.lidar_base_m + pose_.t);
+  map_.begin_keyframe(pose_.R * mount_.sensor_base_m + pose_.t);
   const LocalPose local(pose_, map_.corner());
-  const Eigen::Vector3f sensor = reading_.lidar_base_m.cast<float>();
+  const Eigen::Vector3f sensor = mount_.sensor_base_m.cast<float>();
   FacingWalk walk(image_, local.R);
   for (const std::uint16_t i : image_.cell.first(image_.rows * image_.columns)) {
     if (i == kNoPoint || (image_.flags[i] & kPlane) == 0 || !walk.go_to(i)) continue;
@@ -155,7 +155,7 @@ bool Odometry::place_scan(Frame* frame) {
   const double share = share_on_map(map_, frame->observations, at, stride);
   if (share > (gap ? kShareFound : kShareLost)) return true;
   frame->wide = true;
-  at.R = orthonormal(upright(frame->observations, at.R, reading_.lidar_base_m) * at.R);
+  at.R = orthonormal(upright(frame->observations, at.R, mount_.sensor_base_m) * at.R);
   face(at.R, frame->observations);
   const double dt = frame->dt_s < 5.0 ? frame->dt_s : 5.0;
   const WideReach reach = {settings_.turn_max_rad_s * dt, settings_.speed_max_m_s * dt};
@@ -163,7 +163,7 @@ bool Odometry::place_scan(Frame* frame) {
 }
 
 Scan Odometry::scan_of(const Frame& frame) const {
-  return {&map_, frame.observations, reading_.lidar_base_m.cast<float>()};
+  return {&map_, frame.observations, mount_.sensor_base_m.cast<float>()};
 }
 
 void Odometry::align(Frame* frame) {
@@ -423,11 +423,11 @@ bool Odometry::begins_unbent(const Frame& frame) const {
 void Odometry::begin_unbent(const Frame& frame) {
   const std::uint32_t count = image_.count;
   work_.add(std::uint64_t{frame.cloud.width} * frame.cloud.height, steps::kPointProjected);
-  project_again(frame.cloud, reading_, twist_, &image_);
+  project_again(frame.cloud, mount_, twist_, &image_);
   if (image_.count != count) {
     work_.add(image_.count, steps::kPointLookedAt);
     image_.flags.fill(0);
-    segment(pose_.R, reading_, &segment_, &image_);
+    segment(pose_.R, mount_, &segment_, &image_);
     mark_features(&image_);
   }
   begin_map_here();
@@ -451,13 +451,13 @@ void Odometry::expect(Frame* frame) const {
 
 // True if its points, or a part of them, came before.
 bool Odometry::is_repeat(const pose_wall_cloud& cloud) {
-  project(cloud, reading_, twist_, &image_, print_);
+  project(cloud, mount_, twist_, &image_, print_);
   work_.add(std::uint64_t{cloud.width} * cloud.height, steps::kPointProjected);
   return freshness_.keep(*print_, cloud.stamp_ns).is_one;
 }
 
 void Odometry::look(Frame* frame) {
-  frame->segments = segment(frame->expected.R, reading_, &segment_, &image_);
+  frame->segments = segment(frame->expected.R, mount_, &segment_, &image_);
   frame->features = mark_features(&image_);
   const std::uint32_t count = choose_observations(image_, frame->expected, &choice_, observation_);
   work_.add(image_.count, steps::kPointLookedAt);

@@ -24,7 +24,7 @@ struct MotionSettings {
 class Odometry {
  public:
   void lay_out(Arena& arena);
-  void open(const Reading& reading, const MotionSettings& settings);
+  void open(const Mount& mount, const MotionSettings& settings);
   void reset();
   void process(const pose_wall_cloud& cloud, pose_wall_motion_result* result);
   // The last frame's pose as the engine takes it; without a pose, that nothing is known. False before the first frame.
@@ -64,7 +64,7 @@ class Odometry {
   void tell_nothing(pose_wall_odometry* out) const;
   Scan scan_of(const Frame& frame) const;
 
-  Reading reading_;
+  Mount mount_;
   MotionSettings settings_;
   // scratch
   RangeImage image_;

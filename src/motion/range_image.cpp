@@ -8,7 +8,7 @@
 
 #include "base/simd/four_floats.hpp"
 #include "lidar/body_boxes.hpp"
-#include "lidar/cloud_reader.hpp"
+#include "lidar/point_reader.hpp"
 
 namespace pose_wall::motion {
 namespace {
@@ -29,43 +29,16 @@ FourFloats rough_arc_tangent2(FourFloats y, FourFloats x) {
   return y < zero ? -a : a;
 }
 
-struct Raw {
-  float x, y, z;
-};
 using Points = const unsigned char* const*;  // four of the cloud
 
-// Reads points of one cloud, the common layouts without a switch a field.
-class Reader {
+// The other fields of one cloud's points, the common types without a switch a field.
+class FieldReader {
  public:
-  explicit Reader(const pose_wall_cloud& cloud)
+  explicit FieldReader(const pose_wall_cloud& cloud)
       : cloud_(cloud),
         swap_(needs_swap(cloud)),
-        plain_(is_plain_xyz32(cloud)),
-        in_a_row_(is_xyz32_in_a_row(cloud)),
         plain_ring_(!swap_ && cloud.ring.type == POSE_WALL_FIELD_UINT16),
         plain_time_(!swap_ && cloud.time.type == POSE_WALL_FIELD_UINT32) {}
-
-  Raw xyz(const unsigned char* point) const {
-    Raw p;
-    if (plain_) {
-      std::memcpy(&p.x, point + cloud_.x.offset, sizeof(float));
-      std::memcpy(&p.y, point + cloud_.y.offset, sizeof(float));
-      std::memcpy(&p.z, point + cloud_.z.offset, sizeof(float));
-      return p;
-    }
-    return {to_float(read_field(point, cloud_.x, swap_)), to_float(read_field(point, cloud_.y, swap_)),
-            to_float(read_field(point, cloud_.z, swap_))};
-  }
-
-  FourPlaces four(Points points) const {
-    if (in_a_row_) return plain_four(points, cloud_.x.offset);
-    FourPlaces four;
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      const Raw p = xyz(points[lane]);
-      four.x[lane] = p.x, four.y[lane] = p.y, four.z[lane] = p.z;
-    }
-    return four;
-  }
 
   FourFloats four_rings(Points points) const {
     FourFloats rings;
@@ -104,7 +77,7 @@ class Reader {
 
  private:
   const pose_wall_cloud& cloud_;
-  bool swap_, plain_, in_a_row_, plain_ring_, plain_time_;
+  bool swap_, plain_ring_, plain_time_;
 };
 
 // How this cloud's points go into rows, and its times into seconds.
@@ -123,31 +96,33 @@ struct Extent {
   float sine_least = 1.0F, sine_most = -1.0F;
 };
 
-Extent extent_of(const pose_wall_cloud& cloud, const Reader& reader, std::uint64_t points) {
+Extent extent_of(const pose_wall_cloud& cloud, const FieldReader& fields, std::uint64_t points) {
+  const PointReader reader(cloud);
   const bool has_ring = cloud.ring.type != POSE_WALL_FIELD_NONE, has_time = cloud.time.type != POSE_WALL_FIELD_NONE;
   Extent extent;
   const std::uint64_t stride = (points / kLooks) | 1U;  // odd, so that no ring of an even number is passed over
   for (std::uint64_t i = 0; i < points; i += stride) {
     const unsigned char* const point =
         row_of(cloud, static_cast<std::uint32_t>(i / cloud.width)) + (i % cloud.width) * cloud.point_step;
-    const Raw p = reader.xyz(point);
-    const float r2 = p.x * p.x + p.y * p.y + p.z * p.z;
+    float x, y, z;
+    reader.one(point, &x, &y, &z);
+    const float r2 = x * x + y * y + z * z;
     if (!(r2 > 0.01F && r2 < 1e6F)) continue;
-    const float s = p.z / std::sqrt(r2);
+    const float s = z / std::sqrt(r2);
     if (s < extent.sine_least) extent.sine_least = s;
     if (s > extent.sine_most) extent.sine_most = s;
-    const double ring = has_ring ? reader.number(point, cloud.ring) : 0.0;
+    const double ring = has_ring ? fields.number(point, cloud.ring) : 0.0;
     if (ring > extent.ring_most && ring < 4096.0) extent.ring_most = ring;
-    const double t = has_time ? reader.number(point, cloud.time) : 0.0;
+    const double t = has_time ? fields.number(point, cloud.time) : 0.0;
     if (t < extent.time_least) extent.time_least = t;
     if (t > extent.time_most) extent.time_most = t;
   }
   return extent;
 }
 
-Layout look_at(const pose_wall_cloud& cloud, const Reader& reader) {
+Layout look_at(const pose_wall_cloud& cloud, const FieldReader& fields) {
   const std::uint64_t points = static_cast<std::uint64_t>(cloud.width) * rows_of(cloud);
-  const Extent extent = extent_of(cloud, reader, points);
+  const Extent extent = extent_of(cloud, fields, points);
   Layout layout;
   layout.time_unit_s = time_unit_s(extent.time_most - extent.time_least);
   layout.time_zero = time_of_stamp(extent.time_least, extent.time_most, layout.time_unit_s);
@@ -188,24 +163,19 @@ namespace {
 // Which cells points belong to, and where they lie in base.
 class Projector {
  public:
-  Projector(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image,
-            CloudPrint* print)
+  Projector(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, RangeImage* image, CloudPrint* print)
       : reader_(cloud),
-        layout_(look_at(cloud, reader_)),
-        R_(reading.R_base_lidar.cast<float>()),
-        origin_(reading.lidar_base_m.cast<float>()),
+        fields_(cloud),
+        layout_(look_at(cloud, fields_)),
+        R_(mount.R_base_lidar.cast<float>()),
+        origin_(mount.sensor_base_m.cast<float>()),
         velocity_(twist.velocity_m_s.cast<float>()),
         turn_(twist.turn_rad_s.cast<float>()),
-        near2_(static_cast<float>(reading.range_min_m * reading.range_min_m)),
-        far2_(static_cast<float>(reading.range_max_m * reading.range_max_m)),
+        near2_(static_cast<float>(mount.range_min_m * mount.range_min_m)),
+        far2_(static_cast<float>(mount.range_max_m * mount.range_max_m)),
+        body_(mount.body, cloud),
         image_(image),
-        print_(print) {
-    for (const Box& box : BodyBoxes(reading.body, cloud)) {
-      const double edges[6] = {box.x_min, box.x_max, box.y_min, box.y_max, box.z_min, box.z_max};
-      for (int k = 0; k < 6; ++k) body_[boxes_][k] = static_cast<float>(edges[k]);
-      ++boxes_;
-    }
-  }
+        print_(print) {}
 
   const Layout& layout() const { return layout_; }
 
@@ -219,7 +189,7 @@ class Projector {
     FourInts cells;
     those &= cells_of(points, raw, range, turn, &cells);
     const FourPlaces p = base_of(points, raw);
-    if (boxes_ > 0) those &= ~is_of_body(p);
+    if (!body_.empty()) those &= ~body_.hold(p);
     const RangeImage to = *image_;  // a copy, so that no store can seem to change where its rows are
     std::uint32_t k = to.count;
     for (std::uint32_t lane = 0; lane < kFour; ++lane) {
@@ -256,7 +226,7 @@ class Projector {
     FourTruths those = all_four_ints(-1);
     FourFloats row;
     if (layout_.has_ring) {
-      const FourFloats ring = reader_.four_rings(points);
+      const FourFloats ring = fields_.four_rings(points);
       those = (ring >= 0.0F) & (ring < static_cast<float>(layout_.rings));
       row = ring * static_cast<float>(static_cast<double>(layout_.rows) / layout_.rings);
     } else {
@@ -275,23 +245,13 @@ class Projector {
     return those;
   }
 
-  FourTruths is_of_body(const FourPlaces& p) const {
-    FourTruths inside = all_four_ints(0);
-    for (std::uint32_t k = 0; k < boxes_; ++k) {
-      const float(&edge)[6] = body_[k];
-      inside |= (p.x >= edge[0]) & (p.x <= edge[1]) & (p.y >= edge[2]) & (p.y <= edge[3]) & (p.z >= edge[4]) &
-                (p.z <= edge[5]);
-    }
-    return inside;
-  }
-
   // At the stamp, to second order of the turn.
   FourPlaces base_of(Points points, const FourPlaces& raw) const {
     FourPlaces p = {R_(0, 0) * raw.x + R_(0, 1) * raw.y + R_(0, 2) * raw.z + origin_[0],
                     R_(1, 0) * raw.x + R_(1, 1) * raw.y + R_(1, 2) * raw.z + origin_[1],
                     R_(2, 0) * raw.x + R_(2, 1) * raw.y + R_(2, 2) * raw.z + origin_[2]};
     if (!layout_.has_time) return p;
-    const FourFloats time = reader_.four_times_s(points, layout_.time_zero, layout_.time_unit_s);
+    const FourFloats time = fields_.four_times_s(points, layout_.time_zero, layout_.time_unit_s);
     const FourTruths is_time = (time > -0.1F) & (time <= 1.0F);
     const FourFloats t = is_time ? time : all_four(0.0F), half = 0.5F * t * t;
     const FourPlaces around = turned(p), twice = turned(around);
@@ -304,13 +264,13 @@ class Projector {
     return {turn_[1] * p.z - turn_[2] * p.y, turn_[2] * p.x - turn_[0] * p.z, turn_[0] * p.y - turn_[1] * p.x};
   }
 
-  Reader reader_;
+  PointReader reader_;
+  FieldReader fields_;
   Layout layout_;
   Eigen::Matrix3f R_;
   Eigen::Vector3f origin_, velocity_, turn_;
   float near2_, far2_;
-  float body_[BodyBoxes::kMost][6];  // edges of the boxes that hold something
-  std::uint32_t boxes_ = 0;
+  BodyBoxes body_;
   RangeImage* image_;
   CloudPrint* print_;  // or NULL
 };
@@ -367,15 +327,15 @@ void project_some(const pose_wall_cloud& cloud, const Projector& projector, Rang
 
 }  // namespace
 
-void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image,
+void project(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, RangeImage* image,
              CloudPrint* print) {
   print->clear();
   image->flags.fill(0);
-  project_some(cloud, Projector(cloud, reading, twist, image, print), image);
+  project_some(cloud, Projector(cloud, mount, twist, image, print), image);
 }
 
-void project_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image) {
-  project_some(cloud, Projector(cloud, reading, twist, image, nullptr), image);
+void project_again(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, RangeImage* image) {
+  project_some(cloud, Projector(cloud, mount, twist, image, nullptr), image);
 }
 
 }  // namespace pose_wall::motion

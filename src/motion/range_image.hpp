@@ -11,8 +11,8 @@
 
 #include "base/containers/arena.hpp"
 #include "base/containers/span.hpp"
-#include "lidar/box.hpp"
 #include "lidar/cloud_print.hpp"
+#include "lidar/mount.hpp"
 #include "motion/pose.hpp"
 #include "pose_wall.h"
 
@@ -30,13 +30,6 @@ enum PointFlag : std::uint8_t {
   kKept = 2,    // ground, or of a cluster that is large enough
   kEdge = 4,    // a curvature feature: corner
   kPlane = 8    // a curvature feature: flat
-};
-
-struct Reading {
-  Eigen::Matrix3d R_base_lidar = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d lidar_base_m = Eigen::Vector3d::Zero();
-  double range_min_m = 0.3, range_max_m = 30.0;
-  Box body[4] = {};  // the parts that move with the machine, in base
 };
 
 struct RangeImage {
@@ -66,10 +59,10 @@ struct RangeImage {
 
 // De-skewed by the twist where the cloud has times: each point where it would have been seen from at the stamp. The
 // print is of all points in range, those of the machine's body and those that the image has no room for, too.
-void project(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image,
+void project(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, RangeImage* image,
              CloudPrint* print);
 // The same cloud by another twist. Cells and the order of points do not depend on it, so flags stay. The exception is
 // another point inside the machine's own body, which shows in the count.
-void project_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, RangeImage* image);
+void project_again(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, RangeImage* image);
 
 }  // namespace pose_wall::motion

@@ -23,9 +23,9 @@ float step_most_m(float range_m) {
 }
 
 // Of two neighbours one above the other: both are ground if the line between them is level.
-std::uint32_t mark_ground(const Eigen::Matrix3d& R_map_base, const Reading& reading, RangeImage* image) {
+std::uint32_t mark_ground(const Eigen::Matrix3d& R_map_base, const Mount& mount, RangeImage* image) {
   const Eigen::Vector3f up = R_map_base.row(2).transpose().cast<float>();
-  const float sensor = up.dot(reading.lidar_base_m.cast<float>()) - kBelowSensor_m;
+  const float sensor = up.dot(mount.sensor_base_m.cast<float>()) - kBelowSensor_m;
   const std::uint32_t columns = image->columns;
   for (std::uint32_t a = 0; a < image->count; ++a) {
     const Eigen::Vector3f pa = image->point(a);
@@ -126,10 +126,9 @@ void SegmentScratch::lay_out(Arena& arena) {
   size = arena.take<std::uint16_t>(kImageCells);
 }
 
-Segments segment(const Eigen::Matrix3d& R_map_base, const Reading& reading, SegmentScratch* scratch,
-                 RangeImage* image) {
+Segments segment(const Eigen::Matrix3d& R_map_base, const Mount& mount, SegmentScratch* scratch, RangeImage* image) {
   Segments out;
-  out.ground = mark_ground(R_map_base, reading, image);
+  out.ground = mark_ground(R_map_base, mount, image);
   Clusters clusters(*image, scratch);
   clusters.label_all();
   scratch->size.first(clusters.labels()).fill(0);

@@ -23,6 +23,6 @@ struct SegmentScratch {
 };
 
 // Sets kGround and kKept. R_map_base: the attitude that is expected, which "level" is meant by.
-Segments segment(const Eigen::Matrix3d& R_map_base, const Reading& reading, SegmentScratch* scratch, RangeImage* image);
+Segments segment(const Eigen::Matrix3d& R_map_base, const Mount& mount, SegmentScratch* scratch, RangeImage* image);
 
 }  // namespace pose_wall::motion

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// An opened part in its caller's block: how a pointer of the C ABI is known to be one, and that one call is inside.
+// An opened part in its caller's block.
 //
 //     using Mine = Held<Body, 0x...>;      Body has lay_out(Arena&) and is trivially destructible
 //     std::uint64_t bytes = Mine::bytes(lay_out_arguments...);
 //     status = Mine::place(block, bytes, &mine, lay_out_arguments...);
-//     Mine::Inside inside(mine);  if (inside.status() != POSE_WALL_OK) return inside.status();
-//     inside.body()...
+//     const Inside<Mine> inside(mine);  if (inside.status() != POSE_WALL_OK) return inside.status();
+//     inside->body()...
 
 #pragma once
 
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
+#include "part/door.hpp"
 #include "pose_wall.h"
 
-namespace pose_wall::planar {
+namespace pose_wall {
 
 template <typename Body, std::uint64_t kMagic>
 class Held {
@@ -31,42 +32,16 @@ class Held {
   template <typename... Arguments>
   static std::int32_t place(void* block, std::uint64_t block_bytes, Held** out, const Arguments&... arguments) {
     if (block == nullptr || out == nullptr) return POSE_WALL_E_NULL;
-    if (reinterpret_cast<std::uintptr_t>(block) % POSE_WALL_BLOCK_ALIGNMENT != 0) return POSE_WALL_E_BLOCK_ALIGN;
+    if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
     if (block_bytes < bytes(arguments...)) return POSE_WALL_E_BLOCK_SMALL;
     lay_out(block, out, arguments...);
-    (*out)->magic_ = kMagic;
-    (*out)->self_ = *out;
-    (*out)->inside_ = 0;
+    (*out)->door_.open(kMagic, *out);
     return POSE_WALL_OK;
   }
 
+  std::int32_t enter() const { return door_.enter(kMagic, this); }
+  void leave() const { door_.leave(); }
   Body& body() { return body_; }
-
-  // One call inside, as long as this lives. The pointer may be anything but NULL.
-  class Inside {
-   public:
-    explicit Inside(const Held* held) : held_(const_cast<Held*>(held)), status_(enter()) {}
-    ~Inside() {
-      if (status_ == POSE_WALL_OK) __atomic_store_n(&held_->inside_, std::uint64_t{0}, __ATOMIC_RELEASE);
-    }
-    Inside(const Inside&) = delete;
-    Inside& operator=(const Inside&) = delete;
-
-    std::int32_t status() const { return status_; }
-    Body& body() const { return held_->body_; }
-
-   private:
-    std::int32_t enter() const {
-      if (held_->magic_ != kMagic || held_->self_ != held_) return POSE_WALL_E_ENGINE;
-      std::uint64_t nobody = 0;
-      const bool entered = __atomic_compare_exchange_n(&held_->inside_, &nobody, std::uint64_t{1}, false,
-                                                       __ATOMIC_ACQUIRE, __ATOMIC_RELAXED);
-      return entered ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_BUSY;
-    }
-
-    Held* held_;
-    std::int32_t status_;
-  };
 
  private:
   template <typename... Arguments>
@@ -79,10 +54,8 @@ class Held {
     return arena.bytes();
   }
 
-  std::uint64_t magic_ = 0;
-  const Held* self_ = nullptr;
-  std::uint64_t inside_ = 0;
+  Door door_;
   Body body_;
 };
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall

@@ -4,9 +4,9 @@
 // What the C ABIs of all parts share.
 
 #include "base/math/elementary.hpp"
+#include "lidar/mount.hpp"
 #include "part/export.hpp"
 #include "place/pose2.hpp"
-#include "planar/forward_axis.hpp"
 #include "pose_wall_planar_types.h"
 
 namespace {
@@ -22,7 +22,7 @@ std::int32_t machine_in_base(const pose_wall_config* config, const double* centr
   for (int k = 0; centre_m != nullptr && k < 2; ++k) {
     if (!pose_wall::planar::is_within(centre_m[k], -kFarthest_m, kFarthest_m)) return POSE_WALL_E_VALUE_RANGE;
   }
-  const Eigen::Vector2d forward = pose_wall::planar::forward_of(*config);
+  const Eigen::Vector2d forward = pose_wall::mount_of(*config).forward_base;
   *machine = {centre_m != nullptr ? centre_m[0] : 0.0, centre_m != nullptr ? centre_m[1] : 0.0,
               pose_wall::arc_tangent2(forward.y(), forward.x())};
   return POSE_WALL_OK;

@@ -3,8 +3,8 @@
 //
 // Finds records in untrusted bytes. Every offset is checked in 64 bits before it is used.
 
+#include "base/math/crc32.hpp"
 #include "box_layout.hpp"
-#include "checksums.hpp"
 #include "finish_result.hpp"
 #include "part/export.hpp"
 #include "pose_wall_box.h"

@@ -7,8 +7,9 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "base/math/crc32.hpp"
+#include "base/math/fnv1a.hpp"
 #include "box_layout.hpp"
-#include "checksums.hpp"
 
 namespace pose_wall::runtime {
 namespace {
@@ -126,7 +127,7 @@ bool BoxWriter::write(const FrameSlot& slot) {
     lap_ = static_cast<std::uint16_t>(lap_ == 0xFFFFU ? 1U : lap_ + 1U);  // 0: the ring never came round
   }
   fill_body(slot, body);
-  Crc32 crc;
+  BulkCrc32 crc;
   crc.add(body, body_bytes);
   crc.add(slot.cloud.data, cloud_bytes);
   crc.add(kZeros, padding);

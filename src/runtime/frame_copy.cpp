@@ -6,6 +6,7 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "lidar/cloud_fields.hpp"
 #include "overload.hpp"
 #include "part/struct_sizes.hpp"
 
@@ -14,83 +15,17 @@ namespace {
 
 enum class Point { kReturn, kNotFinite, kZero };
 
-std::uint32_t bytes_of(std::uint32_t type) {
-  switch (type) {
-    case POSE_WALL_FIELD_INT8:
-    case POSE_WALL_FIELD_UINT8:
-      return 1;
-    case POSE_WALL_FIELD_INT16:
-    case POSE_WALL_FIELD_UINT16:
-      return 2;
-    case POSE_WALL_FIELD_INT32:
-    case POSE_WALL_FIELD_UINT32:
-    case POSE_WALL_FIELD_FLOAT32:
-      return 4;
-    case POSE_WALL_FIELD_FLOAT64:
-      return 8;
-    default:
-      return 0;
-  }
-}
-
-// The number's bits, most significant first in the word, whatever the byte order of the cloud.
-std::uint64_t bits_of(const unsigned char* bytes, std::uint32_t count, bool big_endian) {
-  std::uint64_t bits = 0;
-  for (std::uint32_t i = 0; i < count; ++i) bits = bits << 8 | bytes[big_endian ? i : count - 1 - i];
-  return bits;
-}
-
-struct Coordinate {
-  bool finite;
-  bool zero;
-};
-
-// By the bits. The engine reads doubles as floats: below half the smallest float they are zero, and the tie with it is
-// rounded to zero as well.
-Coordinate read(const unsigned char* bytes, std::uint32_t type, bool big_endian) {
-  if (type == POSE_WALL_FIELD_FLOAT32) {
-    const std::uint64_t bits = bits_of(bytes, 4, big_endian) & 0x7FFFFFFFU;
-    return {bits < 0x7F800000U, bits == 0};
-  }
-  const std::uint64_t bits = bits_of(bytes, 8, big_endian) & 0x7FFFFFFFFFFFFFFFULL;
-  constexpr std::uint64_t kHalfTheSmallestFloat = 0x3690000000000000ULL;
-  return {bits < 0x7FF0000000000000ULL, bits <= kHalfTheSmallestFloat};
-}
-
+// As the engine reads it: a double that rounds to no float but zero is one.
 Point judge(const pose_wall_cloud& cloud, const unsigned char* point) {
-  const bool big = cloud.big_endian != 0;
-  const Coordinate x = read(point + cloud.x.offset, cloud.x.type, big);
-  const Coordinate y = read(point + cloud.y.offset, cloud.y.type, big);
-  const Coordinate z = read(point + cloud.z.offset, cloud.z.type, big);
-  if (!(x.finite && y.finite && z.finite)) return Point::kNotFinite;
-  return x.zero && y.zero && z.zero ? Point::kZero : Point::kReturn;
+  const bool swap = needs_swap(cloud);
+  const float x = to_float(read_field(point, cloud.x, swap)), y = to_float(read_field(point, cloud.y, swap));
+  const float z = to_float(read_field(point, cloud.z, swap));
+  const auto is_number = [](float value) { return is_finite(static_cast<double>(value)); };
+  if (!(is_number(x) && is_number(y) && is_number(z))) return Point::kNotFinite;
+  return x == 0.0F && y == 0.0F && z == 0.0F ? Point::kZero : Point::kReturn;
 }
 
 constexpr std::uint32_t kFields = 6;  // x, y, z, intensity, time, ring
-
-// The field's value, of any type.
-double number(const unsigned char* bytes, std::uint32_t type, bool big_endian) {
-  const std::uint64_t bits = bits_of(bytes, bytes_of(type), big_endian);
-  const auto low = static_cast<std::uint32_t>(bits);
-  float single;
-  double whole;
-  switch (type) {
-    case POSE_WALL_FIELD_INT8:
-      return static_cast<double>(static_cast<std::int8_t>(low));
-    case POSE_WALL_FIELD_INT16:
-      return static_cast<double>(static_cast<std::int16_t>(low));
-    case POSE_WALL_FIELD_INT32:
-      return static_cast<double>(static_cast<std::int32_t>(low));
-    case POSE_WALL_FIELD_FLOAT32:
-      std::memcpy(&single, &low, sizeof(single));
-      return static_cast<double>(single);
-    case POSE_WALL_FIELD_FLOAT64:
-      std::memcpy(&whole, &bits, sizeof(whole));
-      return whole;
-    default:
-      return static_cast<double>(low);
-  }
-}
 
 // Of the points that hold no return, those that were measured first and last: times count from the cloud's first to its
 // last point, whether they hold a return or not. NaN is neither.
@@ -100,8 +35,7 @@ struct Ends {
   double first_time = 0.0, last_time = 0.0;
 
   void note(const unsigned char* point, double time) {
-    constexpr double kMost = 1.7976931348623157e308;  // infinite times are none either
-    if (!(time >= -kMost && time <= kMost)) return;
+    if (!is_finite(time)) return;
     if (first == nullptr || time < first_time) {
       first = point;
       first_time = time;
@@ -137,7 +71,7 @@ Copier copier_of(const pose_wall_cloud& cloud, const CopiedFields& fields) {
   Copier c{cloud, {cloud.x, cloud.y, cloud.z, cloud.intensity, cloud.time, cloud.ring}, {}};
   const bool wanted[kFields] = {true, true, true, fields.intensity, fields.time, fields.ring};
   for (std::uint32_t k = 0; k < kFields; ++k) {
-    const std::uint32_t bytes = bytes_of(c.field[k].type);
+    const std::uint32_t bytes = field_bytes(c.field[k].type);
     const bool is_extra = k >= 4;
     if (wanted[k] && (!is_extra || c.point_bytes() + bytes <= fields.point_bytes_max)) c.bytes[k] = bytes;
   }
@@ -173,7 +107,7 @@ class LeftOut {
     if (kind == Point::kReturn) return;
     ++(kind == Point::kZero ? zero_ : not_finite_);
     const pose_wall_cloud& from = copier_.from;
-    if (with_time_) ends_.note(point, number(point + from.time.offset, from.time.type, from.big_endian != 0));
+    if (with_time_) ends_.note(point, read_field(point, from.time, needs_swap(from)));
   }
 
   unsigned char* copy_ends(unsigned char* to) {
@@ -206,14 +140,11 @@ std::uint32_t packed_bytes(const pose_wall_cloud& cloud, bool with_intensity) {
 void copy_frame(const pose_wall_cloud& cloud, const CopiedFields& fields, std::uint32_t thinning, FrameSlot* slot) {
   const Copier copier = copier_of(cloud, fields);
   const bool filter = !fields.intensity || cloud.intensity.type == POSE_WALL_FIELD_NONE;
-  const std::uint64_t row_step =
-      cloud.row_step != 0 ? cloud.row_step : static_cast<std::uint64_t>(cloud.width) * cloud.point_step;
-  const std::uint32_t rows = cloud.width > 0 ? cloud.height : 0;  // empty rows may be any number
   EvenChoice choice(thinning);
   LeftOut left_out(copier);
   unsigned char* to = slot->points;
-  for (std::uint32_t row = 0; row < rows; ++row) {
-    const unsigned char* point = static_cast<const unsigned char*>(cloud.data) + row * row_step;
+  for (std::uint32_t row = 0; row < rows_of(cloud); ++row) {
+    const unsigned char* point = row_of(cloud, row);
     for (std::uint32_t column = 0; column < cloud.width; ++column, point += cloud.point_step) {
       const Point kind = filter ? judge(cloud, point) : Point::kReturn;
       left_out.note(kind, point);

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "checksums.hpp"
+#include "base/math/fnv1a.hpp"
 
 namespace pose_wall::runtime {
 

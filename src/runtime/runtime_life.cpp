@@ -8,7 +8,7 @@
 
 #include <cstddef>
 
-#include "checksums.hpp"
+#include "base/math/crc32.hpp"
 #include "options.hpp"
 #include "runtime.hpp"
 #include "status.hpp"

@@ -18,8 +18,8 @@ WALLS = ["wall", "scene", "propose", "choose", "fit", "sample", "doubts", "scrat
 ROWS = [
     ["config", "types", "trace", "gates", "cloud", "region", "floor",
      *[f"walls/{step}" for step in WALLS], "walls", "output", "report", "image", "engine"],
-    ["pose", "frame_steps", "range_image", "segmentation", "relief_map", "features", "registration", "along_match", "far_match",
-     "start_counts", "wide_start", "machine_prior", "travel", "scan_motion", "frame", "motion_report", "motion_image",
+    ["pose", "frame_steps", "range_image", "segmentation", "relief_map", "features", "registration", "along_match",
+     "far_match", "start_counts", "wide_start", "machine_prior", "travel", "scan_motion", "frame", "motion_report", "motion_image",
      "odometry", "motion_api"],
 ]
 MAY_INCLUDE = {room: set(TRUNK[:k]) for k, room in enumerate(TRUNK)}
@@ -35,7 +35,7 @@ MAY_INCLUDE.update({
     "planar": set(TRUNK),
     **{f"planar/{part}": {*TRUNK, "planar"} for part in ("scan", "match", "map", "route", "stop")},
     **{f"planar/{part}": {*TRUNK, "planar", "planar/match"} for part in ("slam", "localise")},
-    "runtime": {"part"},
+    "runtime": set(TRUNK) - {"base/estimation", "place"},
 })
 # Public headers, by the beginning of a room's name.
 PUBLIC = {

@@ -5,10 +5,10 @@
 
 #pragma once
 
+#include "base/math/crc32.hpp"
 #include "fuzz/fuzz_target.hpp"
 #include "pose_wall_box.h"
 #include "runtime/box_layout.hpp"
-#include "runtime/checksums.hpp"
 
 namespace pose_wall::test {
 

@@ -105,7 +105,7 @@ class Bounded : public ::testing::Test {
   // Drives, and then falls silent again and again: 0.1 s to 10 min, each time with another surprise.
   Cost live(std::uint32_t number) {
     Chance chance(1000 + number);
-    odometry_->open(Reading{}, MotionSettings{2.0, 0.5 * M_PI, 0.2, 4.89, Eigen::Vector3d::UnitX()});
+    odometry_->open(Mount{}, MotionSettings{2.0, 0.5 * M_PI, 0.2, 4.89, Eigen::Vector3d::UnitX()});
     const Place& home = places_[chance.below(kPlaces)];
     std::int64_t stamp_ns = 0;
     Cost cost;

@@ -20,8 +20,8 @@ class Pipeline {
 
   // What is seen, as of a scan from the expected pose.
   void see(const pose_wall::test::Points& points, const Pose& expected) {
-    project(pose_wall::test::cloud_of(points, 0), reading, Twist{}, image.get(), &print);
-    segments = segment(expected.R, reading, segment_.get(), image.get());
+    project(pose_wall::test::cloud_of(points, 0), mount, Twist{}, image.get(), &print);
+    segments = segment(expected.R, mount, segment_.get(), image.get());
     features = mark_features(image.get());
     const Span<Observation> room(observation_.data(), kObservationsMost);
     observations = room.first(choose_observations(*image, expected, choice_.get(), room));
@@ -30,7 +30,7 @@ class Pipeline {
   // Into the map, seen from there.
   void take_in(const Pose& pose) {
     map->set_corner(pose.t);
-    map->begin_keyframe(pose.R * reading.lidar_base_m + pose.t);
+    map->begin_keyframe(pose.R * mount.sensor_base_m + pose.t);
     const LocalPose local(pose, map->corner());
     for (std::uint32_t i = 0; i < image->count; ++i) {
       Eigen::Vector3f normal;
@@ -40,7 +40,7 @@ class Pipeline {
     }
     map->end_keyframe();
   }
-  Scan scan() { return {map.get(), observations, reading.lidar_base_m.cast<float>()}; }
+  Scan scan() { return {map.get(), observations, mount.sensor_base_m.cast<float>()}; }
 
   // Both steps, coarse and then by the relief, from a pose that is nearly right.
   Alignment align(const Pose& from, bool with_along, int passes = 6) {
@@ -56,7 +56,7 @@ class Pipeline {
     return a;
   }
 
-  Reading reading;
+  pose_wall::Mount mount;
   Laid<RangeImage> image;
   CloudPrint print;
   Laid<ReliefMap> map;

@@ -64,12 +64,12 @@ class Image : public ::testing::Test {
  protected:
   const RangeImage& of(const Recorded& recorded, const Twist& twist = {}) {
     EXPECT_EQ(pose_wall_cloud_check(&recorded.cloud), POSE_WALL_OK);
-    project(recorded.cloud, reading_, twist, image_.get(), &print_);
+    project(recorded.cloud, mount_, twist, image_.get(), &print_);
     return *image_;
   }
   Eigen::Vector3d point(std::uint32_t i) { return image_->point(i).cast<double>(); }
 
-  Reading reading_;
+  Mount mount_;
   Laid<RangeImage> image_;
   CloudPrint print_;
 };
@@ -177,14 +177,14 @@ TEST_F(Image, ARingThatIsNoneComesIntoNoCell) {
 }
 
 TEST_F(Image, TheMountTakesPointsToBaseAndTheBodyOut) {
-  reading_.R_base_lidar = turn_by({0.0, 0.0, kPi_rad / 2});
-  reading_.lidar_base_m = {1.0, 0.0, 0.5};
+  mount_.R_base_lidar = turn_by({0.0, 0.0, kPi_rad / 2});
+  mount_.sensor_base_m = {1.0, 0.0, 0.5};
   const Recorded recorded({{0.0, 0.0, 2.0, 0, 0.0}, {kPi_rad / 2, 0.0, 2.0, 1, 0.0}});
   of(recorded);
   ASSERT_EQ(image_->count, 2U);
   EXPECT_LT((point(0) - Eigen::Vector3d(1.0, 2.0, 0.5)).norm(), 1e-6);
   EXPECT_LT((point(1) - Eigen::Vector3d(-1.0, 0.0, 0.5)).norm(), 1e-6);
-  reading_.body[2] = {0.9, 1.1, 1.9, 2.1, 0.4, 0.6};
+  mount_.body[2] = {0.9, 1.1, 1.9, 2.1, 0.4, 0.6};
   of(recorded);
   ASSERT_EQ(image_->count, 1U);
   EXPECT_LT((point(0) - Eigen::Vector3d(-1.0, 0.0, 0.5)).norm(), 1e-6) << "the other is of the body";

@@ -18,8 +18,8 @@ namespace {
 class Segmented : public ::testing::Test {
  protected:
   void take(const pose_wall::test::Points& points) {
-    project(pose_wall::test::cloud_of(points, 0), reading_, Twist{}, image_.get(), &print_);
-    found_ = segment(R_map_base_, reading_, scratch_.get(), image_.get());
+    project(pose_wall::test::cloud_of(points, 0), mount_, Twist{}, image_.get(), &print_);
+    found_ = segment(R_map_base_, mount_, scratch_.get(), image_.get());
   }
   // A patch of the image, by hand: rows x columns, all in one range.
   void begin_image(std::uint32_t rows, std::uint32_t columns) {
@@ -39,14 +39,14 @@ class Segmented : public ::testing::Test {
     image_->place[k] = static_cast<std::uint16_t>(row * image_->columns + column);
     image_->cell[image_->place[k]] = static_cast<std::uint16_t>(k);
   }
-  Segments segment_it() { return segment(R_map_base_, reading_, scratch_.get(), image_.get()); }
+  Segments segment_it() { return segment(R_map_base_, mount_, scratch_.get(), image_.get()); }
   std::uint32_t kept() const {
     std::uint32_t n = 0;
     for (std::uint32_t i = 0; i < image_->count; ++i) n += (image_->flags[i] & kKept) != 0 ? 1U : 0U;
     return n;
   }
 
-  Reading reading_;
+  pose_wall::Mount mount_;
   Eigen::Matrix3d R_map_base_ = Eigen::Matrix3d::Identity();
   Laid<RangeImage> image_;
   CloudPrint print_;

@@ -7,8 +7,8 @@
 
 #include <string>
 
+#include "base/math/crc32.hpp"
 #include "opened_map.hpp"
-#include "planar/fast_crc32.hpp"
 
 namespace {
 
@@ -61,7 +61,7 @@ TEST(MapFiles, TheBytesAreWrittenDownOnce) {
 }
 
 TEST(MapFiles, TheSumIsThatOfTheStandard) {
-  pose_wall::planar::FastCrc32 fast;
+  pose_wall::BulkCrc32 fast;
   pose_wall::Crc32 plain;
   for (const char sign : std::string("123456789")) fast.add_byte(static_cast<std::uint8_t>(sign));
   EXPECT_EQ(fast.value(), 0xCBF43926U);  // the check value of CRC-32

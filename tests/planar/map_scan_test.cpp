@@ -5,8 +5,8 @@
 
 #include <ios>
 
+#include "base/math/crc32.hpp"
 #include "opened_map.hpp"
-#include "planar/fast_crc32.hpp"
 
 namespace {
 
@@ -211,9 +211,9 @@ TEST(MapScan, TheSameScansGiveTheSameBytes) {
       const pose_wall_planar_pose pose{x, 0.1 * x - 1.0, 0.03 * x};
       map.insert(drawn_scan(road, pose, 360, 0.02, &random)->scan, pose);
     }
-    pose_wall::planar::FastCrc32 crc;
+    pose_wall::BulkCrc32 crc;
     const auto bytes = map.saved();
-    crc.add_bytes(bytes.data(), bytes.size());
+    crc.add(bytes.data(), bytes.size());
     pose_wall_planar_ray ray{};
     ray.struct_size = sizeof(ray);
     double ranges_m = 0.0;

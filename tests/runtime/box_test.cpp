@@ -16,9 +16,10 @@
 #include <thread>
 #include <vector>
 
+#include "base/math/crc32.hpp"
+#include "base/math/fnv1a.hpp"
 #include "pose_wall_box.h"
 #include "runtime/box_layout.hpp"
-#include "runtime/checksums.hpp"
 #include "support/engine_under_test.hpp"
 #include "support/record.hpp"
 #include "support/runtime_under_test.hpp"
@@ -233,7 +234,7 @@ TEST(Box, DigestsAloneAreSmallAndSaySo) {
   ASSERT_EQ(found.whole.size(), 1U);
   const pose_wall_box_record& r = found.whole.at(0);
   EXPECT_EQ(r.points, nullptr);
-  EXPECT_EQ(r.digest, runtime::fnv1a(room.data(), 12 * room.size()));
+  EXPECT_EQ(r.digest, fnv1a(room.data(), 12 * room.size()));
   EngineUnderTest engine(small_config());
   pose_wall_result result{};
   result.struct_size = sizeof result;
@@ -386,8 +387,8 @@ TEST(Box, HeadsSayTheLap) {
 
 // The reader's own word for it: known answers of both sums.
 TEST(Box, Checksums) {
-  EXPECT_EQ(runtime::crc32("123456789", 9), 0xCBF43926U);
-  EXPECT_EQ(runtime::fnv1a("a", 1), 0xAF63DC4C8601EC8CULL);
+  EXPECT_EQ(crc32("123456789", 9), 0xCBF43926U);
+  EXPECT_EQ(fnv1a("a", 1), 0xAF63DC4C8601EC8CULL);
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 #include <cstring>
 #include <vector>
 
+#include "base/math/crc32.hpp"
 #include "pose_wall_box.h"
 #include "runtime/box_layout.hpp"
-#include "runtime/checksums.hpp"
 #include "support/engine_under_test.hpp"
 #include "support/record.hpp"
 #include "support/runtime_under_test.hpp"
@@ -157,7 +157,7 @@ TEST(RuntimeInputs, ABoxOfAnotherFormatIsRefused) {
   for (const std::uint32_t at : {runtime::kAtVersion, runtime::kAtInputsBytes}) {
     Record other = bytes;
     runtime::put<std::uint32_t>(1, other.data() + at);
-    runtime::put(runtime::crc32(other.data(), runtime::kAtHeaderCrc), other.data() + runtime::kAtHeaderCrc);
+    runtime::put(crc32(other.data(), runtime::kAtHeaderCrc), other.data() + runtime::kAtHeaderCrc);
     pose_wall_box_info info;
     EXPECT_EQ(pose_wall_box_open(other.data(), other.size(), &info), POSE_WALL_BOX_E_VERSION);
   }

@@ -57,7 +57,8 @@ endfunction()
 # pose_wall_traced_library(SOURCES more.cpp ...)
 #
 # pose_wall_traced: the same sources and these, compiled so that they take notes (src/engine/trace). Only
-# pose_wall_trace_* is global in it, so a program may link it beside the plain archive. Not installed. pose_wall_traced_objects: its objects.
+# pose_wall_trace_* is global in it, so a program may link it beside the plain archive. Not installed.
+# pose_wall_traced_objects: its objects.
 function(pose_wall_traced_library)
   cmake_parse_arguments(PARSE_ARGV 0 traced "" "" "SOURCES")
   get_target_property(engine_sources pose_wall_objects SOURCES)

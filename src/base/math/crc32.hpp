@@ -28,4 +28,42 @@ class Crc32 {
   std::uint32_t crc_ = 0xFFFFFFFFU;
 };
 
+// What each value of a byte makes of a sum, by IEEE's polynomial.
+struct CrcTable {
+  std::uint32_t sums[256] = {};
+
+  constexpr CrcTable() {
+    for (std::uint32_t byte = 0; byte < 256; ++byte) {
+      std::uint32_t crc = byte;
+      for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1U) ^ kCrcIeee : crc >> 1U;
+      sums[byte] = crc;
+    }
+  }
+};
+static constexpr CrcTable kCrcTable;  // of each file its own: an inline one would be a symbol to merge
+
+// The same sum by that table, for maps and records: megabytes.
+class BulkCrc32 {
+ public:
+  void add_byte(std::uint8_t byte) { crc_ = (crc_ >> 8U) ^ kCrcTable.sums[(crc_ ^ byte) & 0xFFU]; }
+  void add(const void* bytes, std::uint64_t count) {
+    const auto* const from = static_cast<const unsigned char*>(bytes);
+    for (std::uint64_t k = 0; k < count; ++k) add_byte(from[k]);
+  }
+  // Low byte first, on every host.
+  void add_number(std::uint64_t number, std::uint32_t bytes) {
+    for (; bytes > 0; --bytes, number >>= 8U) add_byte(static_cast<std::uint8_t>(number & 0xFFU));
+  }
+  std::uint32_t value() const { return ~crc_; }
+
+ private:
+  std::uint32_t crc_ = 0xFFFFFFFFU;
+};
+
+inline std::uint32_t crc32(const void* bytes, std::uint64_t count) {
+  BulkCrc32 crc;
+  crc.add(bytes, count);
+  return crc.value();
+}
+
 }  // namespace pose_wall

@@ -13,7 +13,7 @@
 #include "engine/cloud/leaf.hpp"
 #include "engine/cloud/skew.hpp"
 #include "lidar/body_boxes.hpp"
-#include "lidar/cloud_reader.hpp"
+#include "lidar/point_reader.hpp"
 
 namespace pose_wall {
 namespace {
@@ -66,11 +66,9 @@ class Pass {
         to_base_(extrinsic.R_base_lidar, extrinsic.sensor_base_m),
         range_min2_(static_cast<float>(settings.range_min * settings.range_min)),
         range_max2_(static_cast<float>(settings.range_max * settings.range_max)),
-        swap_(needs_swap(cloud)),
-        plain_(is_plain_xyz32(cloud)),
-        in_a_row_(is_xyz32_in_a_row(cloud)),
+        reader_(cloud),
         intensity_weight_(cloud.intensity.type != POSE_WALL_FIELD_NONE ? settings.intensity_weight : 0.0),
-        mean_intensity_(intensity_weight_ > 0.0 ? mean_intensity(cloud, swap_) : 0.0),
+        mean_intensity_(intensity_weight_ > 0.0 ? mean_intensity(cloud, reader_.swap()) : 0.0),
         boxes_({settings.body_box_1, settings.body_box_2, settings.body_box_3, settings.body_box_4}, cloud) {
     const Eigen::Vector3d x_base = Eigen::Vector3d::UnitX(), y_base = Eigen::Vector3d::UnitY();
     quadrants_ = {quadrant_of(axes, x_base), quadrant_of(axes, y_base), quadrant_of(axes, -x_base),
@@ -106,16 +104,7 @@ class Pass {
   void read(const unsigned char* point, std::uint32_t count, PointBlock* block) const {
     const std::uint32_t begin = block->count, end = begin + count;
     block->count = end;
-    if (plain_) {
-      read_plain(point, begin, end, block);
-    } else {
-      const unsigned char* at = point;
-      for (std::uint32_t k = begin; k < end; ++k, at += cloud_.point_step) {
-        block->x_lidar[k] = to_float(read_field(at, cloud_.x, swap_));
-        block->y_lidar[k] = to_float(read_field(at, cloud_.y, swap_));
-        block->z_lidar[k] = to_float(read_field(at, cloud_.z, swap_));
-      }
-    }
+    reader_.row(point, count, &block->x_lidar[begin], &block->y_lidar[begin], &block->z_lidar[begin]);
     if (skew_.is_there()) {
       const unsigned char* at = point;
       for (std::uint32_t k = begin; k < end; ++k, at += cloud_.point_step) block->time_s[k] = skew_.seconds(at);
@@ -127,26 +116,8 @@ class Pass {
     for (std::uint32_t k = begin; k < end; ++k, point += cloud_.point_step) block->weight[k] = weight_of(point);
   }
 
-  void read_plain(const unsigned char* point, std::uint32_t begin, std::uint32_t end, PointBlock* block) const {
-    const unsigned char *x = point + cloud_.x.offset, *y = point + cloud_.y.offset, *z = point + cloud_.z.offset;
-    const std::size_t step = cloud_.point_step;
-    std::size_t at = 0;
-    std::uint32_t k = begin;
-    for (; in_a_row_ && k + kFour <= end; k += kFour, at += kFour * step) {
-      const FourPlaces four = plain_four(x + at, step);
-      store_four(four.x, &block->x_lidar[k]);
-      store_four(four.y, &block->y_lidar[k]);
-      store_four(four.z, &block->z_lidar[k]);
-    }
-    for (; k < end; ++k, at += step) {
-      std::memcpy(&block->x_lidar[k], x + at, sizeof(float));
-      std::memcpy(&block->y_lidar[k], y + at, sizeof(float));
-      std::memcpy(&block->z_lidar[k], z + at, sizeof(float));
-    }
-  }
-
   std::uint32_t weight_of(const unsigned char* point) const {
-    const double value = read_field(point, cloud_.intensity, swap_);
+    const double value = read_field(point, cloud_.intensity, reader_.swap());
     const double brightness = value > 0.0 && value < 1e6 ? value / (value + mean_intensity_) : 0.0;
     const double weight = kWeightOne * (1.0 - intensity_weight_ + intensity_weight_ * brightness);
     return weight >= 1.0 ? static_cast<std::uint32_t>(weight + 0.5) : 1U;
@@ -193,17 +164,13 @@ class Pass {
   }
 
   void judge_bodies(std::uint32_t end, PointBlock* b) const {
-    for (const Box& box : boxes_) {
-      const float x0 = static_cast<float>(box.x_min), x1 = static_cast<float>(box.x_max);
-      const float y0 = static_cast<float>(box.y_min), y1 = static_cast<float>(box.y_max);
-      const float z0 = static_cast<float>(box.z_min), z1 = static_cast<float>(box.z_max);
-      for (std::size_t k = 0; k < end; k += kFour) {
-        const FourFloats x = load_four(&b->x_base[k]), y = load_four(&b->y_base[k]), z = load_four(&b->z_base[k]);
-        const FourTruths inside = (x >= x0) & (x <= x1) & (y >= y0) & (y <= y1) & (z >= z0) & (z <= z1);
-        if (!any_of(inside)) continue;
-        for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-          if (inside[lane] != 0 && b->fate[k + lane] != kBeyond) b->fate[k + lane] = kBody;
-        }
+    if (boxes_.empty()) return;
+    for (std::size_t k = 0; k < end; k += kFour) {
+      const FourTruths inside =
+          boxes_.hold({load_four(&b->x_base[k]), load_four(&b->y_base[k]), load_four(&b->z_base[k])});
+      if (!any_of(inside)) continue;
+      for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+        if (inside[lane] != 0 && b->fate[k + lane] != kBeyond) b->fate[k + lane] = kBody;
       }
     }
   }
@@ -279,8 +246,7 @@ class Pass {
   struct {
     std::int32_t with_x, with_y, against_x, against_y;  // base's axes
   } quadrants_;
-  bool swap_;
-  bool plain_, in_a_row_;
+  PointReader reader_;
   double intensity_weight_;
   double mean_intensity_;
   BodyBoxes boxes_;

@@ -38,7 +38,7 @@ struct Body {
   void lay_out(pose_wall::Arena& arena, const LocaliseSettings& with) { localiser.lay_out(arena, with); }
 };
 
-using Opened = pose_wall::planar::Held<Body, 0x65736C6163636F6CULL>;
+using Opened = pose_wall::Held<Body, 0x65736C6163636F6CULL>;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -72,8 +72,8 @@ std::int32_t take_settings(const pose_wall_planar_localise_settings* from, Local
 template <typename Call>
 std::int32_t inside(const pose_wall_planar_localise* localise, Call call) {
   if (localise == nullptr) return POSE_WALL_E_NULL;
-  const Opened::Inside held(reinterpret_cast<const Opened*>(localise));
-  return held.status() == POSE_WALL_OK ? call(held.body()) : held.status();
+  const pose_wall::Inside<Opened> held(reinterpret_cast<const Opened*>(localise));
+  return held.status() == POSE_WALL_OK ? call(held->body()) : held.status();
 }
 
 bool are_points(const float* xy_m, std::uint32_t points) {

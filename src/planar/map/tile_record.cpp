@@ -5,8 +5,8 @@
 
 #include <cstring>
 
+#include "base/math/crc32.hpp"
 #include "part/struct_sizes.hpp"
-#include "planar/fast_crc32.hpp"
 #include "planar/map/grid_map.hpp"
 
 namespace pose_wall::planar {
@@ -92,21 +92,21 @@ bool are_tiles(const unsigned char* bytes, std::uint32_t tiles, double cell_m) {
 
 bool is_whole(const unsigned char* bytes, std::uint64_t size) {
   Reader tail(bytes + size - kTailBytes);
-  FastCrc32 crc;
-  crc.add_bytes(bytes, size - kTailBytes);
+  BulkCrc32 crc;
+  crc.add(bytes, size - kTailBytes);
   return tail.get<std::uint32_t>() == crc.value() && tail.get<std::uint32_t>() == 0;
 }
 
 }  // namespace
 
 std::uint32_t crc_of(const pose_wall_planar_tile& tile) {
-  FastCrc32 crc;
+  BulkCrc32 crc;
   crc.add_number(static_cast<std::uint32_t>(tile.column), 4);
   crc.add_number(static_cast<std::uint32_t>(tile.row), 4);
   crc.add_number(bits_of(tile.cell_m), 8);
   crc.add_number(static_cast<std::uint64_t>(tile.stamp_ns), 8);
   crc.add_number(tile.scans, 8);
-  crc.add_bytes(tile.cells, kTileCells);
+  crc.add(tile.cells, kTileCells);
   return crc.value();
 }
 
@@ -139,8 +139,8 @@ void write_map(GridMap* map, unsigned char* bytes) {
     writer.add(head.scans);
     writer.add_cells(map->tiles().cells(tile));
   }
-  FastCrc32 crc;
-  crc.add_bytes(bytes, size - kTailBytes);
+  BulkCrc32 crc;
+  crc.add(bytes, size - kTailBytes);
   writer.add(crc.value());
   writer.add(std::uint32_t{0});
 }

@@ -52,14 +52,14 @@ struct Body {
   }
 };
 
-using Opened = pose_wall::planar::Held<Body, 0x6863746D6E616C70ULL>;
+using Opened = pose_wall::Held<Body, 0x6863746D6E616C70ULL>;
 
 // Bodies of calls about an opened matcher. call(body) gives the status.
 template <typename Call>
 std::int32_t inside(const pose_wall_planar_matcher* matcher, Call call) {
   if (matcher == nullptr) return POSE_WALL_E_NULL;
-  const Opened::Inside held(reinterpret_cast<const Opened*>(matcher));
-  return held.status() == POSE_WALL_OK ? call(held.body()) : held.status();
+  const pose_wall::Inside<Opened> held(reinterpret_cast<const Opened*>(matcher));
+  return held.status() == POSE_WALL_OK ? call(held->body()) : held.status();
 }
 
 // Symmetric and positive. Its scale may be anything that an inverse can hold.

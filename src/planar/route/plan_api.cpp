@@ -14,7 +14,7 @@ namespace {
 
 using pose_wall::planar::is_pose;
 using pose_wall::planar::route::Planner;
-using HeldPlanner = pose_wall::planar::Held<Planner, 0x6E616C506D614C50ULL>;
+using HeldPlanner = pose_wall::Held<Planner, 0x6E616C506D614C50ULL>;
 
 HeldPlanner* held_of(pose_wall_planar_planner* planner) {
   return reinterpret_cast<HeldPlanner*>(planner);
@@ -116,15 +116,15 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_plan(pose_wall_planar_planner* planner
                                                pose_wall_planar_plan_result* result) {
   if (planner == nullptr || start == nullptr || goal == nullptr || result == nullptr) return POSE_WALL_E_NULL;
   if (poses == nullptr && capacity > 0) return POSE_WALL_E_NULL;
-  const HeldPlanner::Inside inside(held_of(planner));
+  const pose_wall::Inside<HeldPlanner> inside(held_of(planner));
   std::int32_t status = inside.status();
   if (status == POSE_WALL_OK) status = pose_wall::check_struct(*result);
   if (status == POSE_WALL_OK) status = pose_wall::planar::route::check_grid(grid);
   if (status == POSE_WALL_OK && !(is_pose(*start) && is_pose(*goal))) status = POSE_WALL_PLANAR_E_POSE;
   if (status != POSE_WALL_OK) return status;
-  if (!inside.body().read(*grid)) return POSE_WALL_PLANAR_E_GRID;
+  if (!inside->body().read(*grid)) return POSE_WALL_PLANAR_E_GRID;
   const pose_wall::Span<pose_wall_planar_path_pose> room(poses, capacity);
-  inside.body().plan(taken(*start), taken(*goal), room, result);
+  inside->body().plan(taken(*start), taken(*goal), room, result);
   return POSE_WALL_OK;
 }
 
@@ -138,8 +138,8 @@ POSE_WALL_EXPORT const char* pose_wall_planar_plan_outcome_text(uint32_t outcome
 POSE_WALL_EXPORT double pose_wall_planar_plan_clearance(const pose_wall_planar_planner* planner, double x_m,
                                                         double y_m) {
   if (planner == nullptr || !pose_wall::planar::is_place(x_m, y_m)) return pose_wall::not_a_number();
-  const HeldPlanner::Inside inside(held_of(planner));
-  return inside.status() == POSE_WALL_OK ? inside.body().clearance_m({x_m, y_m}) : pose_wall::not_a_number();
+  const pose_wall::Inside<HeldPlanner> inside(held_of(planner));
+  return inside.status() == POSE_WALL_OK ? inside->body().clearance_m({x_m, y_m}) : pose_wall::not_a_number();
 }
 
 }  // extern "C"

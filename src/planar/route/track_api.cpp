@@ -15,7 +15,7 @@ namespace {
 using pose_wall::is_finite;
 using pose_wall::planar::is_pose;
 using pose_wall::planar::route::Tracker;
-using HeldTracker = pose_wall::planar::Held<Tracker, 0x6B6361725440504CULL>;
+using HeldTracker = pose_wall::Held<Tracker, 0x6B6361725440504CULL>;
 
 HeldTracker* held_of(pose_wall_planar_tracker* tracker) {
   return reinterpret_cast<HeldTracker*>(tracker);
@@ -107,11 +107,11 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_track_route(pose_wall_planar_tracker* 
                                                       const pose_wall_planar_path_pose* poses, uint32_t count,
                                                       pose_wall_planar_clearance clearance, void* context) {
   if (tracker == nullptr || poses == nullptr) return POSE_WALL_E_NULL;
-  const HeldTracker::Inside inside(held_of(tracker));
+  const pose_wall::Inside<HeldTracker> inside(held_of(tracker));
   std::int32_t status = inside.status();
-  if (status == POSE_WALL_OK && !(count >= 1 && count <= inside.body().path_max())) status = POSE_WALL_E_VALUE_RANGE;
+  if (status == POSE_WALL_OK && !(count >= 1 && count <= inside->body().path_max())) status = POSE_WALL_E_VALUE_RANGE;
   if (status == POSE_WALL_OK) status = check_route(poses, count);
-  if (status == POSE_WALL_OK) inside.body().take_route(poses, count, clearance, context);
+  if (status == POSE_WALL_OK) inside->body().take_route(poses, count, clearance, context);
   return status;
 }
 
@@ -119,23 +119,23 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_track_step(pose_wall_planar_tracker* t
                                                      const pose_wall_planar_track_input* input,
                                                      pose_wall_planar_track_command* command) {
   if (tracker == nullptr || input == nullptr || command == nullptr) return POSE_WALL_E_NULL;
-  const HeldTracker::Inside inside(held_of(tracker));
+  const pose_wall::Inside<HeldTracker> inside(held_of(tracker));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   if (const std::int32_t size = pose_wall::check_struct(*input); size != POSE_WALL_OK) return size;
   if (const std::int32_t size = pose_wall::check_struct(*command); size != POSE_WALL_OK) return size;
-  inside.body().step(*input, command);
+  inside->body().step(*input, command);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_obeyed(pose_wall_planar_tracker* tracker, double speed_m_s,
                                                        double turn_rad_s) {
   if (tracker == nullptr) return POSE_WALL_E_NULL;
-  const HeldTracker::Inside inside(held_of(tracker));
+  const pose_wall::Inside<HeldTracker> inside(held_of(tracker));
   if (inside.status() != POSE_WALL_OK) return inside.status();
   constexpr double kMost = 1000.0;  // no machine: more is a wrong unit
   const bool is_sound = speed_m_s >= -kMost && speed_m_s <= kMost && turn_rad_s >= -kMost && turn_rad_s <= kMost;
   if (!is_sound) return POSE_WALL_E_VALUE_RANGE;
-  inside.body().obeyed({speed_m_s, turn_rad_s});
+  inside->body().obeyed({speed_m_s, turn_rad_s});
   return POSE_WALL_OK;
 }
 

@@ -3,13 +3,11 @@
 
 #include "planar/scan/evidence.hpp"
 
-#include <cstring>
-
 #include "base/math/elementary.hpp"
 #include "base/simd/four_floats.hpp"
 #include "base/simd/four_turns.hpp"
 #include "lidar/body_boxes.hpp"
-#include "lidar/cloud_reader.hpp"
+#include "lidar/point_reader.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -44,10 +42,10 @@ constexpr std::int32_t kDropped = -1, kOfBody = -2;  // fates below all classes 
 class Judge {
  public:
   Judge(const pose_wall_cloud& cloud, const ScanSettings& s, const FloorPose& floor)
-      : to_base_(s.R_base_lidar, s.lidar_base_m),
-        to_level_(floor.R_level_base * s.R_base_lidar),
+      : to_base_(s.mount.R_base_lidar, s.mount.sensor_base_m),
+        to_level_(floor.R_level_base * s.mount.R_base_lidar),
         sensor_m_(static_cast<float>(sensor_level_m(s, floor).z())),
-        near2_(static_cast<float>(s.nearest_m * s.nearest_m)),
+        near2_(static_cast<float>(s.mount.range_min_m * s.mount.range_min_m)),
         tilt_(static_cast<float>(floor.tilt_rad)),
         tolerance_m_(static_cast<float>(s.tolerance_m)),
         low_m_(static_cast<float>(s.low_m())),
@@ -60,9 +58,8 @@ class Judge {
         per_step_(static_cast<float>(1.0 / s.step_rad)),
         steps_(static_cast<float>(s.steps_of_turn)),
         sectors_per_step_(static_cast<float>(s.sectors / s.steps_of_turn)),
-        sector_last_(static_cast<float>(s.sectors) - 0.5F) {
-    for (const Box& box : BodyBoxes(s.body, cloud)) add(box);
-  }
+        sector_last_(static_cast<float>(s.sectors) - 0.5F),
+        body_(s.mount.body, cloud) {}
 
   // Four of a block.
   void judge(std::uint32_t k, Block* b) const {
@@ -72,7 +69,7 @@ class Judge {
     const FourTruths there = (range2 >= near2_) & (range2 <= kMost2) & (range2 > zero);
     x = there ? x : zero, y = there ? y : zero, z = there ? z : zero;
     FourInts fate = there ? all_four_ints(kBand) : all_four_ints(kDropped);
-    if (boxes_ > 0) fate = is_of_body(to_base_(x, y, z)) & there ? all_four_ints(kOfBody) : fate;
+    if (!body_.empty()) fate = body_.hold(to_base_(x, y, z)) & there ? all_four_ints(kOfBody) : fate;
     const FourPlaces ray = to_level_.turned(x, y, z);
     const FourFloats flat2 = ray.x * ray.x + ray.y * ray.y;
     const FourFloats range = root_of(flat2), height = ray.z + sensor_m_;
@@ -85,22 +82,6 @@ class Judge {
   }
 
  private:
-  void add(const Box& box) {
-    const double edges[6] = {box.x_min, box.x_max, box.y_min, box.y_max, box.z_min, box.z_max};
-    for (int e = 0; e < 6; ++e) body_[boxes_][e] = static_cast<float>(edges[e]);
-    ++boxes_;
-  }
-
-  FourTruths is_of_body(const FourPlaces& p) const {
-    FourTruths inside = all_four_ints(0);
-    for (std::uint32_t k = 0; k < boxes_; ++k) {
-      const float(&edge)[6] = body_[k];
-      inside |= (p.x >= edge[0]) & (p.x <= edge[1]) & (p.y >= edge[2]) & (p.y <= edge[3]) & (p.z >= edge[4]) &
-                (p.z <= edge[5]);
-    }
-    return inside;
-  }
-
   FourInts class_of(FourFloats height, FourFloats range) const {
     const FourFloats ground = tolerance_m_ + tilt_ * range, beyond = range - reach_m_;
     const FourFloats bend = bend_ * larger_of(beyond, all_four(0.0F)), less = smaller_of(bend, all_four(less_most_m_));
@@ -152,8 +133,7 @@ class Judge {
   FourTurns to_base_, to_level_;
   float sensor_m_, near2_, tilt_, tolerance_m_, low_m_, high_m_, overhead_m_, reach_m_, bend_, less_most_m_;
   float angle_min_, per_step_, steps_, sectors_per_step_, sector_last_;
-  float body_[BodyBoxes::kMost][6] = {};
-  std::uint32_t boxes_ = 0;
+  BodyBoxes body_;
 };
 
 class Pass {
@@ -165,9 +145,7 @@ class Pass {
         range_min_m_(static_cast<float>(settings.range_min_m)),
         range_max_m_(static_cast<float>(settings.range_max_m)),
         sensor_is_above_(sensor_level_m(settings, floor).z() > settings.high_m()),
-        swap_(needs_swap(cloud)),
-        plain_(is_plain_xyz32(cloud)),
-        in_a_row_(is_xyz32_in_a_row(cloud)),
+        reader_(cloud),
         out_(*evidence) {}
 
   void run() {
@@ -178,7 +156,7 @@ class Pass {
       for (std::uint32_t column = 0; column < cloud_.width;) {
         const std::uint32_t room = Block::kSize - gathered, left = cloud_.width - column;
         const std::uint32_t count = left < room ? left : room;
-        read(point, gathered, gathered + count, &block);
+        reader_.row(point, count, &block.x[gathered], &block.y[gathered], &block.z[gathered]);
         column += count;
         point += static_cast<std::size_t>(count) * cloud_.point_step;
         gathered += count;
@@ -191,38 +169,6 @@ class Pass {
   }
 
  private:
-  // Points of one row, side by side.
-  void read(const unsigned char* point, std::uint32_t begin, std::uint32_t end, Block* b) const {
-    const std::size_t step = cloud_.point_step;
-    std::uint32_t k = begin;
-    for (; in_a_row_ && k + kFour <= end; k += kFour, point += kFour * step) {
-      const FourPlaces four = plain_four(point + cloud_.x.offset, step);
-      store_four(four.x, &b->x[k]);
-      store_four(four.y, &b->y[k]);
-      store_four(four.z, &b->z[k]);
-    }
-    for (; k < end; ++k, point += step) read_one(point, k, b);
-  }
-
-  void read_one(const unsigned char* point, std::uint32_t k, Block* b) const {
-    if (plain_) {
-      std::memcpy(&b->x[k], point + cloud_.x.offset, sizeof(float));
-      std::memcpy(&b->y[k], point + cloud_.y.offset, sizeof(float));
-      std::memcpy(&b->z[k], point + cloud_.z.offset, sizeof(float));
-      return;
-    }
-    b->x[k] = number(point, cloud_.x);
-    b->y[k] = number(point, cloud_.y);
-    b->z[k] = number(point, cloud_.z);
-  }
-
-  // A double that no float holds would be undefined: it is too far anyway.
-  float number(const unsigned char* point, const pose_wall_field& field) const {
-    const double value = read_field(point, field, swap_);
-    return value > -2.0 * kFarthest_m && value < 2.0 * kFarthest_m ? static_cast<float>(value)
-                                                                   : static_cast<float>(2.0 * kFarthest_m);
-  }
-
   void take(std::uint32_t count, Block* b) {
     out_.counts.points_in += count;
     for (std::uint32_t k = count; k < Block::kSize && k % kFour != 0; ++k) b->x[k] = b->y[k] = b->z[k] = 0.0F;
@@ -284,7 +230,7 @@ class Pass {
   std::uint32_t beams_;
   float range_min_m_, range_max_m_;
   bool sensor_is_above_;
-  bool swap_, plain_, in_a_row_;
+  PointReader reader_;
   Evidence& out_;
 };
 
@@ -331,7 +277,7 @@ void Evidence::clear() {
 }
 
 Eigen::Vector3d sensor_level_m(const ScanSettings& settings, const FloorPose& floor) {
-  return floor.R_level_base * settings.lidar_base_m + Eigen::Vector3d(0.0, 0.0, floor.base_height_m);
+  return floor.R_level_base * settings.mount.sensor_base_m + Eigen::Vector3d(0.0, 0.0, floor.base_height_m);
 }
 
 void gather_evidence(const pose_wall_cloud& cloud, const ScanSettings& settings, const FloorPose& floor,

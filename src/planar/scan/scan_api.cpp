@@ -16,7 +16,7 @@ namespace {
 using pose_wall::StructSizes;
 using pose_wall::planar::Scanner;
 using pose_wall::planar::ScanSettings;
-using HeldScanner = pose_wall::planar::Held<Scanner, 0x6E6163732D6C7070ULL>;
+using HeldScanner = pose_wall::Held<Scanner, 0x6E6163732D6C7070ULL>;
 
 constexpr StructSizes sizes_of(std::uint32_t now) {
   return {0, now, now};
@@ -109,9 +109,9 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_open(const pose_wall_config* c
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_reset(pose_wall_planar_scanner* scanner) {
   if (scanner == nullptr) return POSE_WALL_E_NULL;
-  const HeldScanner::Inside inside(held(scanner));
+  const pose_wall::Inside<HeldScanner> inside(held(scanner));
   if (inside.status() != POSE_WALL_OK) return inside.status();
-  inside.body().reset();
+  inside->body().reset();
   return POSE_WALL_OK;
 }
 
@@ -121,7 +121,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_process(pose_wall_planar_scann
                                                           pose_wall_planar_scan* scan,
                                                           pose_wall_planar_scan_view* view) {
   if (scanner == nullptr || cloud == nullptr || scan == nullptr) return POSE_WALL_E_NULL;
-  const HeldScanner::Inside inside(held(scanner));
+  const pose_wall::Inside<HeldScanner> inside(held(scanner));
   std::int32_t status = inside.status();
   if (status == POSE_WALL_OK) status = pose_wall_cloud_check(cloud);
   if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(scan->struct_size, kScanSizes);
@@ -140,7 +140,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_process(pose_wall_planar_scann
   }
   pose_wall_planar_scan found_scan{};
   pose_wall_planar_scan_view found_view{};
-  inside.body().process(taken, floor, &found_scan, &found_view);
+  inside->body().process(taken, floor, &found_scan, &found_view);
   pose_wall::write_struct(found_scan, scan->struct_size, scan);
   if (view != nullptr) pose_wall::write_struct(found_view, view->struct_size, view);
   return POSE_WALL_OK;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/math/elementary.hpp"
-#include "base/math/rotation.hpp"
 #include "part/struct_sizes.hpp"
 
 namespace pose_wall::planar {
@@ -23,12 +22,6 @@ std::int32_t refuse(const char* member, const char* rule, pose_wall_planar_fault
     fault->rule = rule;
   }
   return POSE_WALL_E_VALUE_RANGE;
-}
-
-double number_of(const pose_wall_config& config, const char* key) {
-  double value = 0.0;
-  (void)pose_wall_config_get_number(&config, key, &value);
-  return value;
 }
 
 double steps_of(const pose_wall_planar_scanner_settings& s) {
@@ -136,19 +129,9 @@ ScanSettings scan_settings_of(const pose_wall_planar_scanner_settings& s) {
 }
 
 void read_sensor(const pose_wall_config& config, ScanSettings* settings) {
-  settings->R_base_lidar = rotation_zyx(number_of(config, "extrinsic_roll"), number_of(config, "extrinsic_pitch"),
-                                        number_of(config, "extrinsic_yaw"));
-  settings->lidar_base_m = Eigen::Vector3d(number_of(config, "extrinsic_x"), number_of(config, "extrinsic_y"),
-                                           number_of(config, "extrinsic_z"));
-  settings->nearest_m = number_of(config, "range_min");
+  settings->mount = mount_of(config);
   settings->sigma_m = number_of(config, "range_noise");
   settings->hold_rate_rad_s = number_of(config, "hold_rate_angle");
-  static constexpr const char* boxes[] = {"body_box_1", "body_box_2", "body_box_3", "body_box_4"};
-  for (int i = 0; i < 4; ++i) {
-    double edges_m[6] = {};
-    (void)pose_wall_config_get_box(&config, boxes[i], edges_m);
-    settings->body[i] = box_of(edges_m);
-  }
 }
 
 }  // namespace pose_wall::planar

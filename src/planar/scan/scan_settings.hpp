@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "lidar/box.hpp"
+#include "lidar/mount.hpp"
 #include "pose_wall_planar_scan.h"
 
 namespace pose_wall::planar {
@@ -31,10 +31,8 @@ struct ScanSettings {
   double reach_m = 0.0;       // of the guarantee
 
   // the sensor
-  double sigma_m = 0.0, nearest_m = 0.0;
-  Eigen::Matrix3d R_base_lidar = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d lidar_base_m = Eigen::Vector3d::Zero();
-  Box body[4] = {};
+  double sigma_m = 0.0;
+  Mount mount;
 
   // the floor
   double hold_max_s = 0.0, hold_rate_rad_s = 0.0, tilt_level_max_rad = 0.0, bend_rad = 0.0;

@@ -145,7 +145,7 @@ void Scanner::show_nothing() {
 }
 
 void Scanner::describe(std::int64_t stamp_ns, pose_wall_planar_scan* scan) const {
-  const Eigen::Vector3d place_m = has_floor_ ? sensor_level_m(settings_, floor_) : settings_.lidar_base_m;
+  const Eigen::Vector3d place_m = has_floor_ ? sensor_level_m(settings_, floor_) : settings_.mount.sensor_base_m;
   scan->struct_size = sizeof(*scan);
   scan->beams = settings_.beams;
   scan->stamp_ns = stamp_ns;

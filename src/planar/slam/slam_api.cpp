@@ -38,7 +38,7 @@ struct Body {
   void lay_out(pose_wall::Arena& arena, const SlamSettings& with) { slam.lay_out(arena, with); }
 };
 
-using Opened = pose_wall::planar::Held<Body, 0x6D616C736C6E616CULL>;
+using Opened = pose_wall::Held<Body, 0x6D616C736C6E616CULL>;
 
 const Opened* opened(const pose_wall_planar_slam* slam) {
   return reinterpret_cast<const Opened*>(slam);
@@ -88,8 +88,8 @@ std::uint32_t state_of(const SlamStep& step, bool is_first) {
 template <typename Call>
 std::int32_t inside(const pose_wall_planar_slam* slam, Call call) {
   if (slam == nullptr) return POSE_WALL_E_NULL;
-  const Opened::Inside held(opened(slam));
-  return held.status() == POSE_WALL_OK ? call(held.body()) : held.status();
+  const pose_wall::Inside<Opened> held(opened(slam));
+  return held.status() == POSE_WALL_OK ? call(held->body()) : held.status();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "planar/stop/rays.hpp"
+#include "planar/stop/settings.hpp"
 
 namespace pose_wall::planar {
 

@@ -6,12 +6,11 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 
 #include "base/simd/four_floats.hpp"
 #include "lidar/body_boxes.hpp"
-#include "lidar/cloud_reader.hpp"
-#include "planar/stop/settings.hpp"
+#include "lidar/mount.hpp"
+#include "lidar/point_reader.hpp"
 
 namespace pose_wall::planar {
 
@@ -28,17 +27,11 @@ class Rays {
   void each_four(float slope_x, float slope_y, const Visit& visit) const {
     float fall[3];
     for (int k = 0; k < 3; ++k) fall[k] = slope_x * R_[k] + slope_y * R_[3 + k] - R_[6 + k];
-    const bool row_is_plain = is_xyz32_in_a_row(cloud_);
     for (std::uint32_t row = 0; row < rows_of(cloud_); ++row) {
       const unsigned char* point = row_of(cloud_, row);
       for (std::uint32_t k = 0; k < cloud_.width; k += kFour) {
         const std::uint32_t left = cloud_.width - k;
-        FourPlaces raw;
-        if (row_is_plain && left >= kFour) {
-          raw = plain_four(point + cloud_.x.offset, cloud_.point_step);
-        } else {
-          raw = four_of(point, left);
-        }
+        const FourPlaces raw = reader_.four_of_row(point, left);
         const FourTruths returns = first_of_four(left) & are_in_range(raw);
         FourTruths those = returns;
         const FourPlaces at = in_base(raw, &those);
@@ -57,14 +50,6 @@ class Rays {
            (index % cloud_.width) * cloud_.point_step;
   }
 
-  FourPlaces four_of(const unsigned char* point, std::uint32_t left) const;
-  float number(const unsigned char* point, const pose_wall_field& field) const {
-    if (!plain_) return to_float(read_field(point, field, swap_));
-    float value;
-    std::memcpy(&value, point + field.offset, sizeof(value));
-    return value;
-  }
-
   FourTruths are_in_range(const FourPlaces& p) const {
     const FourFloats r2 = p.x * p.x + p.y * p.y + p.z * p.z;
     return (r2 >= near2_) & (r2 <= far2_);
@@ -73,20 +58,16 @@ class Rays {
   FourPlaces in_base(const FourPlaces& p, FourTruths* those) const {
     const FourPlaces at = {R_[0] * p.x + R_[1] * p.y + R_[2] * p.z, R_[3] * p.x + R_[4] * p.y + R_[5] * p.z,
                            R_[6] * p.x + R_[7] * p.y + R_[8] * p.z};
-    for (std::uint32_t k = 0; k < boxes_; ++k) {
-      const float* b = body_[k];
-      *those &= ~((at.x >= b[0]) & (at.x <= b[1]) & (at.y >= b[2]) & (at.y <= b[3]) & (at.z >= b[4]) & (at.z <= b[5]));
-    }
+    *those &= ~body_.hold(at);
     return at;
   }
 
   const pose_wall_cloud& cloud_;
-  bool swap_, plain_;
+  PointReader reader_;
   std::uint64_t points_;
   float R_[9];
   float near2_, far2_;
-  std::uint32_t boxes_ = 0;
-  float body_[BodyBoxes::kMost][6];  // about the sensor
+  BodyBoxes body_;  // about the sensor
 };
 
 }  // namespace pose_wall::planar

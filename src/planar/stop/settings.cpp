@@ -6,9 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "base/math/rotation.hpp"
 #include "part/struct_sizes.hpp"
-#include "planar/forward_axis.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -78,12 +76,6 @@ bool is_footprint(const StopSettings& s) {
   return true;
 }
 
-double number_of(const pose_wall_config& config, const char* key) {
-  double value = 0.0;
-  (void)pose_wall_config_get_number(&config, key, &value);
-  return value;
-}
-
 std::int32_t refuse(pose_wall_planar_fault* fault, const char* member, const char* rule) {
   if (fault != nullptr) {
     fault->member = member;
@@ -135,24 +127,6 @@ std::int32_t check_stop_settings(const StopSettings& settings, pose_wall_planar_
     return refuse(fault, "tall_m", "tall_m must be from thing_height_m to top_m");
   }
   return POSE_WALL_OK;
-}
-
-Mount mount_of(const pose_wall_config& config) {
-  Mount mount;
-  mount.R_base_lidar = rotation_zyx(number_of(config, "extrinsic_roll"), number_of(config, "extrinsic_pitch"),
-                                    number_of(config, "extrinsic_yaw"));
-  mount.sensor_base_m = {number_of(config, "extrinsic_x"), number_of(config, "extrinsic_y"),
-                         number_of(config, "extrinsic_z")};
-  mount.forward_base = forward_of(config);
-  mount.range_min_m = number_of(config, "range_min");
-  mount.range_max_m = number_of(config, "range_max");
-  static constexpr const char* kBoxes[] = {"body_box_1", "body_box_2", "body_box_3", "body_box_4"};
-  for (int i = 0; i < 4; ++i) {
-    double edges_m[6] = {};
-    (void)pose_wall_config_get_box(&config, kBoxes[i], edges_m);
-    mount.body[i] = box_of(edges_m);
-  }
-  return mount;
 }
 
 }  // namespace pose_wall::planar

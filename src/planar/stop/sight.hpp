@@ -15,6 +15,7 @@
 #include "lidar/cloud_print.hpp"
 #include "planar/stop/ground.hpp"
 #include "planar/stop/rays.hpp"
+#include "planar/stop/settings.hpp"
 
 namespace pose_wall::planar {
 

@@ -3,7 +3,7 @@
 //
 // The C ABI of the stop: pointers and sizes are checked here, once.
 
-#include "lidar/cloud_reader.hpp"
+#include "lidar/mount.hpp"
 #include "part/export.hpp"
 #include "part/held.hpp"
 #include "part/struct_sizes.hpp"
@@ -15,7 +15,7 @@
 namespace {
 
 using pose_wall::planar::Stop;
-using Mine = pose_wall::planar::Held<Stop, 0x706F74735F6E6C70ULL>;
+using Mine = pose_wall::Held<Stop, 0x706F74735F6E6C70ULL>;
 
 constexpr const char* kStates[] = {"stop", "slow", "go"};
 constexpr const char* kReasons[POSE_WALL_PLANAR_STOP_REASON_COUNT][2] = {
@@ -101,22 +101,22 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_open(const pose_wall_config* conf
   if (status != POSE_WALL_OK) return status;
   const pose_wall_planar_stop_settings given =
       settings != nullptr ? *settings : pose_wall::planar::default_stop_settings();
-  opened->body().open(given, pose_wall::planar::mount_of(*config), pose_wall::planar::settings_crc(*config, given));
+  opened->body().open(given, pose_wall::mount_of(*config), pose_wall::planar::settings_crc(*config, given));
   *stop = reinterpret_cast<pose_wall_planar_stop*>(opened);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_reset(pose_wall_planar_stop* stop) {
   if (stop == nullptr) return POSE_WALL_E_NULL;
-  const Mine::Inside inside(mine(stop));
-  if (inside.status() == POSE_WALL_OK) inside.body().reset();
+  const pose_wall::Inside<Mine> inside(mine(stop));
+  if (inside.status() == POSE_WALL_OK) inside->body().reset();
   return inside.status();
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* stop) {
   if (stop == nullptr) return POSE_WALL_E_NULL;
-  const Mine::Inside inside(mine(stop));
-  if (inside.status() == POSE_WALL_OK) inside.body().confirm();
+  const pose_wall::Inside<Mine> inside(mine(stop));
+  if (inside.status() == POSE_WALL_OK) inside->body().confirm();
   return inside.status();
 }
 
@@ -124,7 +124,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_process(pose_wall_planar_stop* st
                                                        const pose_wall_planar_stop_motion* motion, int64_t now_ns,
                                                        pose_wall_planar_stop_result* result) {
   if (stop == nullptr || cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const Mine::Inside inside(mine(stop));
+  const pose_wall::Inside<Mine> inside(mine(stop));
   std::int32_t status = inside.status();
   if (status == POSE_WALL_OK) status = pose_wall_cloud_check(cloud);
   if (status == POSE_WALL_OK && motion != nullptr) status = check_motion(*motion);
@@ -132,17 +132,17 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_process(pose_wall_planar_stop* st
   if (status != POSE_WALL_OK) return status;
   const auto whole = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
   const pose_wall_planar_stop_motion nothing{};
-  inside.body().process(whole, motion != nullptr ? *motion : nothing, now_ns, result);
+  inside->body().process(whole, motion != nullptr ? *motion : nothing, now_ns, result);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_tick(pose_wall_planar_stop* stop, int64_t now_ns,
                                                     pose_wall_planar_stop_result* result) {
   if (stop == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const Mine::Inside inside(mine(stop));
+  const pose_wall::Inside<Mine> inside(mine(stop));
   std::int32_t status = inside.status();
   if (status == POSE_WALL_OK) status = check_size(result->struct_size);
-  if (status == POSE_WALL_OK) inside.body().tick(now_ns, result);
+  if (status == POSE_WALL_OK) inside->body().tick(now_ns, result);
   return status;
 }
 
