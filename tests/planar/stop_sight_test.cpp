@@ -16,9 +16,9 @@
 namespace {
 
 using pose_wall::Arena;
+using pose_wall::Mount;
 using pose_wall::planar::FloorLooks;
 using pose_wall::planar::Ground;
-using pose_wall::Mount;
 using pose_wall::planar::Rays;
 using pose_wall::planar::Sight;
 using pose_wall::planar::StopSettings;
