@@ -14,6 +14,7 @@
 #include "engine/self_test_digest.hpp"
 #include "lidar/cloud_reader.hpp"
 #include "part/export.hpp"
+#include "part/status.hpp"
 #include "part/struct_sizes.hpp"
 #include "part/struct_versions.hpp"
 #include "pose_wall.h"
@@ -41,7 +42,7 @@ std::int32_t check_inputs(const pose_wall_inputs* inputs) {
   if (inputs == nullptr) return POSE_WALL_OK;
   const std::int32_t status = pose_wall::check_struct_size(inputs->struct_size, pose_wall::kInputsSizes);
   if (status != POSE_WALL_OK) return status;
-  return (inputs->given & ~kKnown) == 0 ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_INPUT;
+  return pose_wall::ok_if((inputs->given & ~kKnown) == 0, POSE_WALL_E_INPUT);
 }
 
 std::int32_t check_moment(const pose_wall_moment* moment) {
@@ -54,7 +55,7 @@ std::int32_t check_moment(const pose_wall_moment* moment) {
   constexpr unsigned char kForgotten[sizeof(moment->boot_id)] = {};
   const bool forgotten =
       (moment->known & POSE_WALL_MOMENT_BOOT) != 0 && std::memcmp(moment->boot_id, kForgotten, sizeof(kForgotten)) == 0;
-  return (moment->known & ~kKnown) == 0 && !forgotten ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_INPUT;
+  return pose_wall::ok_if((moment->known & ~kKnown) == 0 && !forgotten, POSE_WALL_E_INPUT);
 }
 
 // Struct size, description, inputs: all that is wrong with a cloud before a point is looked at.
@@ -72,7 +73,7 @@ std::int32_t image_status(const pose_wall_result& result, std::uint32_t image_si
   if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(image_size, {0, known_size, known_size});
   if (status != POSE_WALL_OK) return status;
   *whole = pose_wall::read_struct<pose_wall_result>(&result, result.struct_size);
-  return whole->mark == pose_wall::mark_of(*whole) ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_RESULT;
+  return pose_wall::ok_if(whole->mark == pose_wall::mark_of(*whole), POSE_WALL_E_RESULT);
 }
 
 }  // namespace

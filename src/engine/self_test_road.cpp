@@ -4,6 +4,7 @@
 #include "engine/self_test_road.hpp"
 
 #include "base/math/elementary.hpp"
+#include "base/math/golden_ratio.hpp"
 
 namespace pose_wall {
 namespace {
@@ -35,7 +36,7 @@ void turn(const Turn& by, double* a, double* b) {
 
 // In [-0.5, 0.5), by chance.
 double chance(std::uint64_t of) {
-  of = (of + 1) * 0x9E3779B97F4A7C15ULL;
+  of = (of + 1) * kGoldenTurn64;
   of = (of ^ (of >> 29)) * 0xBF58476D1CE4E5B9ULL;
   return static_cast<double>(static_cast<std::uint32_t>(of >> 32)) / 4294967296.0 - 0.5;
 }

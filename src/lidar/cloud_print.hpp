@@ -10,21 +10,22 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/math/golden_ratio.hpp"
 #include "base/simd/four_floats.hpp"
 
 namespace pose_wall {
 
 // A number for each point. Of equal bits it is equal, and any single bit changes it.
 inline FourWords words_of(const FourPlaces& p) {
-  // Odd, so that each bit spreads over the higher ones: the golden ratio, and the two of C. Wellons' hash lowbias32.
+  // Odd, so that each bit spreads over the higher ones, as the golden ratio is: the two of C. Wellons' hash lowbias32.
   // Shifts bring the high bits down, or changes of two points might cancel in a sum.
-  constexpr std::uint32_t kGolden = 0x9E3779B9U, kMixer = 0x7FEB352DU, kOther = 0x846CA68BU;
+  constexpr std::uint32_t kMixer = 0x7FEB352DU, kOther = 0x846CA68BU;
   constexpr int kDown = 15;  // of that hash, too
   FourWords x, y, z;
   std::memcpy(&x, &p.x, sizeof(x));
   std::memcpy(&y, &p.y, sizeof(y));
   std::memcpy(&z, &p.z, sizeof(z));
-  FourWords word = x * kGolden + y;
+  FourWords word = x * kGoldenTurn32 + y;
   word ^= word >> kDown;
   word = word * kMixer + z * kOther;
   return word ^ word >> kDown;

@@ -10,6 +10,7 @@
 #include "base/math/finite.hpp"
 #include "base/math/image_words.hpp"
 #include "motion/pose.hpp"
+#include "part/status.hpp"
 
 namespace pose_wall::motion {
 namespace {
@@ -166,7 +167,7 @@ std::int32_t check_image(const pose_wall_motion_image& image) {
   }
   const std::uint32_t crc =
       crc_of_words(&image, sizeof(image), offsetof(pose_wall_motion_image, crc32c) / 4, kCrcCastagnoli);
-  return image.crc32c == crc ? std::int32_t{POSE_WALL_OK} : POSE_WALL_E_IMAGE_CRC;
+  return ok_if(image.crc32c == crc, POSE_WALL_E_IMAGE_CRC);
 }
 
 }  // namespace pose_wall::motion

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/math/golden_ratio.hpp"
 #include "base/simd/four_floats.hpp"
 #include "lidar/body_boxes.hpp"
 #include "lidar/point_reader.hpp"
@@ -304,7 +305,6 @@ void project_some(const pose_wall_cloud& cloud, const Projector& projector, Rang
   image->count = 0;
   image->cell.first(image->rows * image->columns).fill(kNoPoint);
   // More points than cells: a share of them, spread by the golden ratio over rings and directions alike.
-  constexpr std::uint32_t kGolden = 0x9E3779B9U;
   const std::uint32_t rows_in = rows_of(cloud), share = projector.layout().share;
   std::uint32_t lot = 0;
   const auto put = [&](Points points, FourTruths those) { projector.put(points, those); };
@@ -313,7 +313,7 @@ void project_some(const pose_wall_cloud& cloud, const Projector& projector, Rang
   for (std::uint32_t row_in = 0; row_in < rows_in; ++row_in) {
     const unsigned char* point = row_of(cloud, row_in);
     for (std::uint32_t i = 0; i < cloud.width; ++i, point += cloud.point_step) {
-      lot += kGolden;
+      lot += kGoldenTurn32;
       if (lot <= share) {
         chosen.add(point, put);
       } else if (projector.prints()) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/estimation/small_cholesky.hpp"
+#include "base/math/golden_ratio.hpp"
 
 namespace pose_wall::motion {
 namespace {
@@ -85,7 +86,7 @@ void ReliefMap::set_corner(const Eigen::Vector3d& near_map) {
 
 std::uint32_t ReliefMap::bucket_of(std::int32_t u, std::int32_t v, std::uint8_t facing) const {
   std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(u)) << 32U | static_cast<std::uint32_t>(v);
-  key = (key + facing) * 0x9E3779B97F4A7C15ULL;
+  key = (key + facing) * kGoldenTurn64;
   return static_cast<std::uint32_t>(key >> 40U) & (bucket_.size() - 1);
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
+#include "part/status.hpp"
 #include "part/struct_sizes.hpp"
 #include "place/pose2.hpp"
 
@@ -36,7 +37,7 @@ std::int32_t check_scan(const pose_wall_planar_scan* scan) {
                     (scan->beams - 1.0) * step_rad <= kTurn_rad + 1e-6 && scan->range_min_m >= 0.0 &&
                     scan->range_max_m > scan->range_min_m && scan->range_max_m <= kRangeMost_m &&
                     is_within(scan->sigma_m, 0.001, 1.0);
-  return fits ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_PLANAR_E_SCAN};
+  return ok_if(fits, POSE_WALL_PLANAR_E_SCAN);
 }
 
 BeamScan read_beams(const pose_wall_planar_scan& scan, Span<Beam> beams) {

@@ -7,8 +7,8 @@
 #include "box_layout.hpp"
 #include "finish_result.hpp"
 #include "part/export.hpp"
+#include "part/status.hpp"
 #include "pose_wall_box.h"
-#include "status.hpp"
 
 namespace pose_wall::runtime {
 namespace {
@@ -206,7 +206,7 @@ POSE_WALL_EXPORT int32_t pose_wall_box_next(const void* bytes, uint64_t count, u
   const uint64_t end = found ? at : count;
   record->passed_over = end > from ? end - from : 0;
   *offset = found ? read_record(start, count, at, record) : end;
-  return ok_if(found, POSE_WALL_BOX_E_END);
+  return pose_wall::ok_if(found, POSE_WALL_BOX_E_END);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine,

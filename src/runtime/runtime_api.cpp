@@ -8,13 +8,13 @@
 #include "box_layout.hpp"
 #include "options.hpp"
 #include "part/export.hpp"
+#include "part/status.hpp"
 #include "pose_wall_runtime.h"
 #include "runtime.hpp"
-#include "status.hpp"
 #include "struct_versions.hpp"
 
 using pose_wall::runtime::InnerBytes;
-using pose_wall::runtime::ok_if;
+using pose_wall::ok_if;
 using pose_wall::runtime::Runtime;
 
 namespace {

@@ -10,8 +10,8 @@
 
 #include "base/math/crc32.hpp"
 #include "options.hpp"
+#include "part/status.hpp"
 #include "runtime.hpp"
-#include "status.hpp"
 
 namespace pose_wall::runtime {
 

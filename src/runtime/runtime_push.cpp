@@ -5,9 +5,9 @@
 
 #include "frame_copy.hpp"
 #include "options.hpp"
+#include "part/status.hpp"
 #include "runtime.hpp"
 #include "saturated.hpp"
-#include "status.hpp"
 
 namespace pose_wall::runtime {
 

@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "base/math/golden_ratio.hpp"
+
 #include "base/containers/span.hpp"
 
 namespace pose_wall {
@@ -19,8 +21,7 @@ class EvenShare {
   }
 
   bool takes() {
-    constexpr std::uint32_t kGoldenTurn = 0x9E3779B9U;  // 2^32 over the golden ratio, odd
-    turn_ += kGoldenTurn;
+    turn_ += kGoldenTurn32;
     return turn_ < limit_;
   }
 

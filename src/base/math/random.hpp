@@ -5,6 +5,8 @@
 
 #include <cstdint>
 
+#include "base/math/golden_ratio.hpp"
+
 namespace pose_wall {
 
 // SplitMix64 (Steele, Lea, Flood 2014): one 64-bit word of state, the same numbers on every machine.
@@ -13,7 +15,7 @@ class Random {
   explicit Random(std::uint64_t seed) : state_(seed) {}
 
   std::uint64_t next() {
-    state_ += 0x9E3779B97F4A7C15ULL;
+    state_ += kGoldenTurn64;
     std::uint64_t z = state_;
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;

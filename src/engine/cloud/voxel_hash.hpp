@@ -7,6 +7,7 @@
 
 #include "base/containers/arena.hpp"
 #include "base/containers/span.hpp"
+#include "base/math/golden_ratio.hpp"
 
 namespace pose_wall {
 
@@ -91,9 +92,7 @@ class VoxelHash {
     }
 
     // Fibonacci hashing: the high bits of the product depend on all bits of the key.
-    std::uint32_t home(std::uint64_t key) const {
-      return static_cast<std::uint32_t>((key * 0x9E3779B97F4A7C15ULL) >> shift_);
-    }
+    std::uint32_t home(std::uint64_t key) const { return static_cast<std::uint32_t>((key * kGoldenTurn64) >> shift_); }
 
     VoxelHash& hash_;
     std::uint32_t* const slots_;

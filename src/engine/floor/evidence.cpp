@@ -8,6 +8,7 @@
 
 #include "base/estimation/near_plane.hpp"
 #include "base/simd/four_floats.hpp"
+#include "lidar/crossing.hpp"
 
 namespace pose_wall {
 namespace {
@@ -246,8 +247,7 @@ bool FloorGrid::much_lies_below(const Plane& plane, const BoundedPoints& points_
     if (!(away2 <= limit2) || !(height < -(kBelow_m + kFall * std::sqrt(away2)))) return true;
     const std::int32_t ix = cell_of(points_base.x[i]), iy = cell_of(points_base.y[i]);
     if (!inside(ix, iy) || (marked_[index(ix, iy)] & kBelow) != 0) return true;
-    const Eigen::Vector3d crossing =
-        sensor_base_m + (p - sensor_base_m) * (sensor_height_m / (sensor_height_m - height));
+    const Eigen::Vector3d crossing = on_the_way(sensor_base_m, p, way_to_plane(sensor_height_m, height));
     if (marked_behind(sensor_base_m, crossing)) return true;
     marked_[index(ix, iy)] |= kBelow;
     ++below;
@@ -265,8 +265,7 @@ double share_seen_through(const FloorGrid& marked, const Plane& marked_plane, co
     ++on_below;
     const double height = marked_plane.signed_distance(p);
     if (!(height < -2.0 * thresh_m)) return;
-    const Eigen::Vector3d crossing =
-        sensor_base_m + (p - sensor_base_m) * (sensor_height_m / (sensor_height_m - height));
+    const Eigen::Vector3d crossing = on_the_way(sensor_base_m, p, way_to_plane(sensor_height_m, height));
     if (marked.marked_near(crossing.x(), crossing.y())) ++through;
   };
   // Most points lie nowhere near the lower plane, as floats show four at a time.

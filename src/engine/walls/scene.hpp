@@ -14,6 +14,7 @@
 #include "engine/config.hpp"
 #include "engine/floor/levelling.hpp"
 #include "engine/types.hpp"
+#include "lidar/crossing.hpp"
 
 namespace pose_wall {
 
@@ -57,12 +58,6 @@ WallScene wall_scene(const WallView& view, const Settings& settings, const Level
 inline double on_wall_m(const Settings& settings) {
   constexpr double kInThresholds = 3.0;  // judgement, 2026-11-21: 15 cm by default
   return kInThresholds * settings.wall_ransac_thresh;
-}
-
-// Share of the way from the sensor, sensor_inside_m before a plane, to a point behind it (signed distance r_m < 0) at
-// which the ray passes the plane.
-inline double way_to_plane(double sensor_inside_m, double r_m) {
-  return sensor_inside_m / (sensor_inside_m - r_m);
 }
 
 // Horizontal direction of a wall, towards the machine's front.

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/math/crc32.hpp"
+#include "part/status.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/map/grid_map.hpp"
 
@@ -114,7 +115,7 @@ std::int32_t check_tile(const pose_wall_planar_tile& tile, double cell_m) {
   if (const std::int32_t size = pose_wall::check_struct(tile); size != POSE_WALL_OK) return size;
   const bool good =
       tile.crc32 == crc_of(tile) && tile.cell_m == cell_m && fits(tile.column, tile.row, tile.cells, cell_m);
-  return good ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_PLANAR_E_MAP_FILE};
+  return ok_if(good, POSE_WALL_PLANAR_E_MAP_FILE);
 }
 
 std::uint64_t map_bytes(std::uint32_t tiles) {

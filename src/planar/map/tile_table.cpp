@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/math/bits.hpp"
+#include "base/math/golden_ratio.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -19,8 +20,7 @@ std::uint32_t slots_for(std::uint32_t tiles) {
 std::uint32_t home_of(std::int32_t column, std::int32_t row, std::uint32_t slots) {
   const std::uint64_t key =
       (static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32) | static_cast<std::uint32_t>(row);
-  constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15ULL;  // of 2^64: spreads neighbours (Knuth 6.4)
-  return static_cast<std::uint32_t>((key * kGoldenRatio) >> 40) & (slots - 1);
+  return static_cast<std::uint32_t>((key * kGoldenTurn64) >> 40) & (slots - 1);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/math/finite.hpp"
+#include "part/status.hpp"
 #include "part/struct_sizes.hpp"
 #include "place/pose2.hpp"
 
@@ -34,7 +35,7 @@ std::int32_t check_grid(const pose_wall_planar_grid* grid) {
   const bool fits = grid->width >= 1 && grid->width <= POSE_WALL_PLANAR_GRID_SIDE_MAX && grid->height >= 1 &&
                     grid->height <= POSE_WALL_PLANAR_GRID_SIDE_MAX && grid->resolution_m >= 0.01 &&
                     grid->resolution_m <= 1.0 && is_place(grid->origin_x_m, grid->origin_y_m) && grid->reserved == 0;
-  return fits ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_PLANAR_E_GRID};
+  return ok_if(fits, POSE_WALL_PLANAR_E_GRID);
 }
 
 void BitGrid::lay_out(Arena& arena, std::uint32_t width_max, std::uint32_t height_max) {

@@ -8,6 +8,7 @@
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
 #include "base/math/rotation.hpp"
+#include "part/status.hpp"
 #include "place/pose2.hpp"
 
 namespace pose_wall::planar {
@@ -26,7 +27,7 @@ std::int32_t check_floor(const pose_wall_planar_floor& floor) {
                     is_within(n[2], kLeastUp, 1.0 + kUnit) && is_within(floor.height_m, -kHighest_m, kHighest_m) &&
                     is_within(floor.tilt_sigma_rad, 0.0, kTiltMost_rad) && floor.tilt_level_rad >= 0.0 &&
                     floor.reach_m >= 0.0;
-  return fits ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_PLANAR_E_POSE};
+  return ok_if(fits, POSE_WALL_PLANAR_E_POSE);
 }
 
 void Scanner::lay_out(Arena& arena, const ScanSettings& settings) {

@@ -6,6 +6,7 @@
 #include "lidar/mount.hpp"
 #include "part/export.hpp"
 #include "part/held.hpp"
+#include "part/status.hpp"
 #include "part/struct_sizes.hpp"
 #include "part/struct_versions.hpp"
 #include "planar/stop/stop.hpp"
@@ -40,7 +41,7 @@ std::int32_t check_motion(const pose_wall_planar_stop_motion& motion) {
   if (const std::int32_t size = pose_wall::check_struct(motion); size != POSE_WALL_OK) return size;
   // The bits of this header:
   constexpr std::uint32_t kKnown = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
-  return (motion.given & ~kKnown) == 0 ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_INPUT};
+  return pose_wall::ok_if((motion.given & ~kKnown) == 0, POSE_WALL_E_INPUT);
 }
 
 std::int32_t check_size(std::uint32_t size) {

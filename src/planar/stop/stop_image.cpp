@@ -9,6 +9,7 @@
 
 #include "base/math/finite.hpp"
 #include "base/math/image_words.hpp"
+#include "part/status.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -91,7 +92,7 @@ std::int32_t check_image(const pose_wall_planar_stop_image& image) {
   if (image.struct_size != sizeof(image) || image.version != POSE_WALL_PLANAR_STOP_IMAGE_VERSION) {
     return POSE_WALL_E_IMAGE_VERSION;
   }
-  return image.crc32c == crc_of(image) ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_IMAGE_CRC};
+  return ok_if(image.crc32c == crc_of(image), POSE_WALL_E_IMAGE_CRC);
 }
 
 }  // namespace pose_wall::planar

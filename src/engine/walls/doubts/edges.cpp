@@ -75,9 +75,9 @@ class FourRays {
   }
   // For the points of the last go_to(), at this distance from the plane.
   void cross_at(FourFloats r) {
-    const FourFloats to_plane = inside_m_ / (inside_m_ - r);
+    const FourFloats to_plane = way_to_plane(inside_m_, r);
     along_m = to_plane * point_along_m;
-    z_level_m = sensor_z_level_m_ + to_plane * (point_z_level_m - sensor_z_level_m_);
+    z_level_m = on_the_way(sensor_z_level_m_, point_z_level_m, to_plane);
   }
 
   FourFloats point_along_m{}, point_z_level_m{}, along_m{}, z_level_m{};

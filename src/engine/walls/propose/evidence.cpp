@@ -50,9 +50,9 @@ class WallGrid::FourMarks {
     if (!(inside_m_ > 0.0F)) passes = FourTruths{};
     if (!any_of(hits | passes)) return false;
     // A passing ray marks the place where it meets the plane, a point on the plane its own.
-    const FourFloats way = hits ? all_four(1.0F) : inside_m_ / (inside_m_ - r);
-    along_m = sensor_along_m_ + (along_x_ * x + along_y_ * y - sensor_along_m_) * way;
-    z_level_m = sensor_z_m_ + (z - sensor_z_m_) * way;
+    const FourFloats way = hits ? all_four(1.0F) : way_to_plane(inside_m_, r);
+    along_m = on_the_way(sensor_along_m_, along_x_ * x + along_y_ * y, way);
+    z_level_m = on_the_way(sensor_z_m_, z, way);
     return true;
   }
 

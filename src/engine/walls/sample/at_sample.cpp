@@ -76,7 +76,7 @@ double steps_back_at(const WallScene& scene, const Plane& wall, const Plane& acr
     const Eigen::Vector3d p = scene.band_level.at(i);
     const double r = wall.signed_distance(p), beside_m = across.signed_distance(p);
     if (!(r < -kOff_m)) continue;
-    if (std::fabs(sensor_m + (beside_m - sensor_m) * way_to_plane(inside_m, r)) <= kWindow_m) passing.add(-r);
+    if (std::fabs(on_the_way(sensor_m, beside_m, way_to_plane(inside_m, r))) <= kWindow_m) passing.add(-r);
     if (std::fabs(beside_m) <= kWindow_m) beside.add(-r);
   }
   const bool in_shadow = beside.count() < StepProfile::kPointsMin;

@@ -7,11 +7,11 @@
 
 #include "pose_wall.h"
 
-namespace pose_wall::runtime {
+namespace pose_wall {
 
 // The statuses are of several enums; all are int32_t to the outside.
 constexpr std::int32_t ok_if(bool good, std::int32_t otherwise) {
   return good ? std::int32_t{POSE_WALL_OK} : otherwise;
 }
 
-}  // namespace pose_wall::runtime
+}  // namespace pose_wall
