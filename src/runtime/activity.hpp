@@ -32,7 +32,7 @@ class Activity {
   }
 
  private:
-  static constexpr std::uint64_t kKinds = 7;
+  static constexpr std::uint64_t kKinds = 7;  // a mask of three bits
   static_assert(POSE_WALL_RUNTIME_ACTIVITIES <= kKinds + 1, "they fit three bits");
 
   std::atomic<std::uint64_t> word_{POSE_WALL_RUNTIME_AT_NOTHING};

@@ -17,7 +17,7 @@ class BlockWalk {
 
   // Aligned to POSE_WALL_BLOCK_ALIGNMENT, holds garbage. NULL when measuring.
   unsigned char* take(std::uint64_t bytes) {
-    constexpr std::uint64_t kMask = POSE_WALL_BLOCK_ALIGNMENT - 1;
+    constexpr std::uint64_t kMask = POSE_WALL_BLOCK_ALIGNMENT - 1;  // a part ends where the next may begin
     unsigned char* const place = block_ != nullptr ? block_ + used_ : nullptr;
     used_ += (bytes + kMask) & ~kMask;
     return place;

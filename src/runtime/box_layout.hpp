@@ -12,12 +12,13 @@
 
 namespace pose_wall::runtime {
 
+// The format of pose_wall_box.h, from the start of the file:
 constexpr std::uint64_t kBoxAlignment = 64;
 constexpr std::uint64_t kHeaderBytes = POSE_WALL_BOX_HEADER_BYTES;
-constexpr std::uint32_t kRecordSync = 0x43525750U;  // "PWRC"
+constexpr std::uint32_t kRecordSync = 0x43525750U;  // the letters "PWRC"
 constexpr char kBoxMagic[8] = {'P', 'W', 'A', 'L', 'L', 'B', 'O', 'X'};
 
-// The header.
+// The header, in bytes from its start:
 constexpr std::uint32_t kAtVersion = 8, kAtHeaderBytes = 12, kAtBoxBytes = 16, kAtConfigBytes = 24, kAtResultBytes = 28,
                         kAtMementoBytes = 32, kAtAbi = 36, kAtLibrary = 40, kAtConfig = 64, kAtMotionBytes = 4076,
                         kAtInputsBytes = 4080, kAtHeaderRun = 4084, kAtHeaderConfigCrc = 4088, kAtHeaderCrc = 4092,
@@ -28,12 +29,12 @@ static_assert(kAtConfig + sizeof(pose_wall_config) <= kAtMotionBytes, "the confi
 constexpr std::uint32_t kAtSync = 0, kAtKind = 4, kAtRecordBytes = 8, kAtSequence = 16, kAtReceived = 24, kAtStamp = 32,
                         kAtCloudBytes = 40, kAtThinning = 48, kAtBodyCrc = 52, kAtRun = 56, kAtLap = 58,
                         kAtHeadCrc = 60;
-constexpr std::uint64_t kHeadBytes = 64;
+constexpr std::uint64_t kHeadBytes = 64;  // one line of a cache
 
 // The cloud's description, from the end of the head.
 constexpr std::uint32_t kAtDigest = 0, kAtPoints = 8, kAtPointBytes = 12, kAtBigEndian = 16, kAtNotFinite = 20,
                         kAtZero = 24, kAtConfigCrc = 28, kAtFields = 32;
-constexpr std::uint64_t kDescriptionBytes = 128;
+constexpr std::uint64_t kDescriptionBytes = 128;  // behind it there is room for more fields
 
 constexpr std::uint64_t aligned(std::uint64_t bytes) {
   return (bytes + kBoxAlignment - 1) & ~(kBoxAlignment - 1);
@@ -42,6 +43,7 @@ constexpr std::uint64_t aligned(std::uint64_t bytes) {
 inline std::uint64_t memento_room() {
   return aligned(pose_wall_memento_bytes());
 }
+// Of what has a size of its own, in whole steps of the alignment:
 constexpr std::uint64_t kInputsRoom = aligned(sizeof(pose_wall_inputs));
 constexpr std::uint64_t kResultRoom = aligned(sizeof(pose_wall_result));
 constexpr std::uint64_t kMotionRoom = aligned(sizeof(pose_wall_motion_result));

@@ -14,7 +14,7 @@
 namespace pose_wall::runtime {
 namespace {
 
-constexpr unsigned char kZeros[kBoxAlignment] = {};
+constexpr unsigned char kZeros[kBoxAlignment] = {};  // fills up to the next step
 
 std::uint64_t head_and_body_bytes() {
   return kHeadBytes + body_without_cloud();

@@ -24,6 +24,7 @@ struct FrameSlot {
   pose_wall_publication publication{};
 };
 
+// The most of queue_frames and of box_backlog (pose_wall_runtime.h), one that is filled and one in work.
 constexpr std::uint32_t kSlotsMax = 64 + 2 + 64;
 
 // First in, first out.

@@ -15,10 +15,11 @@ namespace pose_wall::runtime {
 
 class Histogram {
  public:
+  // A step is at most a 32nd of its time, which is what a quantile may be off by:
   static constexpr int kStepBits = 5;
   static constexpr std::uint32_t kSteps = 1U << kStepBits;
   static constexpr int kDoublings = 38;  // up to 2^42 ns, more than an hour; beyond counts as that, worst is exact
-  static constexpr std::uint32_t kBuckets = kSteps * kDoublings;
+  static constexpr std::uint32_t kBuckets = kSteps * kDoublings;  // one for each step
 
   void add(std::int64_t time_ns) {
     const std::uint64_t time = time_ns > 0 ? static_cast<std::uint64_t>(time_ns) : 0;

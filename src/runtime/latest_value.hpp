@@ -16,7 +16,7 @@
 
 namespace pose_wall::runtime {
 
-constexpr int kLatestAttempts = 1000;
+constexpr int kLatestAttempts = 1000;  // a loop needs an end; a second one is rare already, see load()
 
 enum class LatestStatus { kNothing, kDamaged, kThere };
 

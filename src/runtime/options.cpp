@@ -3,6 +3,7 @@
 
 #include "options.hpp"
 
+#include "base/math/time_units.hpp"
 #include "box_layout.hpp"
 #include "box_writer.hpp"
 #include "frame_slot.hpp"
@@ -11,8 +12,7 @@
 namespace pose_wall::runtime {
 namespace {
 
-constexpr std::int64_t kMillisecond_ns = 1000000;
-constexpr std::int64_t kHour_ns = 3600000 * kMillisecond_ns;
+// The bits of pose_wall_runtime.h; others are of a later version.
 constexpr std::uint32_t kWishes = POSE_WALL_RUNTIME_PRIORITY | POSE_WALL_RUNTIME_AFFINITY | POSE_WALL_RUNTIME_LOCK;
 
 template <typename T>

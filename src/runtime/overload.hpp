@@ -34,8 +34,10 @@ class Overload {
 
   std::uint32_t thinning() const { return thinning_; }
 
+  // One slow frame may be the machine's, so thinner clouds take more than one, and three are 0.15 to 0.3 s of data that
+  // are lost. Full clouds come back after one or two seconds: sooner, a load that swings would change them in turn.
   static constexpr std::uint32_t kSlowFrames = 3;
-  static constexpr std::uint32_t kRoomyFrames = 20;
+  static constexpr std::uint32_t kRoomyFrames = 20;  // likewise: see above
 
  private:
   void set(std::uint32_t thinning) {

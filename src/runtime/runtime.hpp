@@ -81,8 +81,8 @@ class Runtime {
   void statistics(pose_wall_runtime_statistics* out);
 
  private:
-  static constexpr std::uint64_t kMagic = 0x706F73652D72756EULL;
-  static constexpr std::uint64_t kStarted = 0x5AC3A53C695A96E1ULL;
+  static constexpr std::uint64_t kMagic = 0x706F73652D72756EULL;    // 'pose-run' in ASCII
+  static constexpr std::uint64_t kStarted = 0x5AC3A53C695A96E1ULL;  // no bytes that a block holds by chance
 
   std::int64_t now() const { return options_.clock != nullptr ? options_.clock(options_.clock_user) : monotonic_ns(); }
   bool own_thread_calls() const;

@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "base/math/time_units.hpp"
 #include "finish_result.hpp"
 #include "freshness.hpp"
 #include "pose_wall_box.h"
@@ -13,8 +14,6 @@
 
 namespace pose_wall::runtime {
 namespace {
-
-constexpr std::int64_t kMinute_ns = 60000000000;
 
 bool same_states(const pose_wall_result& a, const pose_wall_result& b) {
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {

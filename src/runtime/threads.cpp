@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include "threads.hpp"
+#include "base/math/time_units.hpp"
 
 #include <errno.h>  // NOLINT(modernize-deprecated-headers): POSIX names
 #include <sched.h>
@@ -9,7 +10,6 @@
 
 namespace pose_wall::runtime {
 namespace {
-constexpr std::int64_t kSecond_ns = 1000000000;
 
 std::int64_t read_ns(clockid_t clock) {
   timespec t;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "base/math/time_units.hpp"
 #include "saturated.hpp"
 
 namespace pose_wall::runtime {
@@ -42,9 +43,8 @@ class Watchdog {
 
   // Duration of the silence, by a clock that may go back. Then it is unknown, and longer than anything is held.
   std::int64_t speak(std::int64_t now_ns) {
-    constexpr std::int64_t kNobodyKnows_ns = 3600000000000;
     const std::int64_t by_clock_ns = difference(now_ns, since_ns_);
-    const std::int64_t silent_ns = by_clock_ns >= elapsed_ns_ ? by_clock_ns : kNobodyKnows_ns;
+    const std::int64_t silent_ns = by_clock_ns >= elapsed_ns_ ? by_clock_ns : kHour_ns;
     if (silent_ns > elapsed_ns_) elapsed_ns_ = silent_ns;
     seen_ns_ = now_ns;
     next_ns_ = sum(now_ns, every_ns_);

@@ -34,7 +34,7 @@ bool is_place(double x_m, double y_m) {
 }
 
 bool is_angle(double angle_rad) {
-  constexpr double kMost_rad = POSE_WALL_PLANAR_TURNED_MOST_RAD;
+  constexpr double kMost_rad = POSE_WALL_PLANAR_TURNED_MOST_RAD;  // by the interface
   return is_within(angle_rad, -kMost_rad, kMost_rad);
 }
 

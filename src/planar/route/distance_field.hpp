@@ -39,6 +39,7 @@ struct Places {
 
 class DistanceField {
  public:
+  // No distances, which end at kUnitsMost:
   static constexpr std::uint32_t kUnknown = 0xFFFFFFFFU, kBlocked = 0xFFFFFFFEU, kFar = 0xFFFFFFFDU;
 
   void lay_out(Arena& arena, std::uint32_t places);
@@ -74,8 +75,8 @@ class DistanceField {
   std::uint32_t step_down(std::uint32_t place) const;
 
  private:
-  static constexpr std::uint32_t kBuckets = 16;  // the longest vector of a heading is 7.9 steps
-  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+  static constexpr std::uint32_t kBuckets = 16;        // the longest vector of a heading is 7.9 steps
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;  // no place has this number
 
   bool is_free(std::uint32_t place, std::int32_t column, std::int32_t row);
   void put(std::uint32_t place, std::uint32_t distance);

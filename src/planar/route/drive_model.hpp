@@ -37,7 +37,8 @@ class DriveModel {
   double drift_1_m() const { return drift_1_m_; }
 
  private:
-  static constexpr std::uint32_t kCommandsMost = 256;
+  static constexpr std::uint32_t kCommandsMost =
+      256;  // 2.56 s of a controller at 100 Hz; delay and lag end at 1 s each
   struct Given {
     double duration_s;
     Rates rates;

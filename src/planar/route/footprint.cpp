@@ -38,7 +38,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Ve
 
 // Andrew's monotone chain (1979) over eight points.
 Piece hull_of(Eigen::Vector2d (&points)[Piece::kCornersMost]) {
-  constexpr std::uint32_t kCount = Piece::kCornersMost;
+  constexpr std::uint32_t kCount = Piece::kCornersMost;  // all of them
   for (std::uint32_t k = 1; k < kCount; ++k) {
     const Eigen::Vector2d point = points[k];
     std::uint32_t at = k;
@@ -155,7 +155,7 @@ bool Sweeps::is_pose_free(const Pose2& at) {
 
 // Rock between the ends is mostly met by the middle line already.
 bool Sweeps::is_straight_free(const Pose2& from, double along_m) {
-  constexpr double kProbe_m = 0.5;
+  constexpr double kProbe_m = 0.5;  // a quick look alone: all of the way is swept behind it
   const Turn2 turn(from.yaw_rad);
   const auto probes = static_cast<std::uint32_t>(std::abs(along_m) / kProbe_m);
   rows_ += probes;
@@ -169,7 +169,7 @@ bool Sweeps::is_straight_free(const Pose2& from, double along_m) {
 }
 
 bool Sweeps::is_arc_free(const Pose2& from, double along_m, double turn_rad) {
-  constexpr double kMostTurn_rad = 4.0 * kPi;
+  constexpr double kMostTurn_rad = 4.0 * kPi;  // two turns: no way needs more than one, and the loop needs an end
   if (!(std::abs(turn_rad) <= kMostTurn_rad)) return false;
   if (std::abs(turn_rad) < 1e-9) return is_straight_free(from, along_m);
   const ArcSteps steps = arc_steps(footprint_, along_m, turn_rad);

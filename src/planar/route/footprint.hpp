@@ -28,7 +28,7 @@ struct Footprint {
 
 // A convex piece. Corners go round it one way or the other.
 struct Piece {
-  static constexpr std::uint32_t kCornersMost = 8;
+  static constexpr std::uint32_t kCornersMost = 8;  // a rectangle at both ends of a way
   Eigen::Vector2d corner[kCornersMost];
   std::uint32_t corners = 0;
 };

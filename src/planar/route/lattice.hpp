@@ -17,9 +17,9 @@
 
 namespace pose_wall::planar::route {
 
-constexpr std::uint32_t kHeadingsMost = 64;
-constexpr double kUnits_m = 1e-4;  // costs and lengths of the search are whole numbers of these
-constexpr std::uint32_t kUnitsMost = 0x7FFFFFFFU;
+constexpr std::uint32_t kHeadingsMost = 64;        // room for all: 32 or 64, see lattice.cpp
+constexpr double kUnits_m = 1e-4;                  // costs and lengths of the search are whole numbers of these
+constexpr std::uint32_t kUnitsMost = 0x7FFFFFFFU;  // so that the sum of two fits its word: 215 km
 
 struct Heading {
   std::int32_t dx = 0, dy = 0;  // in steps

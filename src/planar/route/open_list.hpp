@@ -63,7 +63,7 @@ class OpenList {
   }
 
  private:
-  static constexpr std::uint32_t kChildren = 4;
+  static constexpr std::uint32_t kChildren = 4;  // of eight bytes: two nodes lie in a line of the cache
   Span<std::uint64_t> entries_;
   std::uint32_t count_ = 0;
 };

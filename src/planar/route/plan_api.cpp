@@ -45,7 +45,7 @@ constexpr const char* kOutcomes[][2] = {
     {"list_full", "The lists of the search were full before a route was found."},
     {"work_limit", "The limit of expansions was reached before a route was found."},
     {"room_small", "A route was found, but the caller's room is too small for its poses."}};
-constexpr std::uint32_t kOutcomeCount = sizeof(kOutcomes) / sizeof(kOutcomes[0]);
+constexpr std::uint32_t kOutcomeCount = sizeof(kOutcomes) / sizeof(kOutcomes[0]);  // rows of the table
 
 }  // namespace
 

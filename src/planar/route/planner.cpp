@@ -60,7 +60,7 @@ bool Planner::read(const pose_wall_planar_grid& grid) {
 }
 
 double Planner::clearance_m(const Eigen::Vector2d& at_m) const {
-  constexpr double kMost_m = 5.0;
+  constexpr double kMost_m = 5.0;  // farther things are told as this: the look costs its square
   if (!has_grid_) return not_a_number();
   const Eigen::Vector2d at = grid_.in_cells(at_m);
   const bool is_inside = at.x() > 0.0 && at.y() > 0.0 && at.x() < grid_.width() && at.y() < grid_.height();
@@ -119,7 +119,7 @@ bool Planner::spread(const Lattice& lattice, const Shape& circle, std::uint32_t 
 // Every way can be driven both ways. Where the machine got stuck at once on its way from the goal, no search from the
 // start could come, and it would look everywhere first.
 bool Planner::can_leave_goal(const Search::Task& task, pose_wall_planar_plan_result* result) {
-  constexpr std::uint32_t kExpansions = 500;
+  constexpr std::uint32_t kExpansions = 500;  // few beside those of a search, which hurries after 25,000
   Search::Task probe = task;
   probe.start = goal_;
   probe.weight = 0.0;
@@ -233,7 +233,7 @@ void Planner::explain(pose_wall_planar_plan_result* result) {
     result->outcome = POSE_WALL_PLANAR_PLAN_NOT_CONNECTED;
     return;
   }
-  constexpr std::uint32_t kHalvings = 10;
+  constexpr std::uint32_t kHalvings = 10;  // of 500 cells at most to half a cell
   for (std::uint32_t k = 0; k < kHalvings && does_not - fits > 0.5; ++k) {
     const double middle = 0.5 * (fits + does_not);
     (is_wide_enough(middle) ? fits : does_not) = middle;
@@ -246,7 +246,7 @@ void Planner::explain(pose_wall_planar_plan_result* result) {
 bool Planner::is_wide_enough(double radius_cells) {
   lattice_[1].write_circle(radius_cells, &narrow_);
   const double step_cells = lattice_[1].step_cells(), step = lattice_[1].step_m() / kUnits_m;
-  constexpr double kRoot2 = 1.41421356237309505;
+  constexpr double kRoot2 = 1.41421356237309505;  // the diagonal of a cell
   const double longest =
       2.0 * radius_cells >= kRoot2 * step_cells ? 1.5 * step : 1.1 * step;  // the next are 1, 1.41, 2
   return spread(lattice_[1], narrow_, static_cast<std::uint32_t>(longest));

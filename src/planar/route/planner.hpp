@@ -31,7 +31,8 @@ class Planner {
   std::uint64_t field_looks() const { return field_.looks(); }  // since it was opened
 
  private:
-  static constexpr std::uint32_t kLevels = 2, kCornersMost = 4096;
+  static constexpr std::uint32_t kLevels = 2;          // lattices: a coarse one first, and one where that finds no way
+  static constexpr std::uint32_t kCornersMost = 4096;  // of a way before it is drawn taut; more is told as list_full
 
   bool go_straight();
   std::uint32_t search(pose_wall_planar_plan_result* result);

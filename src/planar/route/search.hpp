@@ -58,8 +58,10 @@ class Search {
   static DistanceField::Target around(const BitGrid& grid, const Lattice& lattice, const Pose2& pose);
 
  private:
+  // Numbers that no state has:
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU, kGoal = 0xFFFFFFFEU;
   enum Move : std::uint8_t { kForward, kBackward, kLeft, kRight, kFromStart, kMoves };
+  // Bits of how a state was reached, the Move lowest:
   static constexpr std::uint8_t kMoveBits = 7, kParentBackward = 8, kDriveBackward = 16, kClosed = 32;
 
   // A state is entry * slots + heading * gears + gear.

@@ -8,11 +8,11 @@
 namespace pose_wall::planar::route {
 namespace {
 
-constexpr double kGain_m = 2e-3, kGainCut_m = 1e-2;  // a change that saves less is not worth its sweeps
-constexpr double kStepFirst_m = 0.8, kStepLast_m = 0.02;
-constexpr double kCutFirst_m = 3.0, kCutLast_m = 0.1;  // from a corner along its stretches
-constexpr double kCutTurn_rad = 0.05;                  // a corner that turns by less is not cut
-constexpr std::uint32_t kRounds = 4, kSweepsOfMoves = 3;
+constexpr double kGain_m = 2e-3, kGainCut_m = 1e-2;       // a change that saves less is not worth its sweeps
+constexpr double kStepFirst_m = 0.8, kStepLast_m = 0.02;  // moves of a corner, smaller from round to round
+constexpr double kCutFirst_m = 3.0, kCutLast_m = 0.1;     // from a corner along its stretches
+constexpr double kCutTurn_rad = 0.05;                     // a corner that turns by less is not cut
+constexpr std::uint32_t kRounds = 4, kSweepsOfMoves = 3;  // at most; each ends where nothing gains kGain_m
 
 double length_of(const Corner& a, const Corner& b) {
   return (b.place() - a.place()).norm();

@@ -30,7 +30,7 @@ class Taut {
   double cost_m() const { return cost_between(0, count_ - 1); }
 
  private:
-  static constexpr std::uint32_t kNewMost = 2;
+  static constexpr std::uint32_t kNewMost = 2;  // a cut corner is two
 
   // Instead of the corners between `from` and `to`: new ones, each left in its gear, and `from` left in gear[0].
   struct Change {

@@ -98,7 +98,7 @@ void Tracker::step(const pose_wall_planar_track_input& input, pose_wall_planar_t
     if (leg_.drive != 0 && phase_ == Phase::leg && input.pose_ns != last_pose_ns_) model_.learn(pose, age_s);
     if (leg_.drive == 0 || phase_ != Phase::leg) model_.learn_anew();
     last_pose_ns_ = input.pose_ns;
-    constexpr double kStill_m_s = 0.03;
+    constexpr double kStill_m_s = 0.03;  // less is taken for noise of the measured speed
     seen_to_move_ = std::abs(input.speed_m_s) > kStill_m_s;
     drive(pose, age_s, step_s, command);
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::int16_t kNowhere = 0x7FFF;  // of a place that is none of the ground's
 constexpr float kInside_m = 0.1F;          // so far inside the footprint nothing but the machine can be
 constexpr float kNotUnder_m = -0.02F;      // places under the machine are not in its way
-constexpr auto kPlace_mm = static_cast<std::int32_t>(1000.0 * kPlace_m + 0.5);
+constexpr auto kPlace_mm = static_cast<std::int32_t>(1000.0 * kPlace_m + 0.5);  // rounded to whole ones
 // A wall's tips stand out by less, the chest of a person with the back to it by more. Along a diagonal in both axes.
 constexpr std::int32_t kAside_mm = 230, kAsideDiagonal_mm = 325;
 constexpr std::int32_t kAsidePlaces = 3;  // what is so little aside is within as many

@@ -37,7 +37,7 @@ struct Track {
   }
 
  private:
-  static constexpr double kDriftStepsPerM = 1e5;
+  static constexpr double kDriftStepsPerM = 1e5;  // of 0.01 mm, see drift_steps
 };
 
 struct Place {

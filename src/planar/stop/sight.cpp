@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kRingCells = kRings * kAzimuths;  // of one kind
 constexpr std::uint32_t kCounts = (kRings + 1) * kRow;    // a ring behind the last: where passes end
-constexpr float kReach_m = kRings * kRing_m;
+constexpr float kReach_m = kRings * kRing_m;              // where the last ring ends
 constexpr float kBefore_m = 0.2F;               // a ray that ends on a thing shows nothing so shortly before it
 constexpr float kHeightNoise_m = 0.02F;         // of a ray, from its range and the floor's plane
 constexpr float kLevel = 1e-4F;                 // a slope: less than a millimetre within reach
@@ -133,7 +133,7 @@ void Sight::put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m,
   those &= (fall_m < all_four(band_fall_m_)) & (fall_m > all_four(top_fall_m_)) & (range_m < all_four(kReach_m));
   const std::uint32_t lanes = bits_of(those);
   if (lanes == 0) return;
-  constexpr float kEighths = 8.0F / kRing_m;
+  constexpr float kEighths = 8.0F / kRing_m;  // of a ring, to a metre
   const FourInts eighths = cut_off(smaller_of(range_m * kEighths, all_four(8.0F * kRings - 1.0F)));
   const FourInts high = (fall_m <= all_four(thing_fall_m_)) & static_cast<std::int32_t>(kRingCells);
   static_assert(kAzimuths == 1U << 9U, "a shift of the ring");

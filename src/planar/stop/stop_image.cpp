@@ -18,7 +18,7 @@ static_assert(sizeof(pose_wall_planar_stop_image) == POSE_WALL_PLANAR_STOP_IMAGE
                   POSE_WALL_PLANAR_STOP_IMAGE_BYTES % 4 == 0,
               "image.def and the compiler disagree");
 
-constexpr double kNanosecondsPerMillisecond = 1e6;
+constexpr double kNanosecondsPerMillisecond = 1e6;  // of stamps, by definition
 
 void add_number(double number, Crc32* sum) {
   const double one_zero = number + 0.0;  // -0 and 0 are the same setting
