@@ -32,7 +32,7 @@ Mount mount_of(const pose_wall_config& config) {
   mount.forward_base = forward_of(config);
   mount.range_min_m = number_of(config, "range_min");
   mount.range_max_m = number_of(config, "range_max");
-  constexpr const char* kBoxes[BodyBoxes::kOfConfig] = {"body_box_1", "body_box_2", "body_box_3", "body_box_4"};
+  static constexpr const char* kBoxes[BodyBoxes::kOfConfig] = {"body_box_1", "body_box_2", "body_box_3", "body_box_4"};
   for (std::uint32_t k = 0; k < BodyBoxes::kOfConfig; ++k) {
     double edges_m[6] = {};
     (void)pose_wall_config_get_box(&config, kBoxes[k], edges_m);
