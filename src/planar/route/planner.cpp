@@ -100,11 +100,11 @@ bool Planner::go_straight() {
 }
 
 bool Planner::spread(const Lattice& lattice, const Shape& circle, std::uint32_t longest) {
-  const Places places = Places::of(grid_, lattice.step_cells());
+  const LatticePlaces places = LatticePlaces::of(grid_, lattice.step_cells());
   if (places.count() > field_.capacity()) return false;
   coarse_.read_coarse(grid_, lattice.step_cells());
   field_.begin(&lattice, seen_by(lattice), &circle, places, longest);
-  const DistanceField::Target about_goal = Search::around(grid_, lattice, goal_);
+  const CostToGo::Target about_goal = Search::around(grid_, lattice, goal_);
   for (std::int32_t r = about_goal.row - about_goal.reach; r <= about_goal.row + about_goal.reach; ++r) {
     for (std::int32_t c = about_goal.column - about_goal.reach; c <= about_goal.column + about_goal.reach; ++c) {
       if (!places.holds(c, r)) continue;
@@ -141,7 +141,7 @@ std::uint32_t Planner::search(pose_wall_planar_plan_result* result) {
                             seen_by(lattice),
                             &field_,
                             &sweeps_,
-                            Places::of(grid_, lattice.step_cells()),
+                            LatticePlaces::of(grid_, lattice.step_cells()),
                             costs_,
                             settings_.weight,
                             settings_.hurry_after,
@@ -256,7 +256,7 @@ bool Planner::is_wide_enough(double radius_cells) {
 // stretch, but not for as long: the middle of the longest stretch with no more room is the place.
 void Planner::find_bottleneck(double fits_cells, pose_wall_planar_plan_result* result) {
   const std::int32_t step = lattice_[1].step_cells();
-  const Places places = Places::of(grid_, step);
+  const LatticePlaces places = LatticePlaces::of(grid_, step);
   const auto most = static_cast<std::int32_t>(fits_cells) + 3;
   const auto room_at = [&](std::uint32_t place) {
     return grid_.clearance(places.column(place) * step, places.row(place) * step, most);

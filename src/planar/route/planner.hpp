@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "planar/route/bit_grid.hpp"
-#include "planar/route/distance_field.hpp"
+#include "planar/route/cost_to_go.hpp"
 #include "planar/route/footprint.hpp"
 #include "planar/route/lattice.hpp"
 #include "planar/route/leg.hpp"
@@ -50,7 +50,7 @@ class Planner {
   Sweeps sweeps_;
   Lattice lattice_[kLevels];
   Shape narrow_;  // a circle smaller than the machine
-  DistanceField field_;
+  CostToGo field_;
   Search search_;
   Span<Corner> corners_;
   std::uint32_t count_ = 0;

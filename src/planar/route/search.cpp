@@ -32,11 +32,11 @@ void Search::lay_out(Arena& arena, std::uint32_t places_table, std::uint32_t pla
   open_.lay_out(arena, open_most);
 }
 
-DistanceField::Target Search::around(const BitGrid& grid, const Lattice& lattice, const Pose2& pose) {
+CostToGo::Target Search::around(const BitGrid& grid, const Lattice& lattice, const Pose2& pose) {
   const Eigen::Vector2d at = grid.in_cells(pose.place()) / lattice.step_cells();
   return {static_cast<std::int32_t>(at.x() + 0.5), static_cast<std::int32_t>(at.y() + 0.5), kReach};
 }
-DistanceField::Target Search::around(const Pose2& pose) const {
+CostToGo::Target Search::around(const Pose2& pose) const {
   return around(*task_.grid.exact, *task_.lattice, pose);
 }
 
@@ -175,9 +175,9 @@ void Search::start_at(std::int32_t column, std::int32_t row, std::int32_t gear) 
 
 // A place near enough to be joined with a pose. In a narrow road only those straight ahead or behind can be.
 bool Search::is_about(const Pose2& pose, std::int32_t column, std::int32_t row) const {
-  const DistanceField::Target target = around(pose);
+  const CostToGo::Target target = around(pose);
   if (target.holds(column, row)) return true;
-  const DistanceField::Target wide{target.column, target.row, kReachStraight};
+  const CostToGo::Target wide{target.column, target.row, kReachStraight};
   if (!wide.holds(column, row)) return false;
   const double step = task_.lattice->step_cells();
   const Eigen::Vector2d off = task_.grid.exact->in_map(column * step, row * step) - pose.place();
@@ -185,7 +185,7 @@ bool Search::is_about(const Pose2& pose, std::int32_t column, std::int32_t row) 
 }
 
 void Search::start_from() {
-  const DistanceField::Target target = around(task_.start);
+  const CostToGo::Target target = around(task_.start);
   for (std::int32_t row = target.row - kReachStraight; row <= target.row + kReachStraight; ++row) {
     for (std::int32_t column = target.column - kReachStraight; column <= target.column + kReachStraight; ++column) {
       if (!is_about(task_.start, column, row)) continue;

@@ -11,7 +11,7 @@
 #include "base/containers/arena.hpp"
 #include "base/containers/span.hpp"
 #include "planar/route/bit_grid.hpp"
-#include "planar/route/distance_field.hpp"
+#include "planar/route/cost_to_go.hpp"
 #include "planar/route/footprint.hpp"
 #include "planar/route/lattice.hpp"
 #include "planar/route/leg.hpp"
@@ -29,9 +29,9 @@ class Search {
   struct Task {
     const Lattice* lattice = nullptr;
     LatticeGrid grid;
-    const DistanceField* field = nullptr;
+    const CostToGo* field = nullptr;
     Sweeps* sweeps = nullptr;
-    Places places;
+    LatticePlaces places;
     Costs costs;
     double weight = 1.0;            // of the distance to the goal
     std::uint32_t hurry_after = 0;  // expansions after which the weight grows, again and again; 0: never
@@ -54,8 +54,8 @@ class Search {
 
   // Start and goal are connected with places at most so many steps away; straight ahead and behind with farther ones.
   static constexpr std::int32_t kReach = 6, kReachStraight = 20;
-  DistanceField::Target around(const Pose2& pose) const;
-  static DistanceField::Target around(const BitGrid& grid, const Lattice& lattice, const Pose2& pose);
+  CostToGo::Target around(const Pose2& pose) const;
+  static CostToGo::Target around(const BitGrid& grid, const Lattice& lattice, const Pose2& pose);
 
  private:
   // Numbers that no state has:

@@ -4,18 +4,18 @@
 // Dijkstra's algorithm with buckets as wide as the shortest step: within a bucket no place can better another one (Dial
 // 1969; Goldberg 2001), so the order inside does not matter.
 
-#include "planar/route/distance_field.hpp"
+#include "planar/route/cost_to_go.hpp"
 
 namespace pose_wall::planar::route {
 
-void DistanceField::lay_out(Arena& arena, std::uint32_t places) {
+void CostToGo::lay_out(Arena& arena, std::uint32_t places) {
   distance_ = arena.take<std::uint32_t>(places);
   next_ = arena.take<std::uint32_t>(places);
   before_ = arena.take<std::uint32_t>(places);
 }
 
-void DistanceField::begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const Places& places,
-                          std::uint32_t longest) {
+void CostToGo::begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const LatticePlaces& places,
+                     std::uint32_t longest) {
   moves_count_ = 0;
   for (std::uint32_t k = 0; k < lattice->headings(); ++k) {
     if (lattice->heading(k).length <= longest) moves_[moves_count_++] = &lattice->heading(k);
@@ -31,7 +31,7 @@ void DistanceField::begin(const Lattice* lattice, const LatticeGrid& grid, const
   is_cut_ = false;
 }
 
-bool DistanceField::is_free(std::uint32_t place, std::int32_t column, std::int32_t row) {
+bool CostToGo::is_free(std::uint32_t place, std::int32_t column, std::int32_t row) {
   if (distance_[place] == kBlocked) return false;
   if (distance_[place] != kUnknown) return true;
   if (grid_.is_free(*circle_, column, row)) return true;
@@ -39,7 +39,7 @@ bool DistanceField::is_free(std::uint32_t place, std::int32_t column, std::int32
   return false;
 }
 
-void DistanceField::put(std::uint32_t place, std::uint32_t distance) {
+void CostToGo::put(std::uint32_t place, std::uint32_t distance) {
   distance_[place] = distance;
   std::uint32_t& head = head_[distance / width_ % kBuckets];
   next_[place] = head;
@@ -49,7 +49,7 @@ void DistanceField::put(std::uint32_t place, std::uint32_t distance) {
   ++waiting_;
 }
 
-void DistanceField::take_out(std::uint32_t place) {
+void CostToGo::take_out(std::uint32_t place) {
   const std::uint32_t before = before_[place], next = next_[place];
   if (before != kNone) {
     next_[before] = next;
@@ -60,7 +60,7 @@ void DistanceField::take_out(std::uint32_t place) {
   --waiting_;
 }
 
-void DistanceField::seed(std::uint32_t place, std::uint32_t distance) {
+void CostToGo::seed(std::uint32_t place, std::uint32_t distance) {
   if (!is_free(place, places_.column(place), places_.row(place))) return;
   if (distance_[place] != kUnknown) {
     if (distance_[place] <= distance) return;
@@ -69,7 +69,7 @@ void DistanceField::seed(std::uint32_t place, std::uint32_t distance) {
   put(place, distance);
 }
 
-void DistanceField::relax_from(std::uint32_t place) {
+void CostToGo::relax_from(std::uint32_t place) {
   const std::int32_t column = places_.column(place), row = places_.row(place);
   looks_ += moves_count_;
   for (std::uint32_t k = 0; k < moves_count_; ++k) {
@@ -84,7 +84,7 @@ void DistanceField::relax_from(std::uint32_t place) {
   }
 }
 
-bool DistanceField::spread(const Target& target) {
+bool CostToGo::spread(const Target& target) {
   bool is_met = false;
   std::uint32_t empty = 0;  // buckets in a row
   // A seed lies at most a few steps away, so the first bucket is among the first sixteen.
@@ -111,7 +111,7 @@ bool DistanceField::spread(const Target& target) {
   return is_met;
 }
 
-std::uint32_t DistanceField::step_down(std::uint32_t place) const {
+std::uint32_t CostToGo::step_down(std::uint32_t place) const {
   std::uint32_t best = place;
   for (std::uint32_t k = 0; k < moves_count_; ++k) {
     const std::int32_t c = places_.column(place) + moves_[k]->dx;

@@ -16,10 +16,10 @@
 namespace pose_wall::planar::route {
 
 // Places of a lattice over a grid: column and row in steps, and their number.
-struct Places {
+struct LatticePlaces {
   std::int32_t columns = 0, rows = 0;
 
-  static Places of(const BitGrid& grid, std::int32_t step_cells) {
+  static LatticePlaces of(const BitGrid& grid, std::int32_t step_cells) {
     return {grid.width() / step_cells + 1, grid.height() / step_cells + 1};
   }
   std::uint32_t count() const { return static_cast<std::uint32_t>(columns) * static_cast<std::uint32_t>(rows); }
@@ -37,7 +37,7 @@ struct Places {
   }
 };
 
-class DistanceField {
+class CostToGo {
  public:
   // No distances, which end at kUnitsMost:
   static constexpr std::uint32_t kUnknown = 0xFFFFFFFFU, kBlocked = 0xFFFFFFFEU, kFar = 0xFFFFFFFDU;
@@ -47,7 +47,7 @@ class DistanceField {
 
   // begin, seeds, then spread. The field ends `beyond` of the distance behind the place where it first meets `target`.
   // Only the lattice's vectors up to `longest` (in units) are moves: a longer one leaps over rock that is thinner.
-  void begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const Places& places,
+  void begin(const Lattice* lattice, const LatticeGrid& grid, const Shape* circle, const LatticePlaces& places,
              std::uint32_t longest);
   void seed(std::uint32_t place, std::uint32_t distance);
   struct Target {
@@ -90,7 +90,7 @@ class DistanceField {
   std::uint64_t looks_ = 0;
   std::uint32_t width_ = 1, end_ = 0, settled_ = 0, waiting_ = 0, met_ = 0;
   bool is_cut_ = false;
-  Places places_;
+  LatticePlaces places_;
   LatticeGrid grid_;
   const Shape* circle_ = nullptr;
 };
