@@ -46,19 +46,20 @@ class Windows {
 
  private:
   const Scan& scan_;
-  const Alignment middle_;
+  const Alignment& middle_;
   CurveScratch* scratch_;
   Work* work_;
 };
 
 }  // namespace
 
-Curve match_far(const Scan& scan, double far_m, bool placed, CurveScratch* scratch, Work* work, Alignment* alignment) {
+FarPlace match_far(const Scan& scan, double far_m, bool placed, const Alignment& middle, CurveScratch* scratch,
+                   Work* work) {
   const double needed = far_m / (2.0 * kReachMost_m) + 1.0;
   const int windows = needed < kWindowsMost ? static_cast<int>(needed) : kWindowsMost, count = 2 * windows + 1;
   const Drawn& drawn = placed ? kOfPlaced : count <= kCurvesInFull ? kFull : kCoarse;
   const bool in_full = &drawn == &kFull;
-  const Windows draw_window(scan, *alignment, scratch, work);
+  const Windows draw_window(scan, middle, scratch, work);
   Curve found[2 * kWindowsMost + 1];
   int best = 0;
   for (int k = 0; k < count; ++k) {
@@ -71,9 +72,9 @@ Curve match_far(const Scan& scan, double far_m, bool placed, CurveScratch* scrat
     const bool rivals = found[k].told && found[k].bottom < kRivalCost * found[best].bottom;
     if (rivals && away_m > 2.0 * kReachMost_m) apart_m = away_m + kReachMost_m;
   }
-  Curve out = in_full ? found[best] : draw_window.draw(best - windows, kFull);
-  if (apart_m > 0.0) out.apart_m = in_full ? apart_m : larger(apart_m, out.apart_m);
-  alignment->pose.t += Windows::way_m(best - windows) * alignment->axes.along;
+  FarPlace out = {in_full ? found[best] : draw_window.draw(best - windows, kFull), middle.pose.t};
+  if (apart_m > 0.0) out.curve.apart_m = in_full ? apart_m : larger(apart_m, out.curve.apart_m);
+  out.t += Windows::way_m(best - windows) * middle.axes.along;
   return out;
 }
 

@@ -12,9 +12,15 @@ namespace pose_wall::motion {
 
 constexpr double kReachMost_m = 0.4;  // of one curve, to each side
 
-// Moves the alignment to the middle of the best curve, and gives that. If another one that is not its neighbour fits
-// nearly as well, that is a second place, even if it is no evidence by itself. placed: a wide start has found the scan,
-// at a cost that leaves less for the curves.
-Curve match_far(const Scan& scan, double far_m, bool placed, CurveScratch* scratch, Work* work, Alignment* alignment);
+// The best curve, and the place of its middle.
+struct FarPlace {
+  Curve curve;
+  Eigen::Vector3d t;
+};
+
+// If another curve that is not the best one's neighbour fits nearly as well, that is a second place, even if it is no
+// evidence by itself. placed: a wide start has found the scan, at a cost that leaves less for the curves.
+FarPlace match_far(const Scan& scan, double far_m, bool placed, const Alignment& middle, CurveScratch* scratch,
+                   Work* work);
 
 }  // namespace pose_wall::motion

@@ -1,45 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The data of one frame, from stage to stage.
+// What a frame is given: its cloud and time, the settings, and the machine's course up to then. No step of a frame
+// writes any of it.
 
 #pragma once
 
-#include "motion/along_match.hpp"
-#include "motion/features.hpp"
-#include "motion/machine_prior.hpp"
 #include "motion/registration.hpp"
-#include "motion/segmentation.hpp"
 #include "motion/travel.hpp"
 #include "pose_wall_motion.h"
 
 namespace pose_wall::motion {
 
+struct MotionSettings {
+  double speed_max_m_s = 2.0, turn_max_rad_s = 1.5, keyframe_m = 0.2;
+  double protection_sigmas = 0.0;  // by the engine's integrity_risk
+  Eigen::Vector3d forward_base = Eigen::Vector3d::UnitX();
+};
+
 struct Frame {
-  explicit Frame(const pose_wall_cloud& taken) : cloud(taken) {}
-
   const pose_wall_cloud& cloud;
-  double dt_s = 0.0;  // since the map's last scan was placed
-  bool first = false;
-  MachinePrior prior;
-  Pose expected;
-  Segments segments;
-  FeatureCounts features;
-  Span<Observation> observations;
-  bool wide = false;  // it took a wide start
-  Alignment alignment;
-  Curve curve;
-  double halves_m = -1.0;  // negative: not measured
-  bool guessed = false;    // the way along is a guess that is better than the last speed
-  double slip_m = 0.0;     // the unknown way along since the last frame, beyond sigma
-  std::uint32_t reasons = 0, state = POSE_WALL_ALONG_MEASURED;
-  double step_s = 0.0;  // since the last frame that had a pose
-  Eigen::Vector3d step_m = Eigen::Vector3d::Zero(), step_rad = Eigen::Vector3d::Zero();
-  Six step_variance = Six::Zero();  // by the patches of rock alone
-  Bounds step, whole;
+  double dt_s;    // since the map's last scan was placed
+  bool is_first;  // there is no map yet
+  bool is_late;   // by what is usual
+};
 
-  bool is(std::uint32_t along_state) const { return state == along_state; }
-  bool has_stamp() const { return (reasons & POSE_WALL_MOTION_R_STAMP) == 0; }
+// Where the machine stands on the map, how it came there, and how well that is known: all that a frame's place hangs on
+// beside map and motion.
+struct Course {
+  Pose pose;
+  RoadAxes axes;
+  SixBySix covariance = SixBySix::Zero();  // of the last alignment, with what slip adds
+  SixBySix of_rock = SixBySix::Zero();     // the same by the patches of rock alone
+  double rock_variance_m2 = 0.0;           // of the way along by the rock, pooled over frames; 0: none yet on this map
+  Travel travel;
+  double slipped_m = 0.0;    // since the way was last known
+  double lost_s = 0.0;       // since the last pose, where the map began anew
+  std::uint32_t frames = 0;  // on this map
+  bool is_bent = false;      // the map's scans, by unknown motion
+  bool guesses = false;      // keyframes of unknown place since the way was last known
+
+  Bounds bounds(double factor) const { return travel.bounds(covariance, slipped_m, factor); }
 };
 
 }  // namespace pose_wall::motion

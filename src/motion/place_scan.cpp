@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "motion/place_scan.hpp"
+
+#include <cmath>
+
+#include "motion/far_match.hpp"
+#include "motion/frame_steps.hpp"
+#include "motion/wide_start.hpp"
+
+namespace pose_wall::motion {
+namespace {
+
+constexpr std::uint32_t kMatchedLeast = 80;
+constexpr double kShareLost = 0.2;    // of the observations on the map: less, and the scan is elsewhere
+constexpr double kShareFound = 0.45;  // more, and a guess needs no wide start
+constexpr double kGap_s = 0.35;       // without a frame: longer, and a guess by the last speed is none
+// Without evidence: the limits that separate smooth rock from few patches, and a guess from nothing.
+constexpr double kContrastLeast = 0.15, kGuessPatchesLeast = 3.5;
+// Two halves of the rock that differ widen sigma; that far apart one of them is wrong.
+constexpr double kHalvesMost_m = 0.12;
+constexpr std::uint32_t kEquationsMost = 2048;  // of the fine steps; all of a sparse sensor's count
+constexpr int kPassesMost = 4;                  // of coarse steps; judgement
+constexpr double kCurveStep_m = 0.025;
+constexpr double kReachMargin = 1.5;  // of the range of top speed and turn: a place there is not the edge of the search
+constexpr double kReachLeast_m = 0.2;  // of the curve, however little the machine can have slipped; judgement
+
+// Where the search along the road begins, and whether the scan fits there at all.
+struct Entry {
+  Pose pose;
+  bool wide, fits;
+};
+
+// The pose without its place along, and then with it.
+struct Way {
+  Curve curve;
+  Eigen::Vector3d t;
+  std::uint32_t state = POSE_WALL_ALONG_MEASURED, reasons = 0;
+  bool is_guessed = false;
+};
+
+class Placing {
+ public:
+  Placing(const Road& road, const Frame& frame, const Seen& seen, PlaceScratch* scratch, Work* work)
+      : road_(road),
+        frame_(frame),
+        observations_(seen.observations),
+        scan_{&road.map, seen.observations, road.sensor_base_m.cast<float>()},
+        s_(*scratch),
+        work_(*work) {}
+
+  // The expected place, or after a gap the one that a wide search finds.
+  Entry enter(const Pose& expected) {
+    const std::uint32_t stride = observations_.size() / 400 + 1;
+    const bool gap = frame_.dt_s > kGap_s;
+    const double share = share_on_map(road_.map, observations_, expected, stride);
+    if (share > (gap ? kShareFound : kShareLost)) return {expected, false, true};
+    Pose at = expected;
+    at.R = orthonormal(upright(observations_, at.R, road_.sensor_base_m) * at.R);
+    face(at.R, observations_);
+    const double dt = frame_.dt_s < 5.0 ? frame_.dt_s : 5.0;
+    const WideReach reach = {road_.settings.turn_max_rad_s * dt, road_.settings.speed_max_m_s * dt};
+    const bool fits = search_wide(road_.map, observations_, reach, &s_.starts, &work_, &at);
+    return {at, true, fits};
+  }
+
+  // By the planes, with the axes of the road there.
+  Alignment coarse(const Pose& at) {
+    Alignment a;
+    a.pose = at;
+    a.axes = road_.course.axes;
+    const Eigen::Vector3d forward = a.pose.R * road_.settings.forward_base;
+    find_axes(scan_, forward, &a);
+    StepOptions coarse;
+    coarse.with_along = a.axes.hold > kHoldOfHall;
+    coarse.every = 4;
+    bool moves = true;
+    for (int pass = 0; pass < kPassesMost && moves; ++pass) {
+      work_.add(observations_.size() / coarse.every, steps::kEquation);
+      moves = take_steps(scan_, coarse, &s_.steps, &a);
+    }
+    find_axes(scan_, forward, &a);
+    return a;
+  }
+
+  // The place along the road and its uncertainty.
+  Way match_way(const Alignment& a, bool wide) {
+    // Where planes face along, the wide start has placed the scan; along a road nothing has yet.
+    const bool far = frame_.dt_s > kGap_s && a.axes.hold < kHoldOfRoad;
+    const FarPlace place =
+        far ? match_far(scan_, road_.settings.speed_max_m_s * frame_.dt_s, wide, a, &s_.curve, &work_)
+            : FarPlace{match_near(a), a.pose.t};
+    Way out;
+    out.curve = place.curve;
+    out.t = place.t;
+    if (!is_evidence(out.curve)) {
+      const bool smooth = !(out.curve.contrast > kContrastLeast);
+      out.reasons = smooth ? POSE_WALL_MOTION_R_SMOOTH : POSE_WALL_MOTION_R_FEW_PATCHES;
+      out.state = POSE_WALL_ALONG_UNOBSERVABLE;
+      // Not worth a claim, but a better guess than the last speed: without it a sparse sensor that starts on the move
+      // never gets a map to claim by.
+      out.is_guessed = !smooth && out.curve.patches > kGuessPatchesLeast;
+      if (!out.is_guessed) return out;
+    } else if (out.curve.apart_m > 0.0) {
+      out.reasons = POSE_WALL_MOTION_R_SECOND_PEAK;
+      out.state = POSE_WALL_ALONG_AMBIGUOUS;
+    }
+    out.t += out.curve.best_m * a.axes.along;
+    return out;
+  }
+
+  // By the relief.
+  Alignment fine(Alignment a) {
+    StepOptions fine;
+    fine.use_relief = true;
+    fine.every = (observations_.size() + kEquationsMost - 1) / kEquationsMost;
+    fine.rounds = 3;
+    work_.add(observations_.size() / fine.every, steps::kEquation);
+    take_steps(scan_, fine, &s_.steps, &a);
+    return a;
+  }
+
+  // The last centimetres along the road.
+  FinePlace refine(const Alignment& a) {
+    work_.add(steps::of_curve(observations_.size(), kRowsMost, kFineShifts));
+    return refine_along(scan_, a, &s_.curve);
+  }
+
+  // A fit that needs more motion than the machine is capable of is none. Dust turned it upside down, frame by frame.
+  bool is_in_reach(const Alignment& a) const {
+    const Pose& last = road_.course.pose;
+    const Eigen::Vector3d moved_m = a.pose.t - last.t, beside_m = moved_m - a.axes.along * a.axes.along.dot(moved_m);
+    const double turned_rad = std::sqrt(turn_of(last.R.transpose() * a.pose.R).squaredNorm());
+    const double reach_s = kReachMargin * frame_.dt_s;
+    return std::sqrt(beside_m.squaredNorm()) <= road_.settings.speed_max_m_s * reach_s &&
+           turned_rad <= road_.settings.turn_max_rad_s * reach_s;
+  }
+
+ private:
+  // The curve about the expected place.
+  Curve match_near(const Alignment& a) {
+    const double start_m = road_.course.frames == 0 ? kReachMargin * road_.settings.speed_max_m_s * frame_.dt_s : 0.0;
+    double reach = road_.course.slipped_m + start_m;
+    reach = reach < kReachLeast_m ? kReachLeast_m : reach > kReachMost_m ? kReachMost_m : reach;
+    const std::uint32_t shifts = 2 * static_cast<std::uint32_t>(reach / kCurveStep_m + 0.5) + 1;
+    work_.add(steps::of_curve(observations_.size(), kRowsMost, shifts));
+    return match_along(scan_, a, reach, shifts, &s_.curve);
+  }
+
+  const Road& road_;
+  const Frame& frame_;
+  Span<Observation> observations_;
+  const Scan scan_;
+  PlaceScratch& s_;
+  Work& work_;
+};
+
+// One frame's own estimate of it has heavy tails, and the rock does not change from frame to frame.
+double pooled(double own_m2, double before_m2) {
+  return before_m2 > 0.0 ? 0.5 * (own_m2 + before_m2) : own_m2;
+}
+
+// Variance of the refined way.
+double variance_along(const Road& road, const Curve& curve, double rock_variance_m2) {
+  // Shifts further off than the curve's own steps resolve, which the patches do not exclude, are within the level.
+  const double around_m = curve.around_m > 2.5 * kCurveStep_m ? curve.around_m : 0.0;
+  const double sigma_m = around_m / road.settings.protection_sigmas;
+  const double variance_m2 = sigma_m * sigma_m > rock_variance_m2 ? sigma_m * sigma_m : rock_variance_m2;
+  // The place in a cell where one scan met the rock is chance, the same for all rows that one ring drew. So a young map
+  // errs as a whole. Of a start in motion 8 of 8 roads erred by 5 to 30 mm, and patches indicated 5.
+  const double cell_m = 1.0 / kAlongCells, of_map_m = cell_m / road.map.keyframes();
+  return variance_m2 + of_map_m * of_map_m / 12.0;
+}
+
+Placed refined(Placed placed, const Road& road, const FinePlace& fine) {
+  if (!(fine.told && fine.halves_m < kHalvesMost_m)) {
+    placed.reasons |= POSE_WALL_MOTION_R_HALVES_DIFFER;
+    placed.state = POSE_WALL_ALONG_UNOBSERVABLE;
+    return placed;
+  }
+  placed.alignment.pose.t += fine.best_m * placed.alignment.axes.along;
+  placed.rock_variance_m2 = pooled(fine.sigma_m * fine.sigma_m, placed.rock_variance_m2);
+  placed.alignment.covariance(0, 0) = variance_along(road, placed.curve, placed.rock_variance_m2);
+  placed.halves_m = fine.halves_m;
+  return placed;
+}
+
+std::uint32_t bit(bool is_set, std::uint32_t reason) {
+  return is_set ? reason : 0U;
+}
+
+Placed lost(Placed placed, std::uint32_t reason) {
+  placed.state = POSE_WALL_ALONG_LOST;
+  placed.reasons |= reason;
+  return placed;
+}
+
+}  // namespace
+
+void PlaceScratch::lay_out(Arena& arena) {
+  const std::uint64_t place = arena.place();
+  steps.lay_out(arena);
+  curve.lay_out(arena);
+  arena.go_back(place);
+  starts.lay_out(arena);
+  arena.go_behind_all();
+}
+
+Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, const Seen& seen, PlaceScratch* scratch,
+                  Work* work) {
+  Placed out;
+  out.reasons = bit(frame.dt_s > kGap_s && frame.is_late, POSE_WALL_MOTION_R_GAP);
+  out.rock_variance_m2 = road.course.rock_variance_m2;
+  Placing placing(road, frame, seen, scratch, work);
+  const Entry entry = placing.enter(expected);
+  out.wide = entry.wide;
+  if (!entry.fits) return lost(out, POSE_WALL_MOTION_R_FEW_MATCHES);
+  Alignment& a = out.alignment;
+  a = placing.coarse(entry.pose);
+  const Way way = placing.match_way(a, entry.wide);
+  out.curve = way.curve;
+  out.is_guessed = way.is_guessed;
+  out.state = way.state;
+  a.pose.t = way.t;
+  a = placing.fine(a);
+  out.reasons |= way.reasons | bit(!a.ground_alone, POSE_WALL_MOTION_R_NO_GROUND);
+  if (!out.is(POSE_WALL_ALONG_UNOBSERVABLE)) out = refined(out, road, placing.refine(a));
+  if (a.matched < kMatchedLeast) out = lost(out, POSE_WALL_MOTION_R_FEW_MATCHES);
+  if (!placing.is_in_reach(a)) out = lost(out, POSE_WALL_MOTION_R_AT_EDGE);
+  return out;
+}
+
+}  // namespace pose_wall::motion
