@@ -12,25 +12,29 @@ constexpr double kBentShare = 0.1;  // of a step, while scans are bent: the diff
 // Slopes of a steady bend that spread by s over 20 m of map turn by 0.17 s a metre.
 constexpr double kBendOfSpread = 0.17;
 
-// The alignment with the machine's own data.
+// The way along with the machine's own data.
 struct Weighed {
-  Alignment alignment;
+  Eigen::Vector3d t;
+  double variance_m2;
   std::uint32_t reasons = 0;
 };
 
 // The given way stands alone without evidence of the rock. Otherwise it is weighed in or refused.
 Weighed weigh(const Road& road, const MachinePrior& prior, const Placed& placed) {
-  Weighed out = {placed.alignment};
+  const Alignment& a = placed.alignment;
+  Weighed out = {a.pose.t, a.covariance(0, 0)};
   if (!prior.has_way()) return out;
-  Alignment& a = out.alignment;
   const Pose& last = road.course.pose;
   const double towards = (last.R * road.settings.forward_base).dot(a.axes.along);
   const double way_m = (a.pose.t - last.t).dot(a.axes.along);
   if (!placed.is(POSE_WALL_ALONG_MEASURED)) {
-    a.pose.t += (prior.way_m * towards - way_m) * a.axes.along;
-  } else if (!weigh_in(prior, towards, way_m, road.settings.protection_sigmas, &a)) {
-    out.reasons = POSE_WALL_MOTION_R_PRIOR;
+    out.t += (prior.way_m * towards - way_m) * a.axes.along;
+    return out;
   }
+  const WeighedWay way = weigh_in(prior, towards, way_m, out.variance_m2, road.settings.protection_sigmas);
+  if (!way.agrees) out.reasons = POSE_WALL_MOTION_R_PRIOR;
+  if (way.agrees) out.t += way.further_m * a.axes.along;
+  out.variance_m2 = way.variance_m2;
   return out;
 }
 
@@ -44,36 +48,21 @@ double slip_of(const MotionSettings& settings, const Frame& frame, const Machine
 }
 
 // What the patches of rock say of this step.
-SixBySix of_rock(const Course& last, const Alignment& a, bool measured, double along_m) {
-  SixBySix out = a.covariance;
-  if (last.is_bent) out(0, 0) += kBentShare * kBentShare * along_m * along_m;
-  if (!measured) {
-    out.row(0).setZero();
-    out.col(0).setZero();
-  }
-  return out;
+void take_rock(const Course& last, const Alignment& a, double variance_m2, bool measured, double along_m,
+               SixBySix* covariance) {
+  SixBySix& C = *covariance;
+  C = a.covariance;
+  C(0, 0) = variance_m2;
+  if (last.is_bent) C(0, 0) += kBentShare * kBentShare * along_m * along_m;
+  if (measured) return;
+  C.row(0).setZero();
+  C.col(0).setZero();
 }
 
 // Where the road bends or dips, the slipped machine follows it.
-SixBySix with_bend(SixBySix covariance, const ReliefMap& map, double slip_m) {
+void add_bend(const ReliefMap& map, double slip_m, SixBySix* covariance) {
   const double bend_rad = kBendOfSpread * map.unevenness() * slip_m;
-  covariance(POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_PITCH) += bend_rad * bend_rad;
-  covariance(POSE_WALL_MOTION_YAW, POSE_WALL_MOTION_YAW) += bend_rad * bend_rad;
-  return covariance;
-}
-
-// The motion since the last frame, before the course takes it in.
-MotionStep step_of(const Road& road, const Frame& frame, const MachinePrior& prior, const Placed& placed,
-                   const Alignment& a) {
-  const Course& last = road.course;
-  MotionStep step;
-  step.m = last.pose.R.transpose() * (a.pose.t - last.pose.t);
-  step.rad = turn_of(last.pose.R.transpose() * a.pose.R);
-  step.along_m = (a.pose.t - last.pose.t).dot(a.axes.along);
-  step.slip_m = slip_of(road.settings, frame, prior, placed, step.along_m);
-  step.is_along_known = placed.is(POSE_WALL_ALONG_MEASURED) || prior.has_way();
-  step.s = frame.dt_s;
-  return step;
+  for (const int k : {POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_YAW}) (*covariance)(k, k) += bend_rad * bend_rad;
 }
 
 }  // namespace
@@ -81,29 +70,31 @@ MotionStep step_of(const Road& road, const Frame& frame, const MachinePrior& pri
 Concluded conclude(const Road& road, const Frame& frame, const MachinePrior& prior, const Placed& placed) {
   const Course& last = road.course;
   const MotionSettings& settings = road.settings;
+  const Alignment& a = placed.alignment;
   const bool measured = placed.is(POSE_WALL_ALONG_MEASURED);
   const Weighed weighed = weigh(road, prior, placed);
-  const Alignment& a = weighed.alignment;
-  Concluded out;
-  out.reasons = weighed.reasons;
-  MotionStep& step = out.step;
-  step = step_of(road, frame, prior, placed, a);
+  const Eigen::Vector3d move_m = weighed.t - last.pose.t;
+  const double along_m = move_m.dot(a.axes.along);
+  Concluded out = {last, {}, {}, weighed.reasons};
   Course& next = out.course;
-  next = last;
-  next.pose = a.pose;
+  next.pose = {a.pose.R, weighed.t};
   next.axes = a.axes;
-  next.of_rock = of_rock(last, a, measured, step.along_m);
-  next.covariance = measured ? next.of_rock : with_bend(next.of_rock, road.map, step.slip_m);
   next.rock_variance_m2 = placed.rock_variance_m2;
-  next.travel.go(step.along_m);
+  next.travel.go(along_m);
+  MotionStep& step = out.step;
+  step.s = frame.dt_s + last.lost_s;
+  step.m = last.pose.R.transpose() * move_m;
+  step.rad = turn_of(last.pose.R.transpose() * a.pose.R);
+  step.is_along_known = measured || prior.has_way();
+  step.slip_m = slip_of(settings, frame, prior, placed, along_m);
+  take_rock(last, a, weighed.variance_m2, measured, along_m, &next.of_rock);
+  next.covariance = next.of_rock;
+  if (!measured) add_bend(road.map, step.slip_m, &next.covariance);
   step.variance = Travel::variance_of_step(last.of_rock, next.of_rock);
   const double slip_m = measured ? last.slipped_m : step.slip_m;  // the first one found makes up for the others
   step.bounds = Travel::of_step(last.covariance, next.covariance, slip_m, settings.protection_sigmas);
-  if (last.lost_s > 0.0) {
-    step.bounds.widen(settings.speed_max_m_s * last.lost_s, settings.turn_max_rad_s * last.lost_s);
-    step.s += last.lost_s;
-    next.lost_s = 0.0;
-  }
+  step.bounds.widen(settings.speed_max_m_s * last.lost_s, settings.turn_max_rad_s * last.lost_s);
+  next.lost_s = 0.0;
   // A place found again in the map undoes the slip since, unless guesses went into the map.
   if (measured && last.guesses) next.travel.slip(last.slipped_m, 0.0);
   next.slipped_m = measured ? 0.0 : last.slipped_m + step.slip_m;

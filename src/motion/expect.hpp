@@ -24,7 +24,6 @@ struct MotionStep {
   Eigen::Vector3d m = Eigen::Vector3d::Zero(), rad = Eigen::Vector3d::Zero();
   Six variance = Six::Zero();  // by the patches of rock alone
   Bounds bounds;
-  double along_m = 0.0;         // of it, by the axis of the road
   double slip_m = 0.0;          // the unknown way along, beyond sigma
   bool is_along_known = false;  // by the rock or by the machine
 };

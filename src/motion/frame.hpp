@@ -20,9 +20,8 @@ struct MotionSettings {
 
 struct Frame {
   const pose_wall_cloud& cloud;
-  double dt_s;    // since the map's last scan was placed
-  bool is_first;  // there is no map yet
-  bool is_late;   // by what is usual
+  double dt_s;   // since the map's last scan was placed
+  bool is_late;  // by what is usual
 };
 
 // Where the machine stands on the map, how it came there, and how well that is known: all that a frame's place hangs on

@@ -10,7 +10,8 @@ namespace {
 
 // Shaking of a machine that reports that it stands.
 constexpr double kStandingSigma_m = 0.001, kStandingSigma_rad = 0.0005;
-constexpr double kMost = 50.0;  // m and rad a frame: beyond all machines
+constexpr double kMost = 50.0;            // m and rad a frame: beyond all machines
+constexpr double kNoVariance_m2 = 1e-12;  // keeps two ways without any variance from being divided by nothing
 
 }  // namespace
 
@@ -39,14 +40,12 @@ MachinePrior ask_machine(const pose_wall_inputs* inputs, double dt_s) {
   return prior;
 }
 
-bool weigh_in(const MachinePrior& prior, double towards, double way_m, double factor, Alignment* a) {
-  const double variance = prior.way_sigma_m * prior.way_sigma_m, of_rock = a->covariance(0, 0);
+WeighedWay weigh_in(const MachinePrior& prior, double towards, double way_m, double variance_m2, double factor) {
+  const double own_m2 = prior.way_sigma_m * prior.way_sigma_m;
   const double difference_m = prior.way_m * towards - way_m;
-  if (!(difference_m * difference_m <= factor * factor * (variance + of_rock))) return false;
-  const double share = of_rock / (of_rock + variance + 1e-12);
-  a->pose.t += share * difference_m * a->axes.along;
-  a->covariance(0, 0) *= 1.0 - share;
-  return true;
+  if (!(difference_m * difference_m <= factor * factor * (own_m2 + variance_m2))) return {0.0, variance_m2, false};
+  const double share = variance_m2 / (variance_m2 + own_m2 + kNoVariance_m2);
+  return {share * difference_m, variance_m2 * (1.0 - share), true};
 }
 
 }  // namespace pose_wall::motion

@@ -5,7 +5,6 @@
 
 #pragma once
 
-#include "motion/registration.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall::motion {
@@ -21,9 +20,14 @@ struct MachinePrior {
 
 MachinePrior ask_machine(const pose_wall_inputs* inputs, double dt_s);
 
-// Weighs the given way into the rock's. way_m is that of the alignment along its axis; towards is the cosine between
-// forward_axis and the axis. False if they contradict each other by more than factor deviations; then the alignment is
-// unchanged.
-bool weigh_in(const MachinePrior& prior, double towards, double way_m, double factor, Alignment* alignment);
+// Weighs the given way into the rock's. way_m is the rock's along its axis, and variance_m2 its variance; towards is
+// the cosine between forward_axis and the axis. They contradict each other if they differ by more than factor
+// deviations; then the rock's way stays as it is.
+struct WeighedWay {
+  double further_m = 0.0;  // than the rock's
+  double variance_m2;
+  bool agrees = false;
+};
+WeighedWay weigh_in(const MachinePrior& prior, double towards, double way_m, double variance_m2, double factor);
 
 }  // namespace pose_wall::motion

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// A frame's findings in the form of the C ABI.
+// What each step of a frame gave, in the form of the C ABI.
 
 #pragma once
 
@@ -9,21 +9,16 @@
 
 namespace pose_wall::motion {
 
-// All that the steps of a frame gave. A frame that ends early has nothing of the later ones.
-struct Findings {
-  std::uint32_t state = POSE_WALL_ALONG_LOST, reasons = 0;
-  Seen seen;
-  Placed placed;
-  Concluded concluded;
-
-  bool has_pose() const { return state != POSE_WALL_ALONG_LOST; }
-  bool has_stamp() const { return (reasons & POSE_WALL_MOTION_R_STAMP) == 0; }
-};
-
 // A result without a pose: not a number, and levels without a bound.
 void report_nothing(pose_wall_motion_result* out);
 
-// start: base of the first frame in the map.
-void report(const Frame& frame, const Findings& found, const Pose& start, pose_wall_motion_result* out);
+// Each of the others goes on from there.
+void report(const Seen& seen, pose_wall_motion_result* out);
+void report(const Placed& placed, pose_wall_motion_result* out);
+void report(const MotionStep& step, pose_wall_motion_result* out);
+// start: base of the first frame in the map. is_start: this is that frame.
+void report(const Course& course, const Bounds& whole, const Pose& start, bool is_start, pose_wall_motion_result* out);
+// Where there is no pose the axis may still be known.
+void report_axis(const RoadAxes& axes, const Pose& start, pose_wall_motion_result* out);
 
 }  // namespace pose_wall::motion

@@ -44,84 +44,80 @@ void Odometry::reset() {
 void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* result) {
   work_ = Work{};
   const double dt_s = clock_.since_last_s(cloud.stamp_ns);
-  const Frame frame = {cloud, dt_s, !has_map_, clock_.is_late(dt_s)};
-  Findings found;
-  std::uint32_t points = 0;
+  const Frame frame = {cloud, dt_s, clock_.is_late(dt_s)};
+  report_nothing(result);
+  report_axis(RoadAxes{}, start_, result);
+  Verdict verdict;
   if (!clock_.goes_on(dt_s)) {
-    found = stay();
-    clock_.go_back(cloud.stamp_ns, dt_s);
+    verdict = stay(frame, result);
   } else if (imager_.repeats(cloud, reading_, model_.twist(), &work_)) {  // as if nothing had been seen
-    found.reasons = POSE_WALL_MOTION_R_REPEATED;
+    verdict.reasons = POSE_WALL_MOTION_R_REPEATED;
   } else {
-    found = measure(frame);
-    if (keyframes_.map().gave_way()) found.reasons |= POSE_WALL_MOTION_R_MAP_FULL;
-    // Time counts from the last frame with a pose: frames of nothing have no effect.
-    if (!has_map_ || found.seen.suffices()) clock_.take(cloud.stamp_ns, dt_s);
+    verdict = measure(frame, result);
+    if (keyframes_.map().gave_way()) verdict.reasons |= POSE_WALL_MOTION_R_MAP_FULL;
     clock_.go_on();
-    points = imager_.image().count;
+    result->points_used = imager_.image().count;
   }
-  has_pose_ = found.has_pose() && found.has_stamp();
-  report(frame, found, start_, result);
+  has_pose_ = verdict.state != POSE_WALL_ALONG_LOST && (verdict.reasons & POSE_WALL_MOTION_R_STAMP) == 0;
+  result->along_state = verdict.state;
+  result->reasons = verdict.reasons;
+  result->stamp_ns = cloud.stamp_ns;
+  result->points_in = static_cast<std::uint32_t>(static_cast<std::uint64_t>(cloud.width) * cloud.height);
   result->frame_index = clock_.frames();
-  result->along_m = found.has_pose() ? course_.travel.along_m() : not_a_number();
-  result->points_used = points;
   result->tiles = keyframes_.map().tiles();
   result->keyframes = keyframes_.count();
   clock_.count();
 }
 
 // Of a frame out of order nothing is taken: the last pose, and how well it is known.
-Findings Odometry::stay() const {
-  Findings out;
-  out.state = has_map_ ? POSE_WALL_ALONG_UNOBSERVABLE : POSE_WALL_ALONG_LOST;
-  out.reasons = POSE_WALL_MOTION_R_STAMP;
-  out.concluded = stand();
-  return out;
+Odometry::Verdict Odometry::stay(const Frame& frame, pose_wall_motion_result* result) {
+  clock_.go_back(frame.cloud.stamp_ns, frame.dt_s);
+  report_axis(course_.axes, start_, result);
+  if (!has_map_) return {POSE_WALL_ALONG_LOST, POSE_WALL_MOTION_R_STAMP};
+  report(course_, course_.bounds(settings_.protection_sigmas), start_, false, result);
+  return {POSE_WALL_ALONG_UNOBSERVABLE, POSE_WALL_MOTION_R_STAMP};
 }
 
-Concluded Odometry::stand() const {
-  Concluded out;
-  out.course = course_;
-  out.whole = course_.bounds(settings_.protection_sigmas);
-  return out;
-}
-
-Findings Odometry::measure(const Frame& frame) {
-  Findings out;
+Odometry::Verdict Odometry::measure(const Frame& frame, pose_wall_motion_result* result) {
   const Expected expected = model_.expect(course_, settings_, frame);
-  out.seen = imager_.look(expected.pose, reading_, &work_);
-  out.reasons = expected.reasons;
+  const Seen seen = imager_.look(expected.pose, reading_, &work_);
+  report(seen, result);
   keyframes_.set_corner(expected.pose.t);
-  if (!out.seen.suffices()) {
-    out.reasons |= POSE_WALL_MOTION_R_FEW_POINTS;
-  } else if (!has_map_) {
-    out.reasons |= POSE_WALL_MOTION_R_FIRST;
-    out.state = POSE_WALL_ALONG_MEASURED;
-    start_ = stand_upright(out.seen, expected.pose);
-    begin_map(frame, out.seen, start_);
-    out.concluded = stand();
-  } else {
-    const Road road = {keyframes_.map(), course_, settings_, reading_.lidar_base_m};
-    out.placed = place_scan(road, frame, expected.pose, out.seen, &scratch_, &work_);
-    out.state = out.placed.state;
-    out.reasons |= out.placed.reasons;
-    if (out.has_pose()) {
-      out.concluded = conclude(road, frame, expected.prior, out.placed);
-      out.reasons |= out.concluded.reasons;
-      take(frame, out.placed, out.concluded);
-    } else {
-      begin_anew(frame, out.seen);
-      out.concluded = stand();
-    }
+  // Time counts from the last frame with a pose: frames of nothing have no effect.
+  if (!has_map_ || seen.suffices()) clock_.take(frame.cloud.stamp_ns, frame.dt_s);
+  if (!seen.suffices()) return {POSE_WALL_ALONG_LOST, expected.reasons | POSE_WALL_MOTION_R_FEW_POINTS};
+  Verdict verdict = has_map_ ? go_on(frame, expected, seen, result) : begin(frame, expected, seen, result);
+  verdict.reasons |= expected.reasons;
+  return verdict;
+}
+
+Odometry::Verdict Odometry::go_on(const Frame& frame, const Expected& expected, const Seen& seen,
+                                  pose_wall_motion_result* result) {
+  const Road road = {keyframes_.map(), course_, settings_, reading_.lidar_base_m};
+  const Placed placed = place_scan(road, frame, expected.pose, seen, &scratch_, &work_);
+  report(placed, result);
+  if (placed.is(POSE_WALL_ALONG_LOST)) {
+    begin_anew(frame, seen);
+    report_axis(course_.axes, start_, result);
+    return {POSE_WALL_ALONG_LOST, placed.reasons};
   }
-  return out;
+  const Concluded concluded = conclude(road, frame, expected.prior, placed);
+  report(concluded.step, result);
+  report(concluded.course, concluded.whole, start_, false, result);
+  take(frame, placed, concluded);
+  return {placed.state, placed.reasons | concluded.reasons};
 }
 
 // The first scan stands upright and square to the map's axes, so that surfaces face them.
-Pose Odometry::stand_upright(const Seen& seen, const Pose& expected) const {
-  const Eigen::Matrix3d level = upright(seen.observations, expected.R, reading_.lidar_base_m) * expected.R;
+Odometry::Verdict Odometry::begin(const Frame& frame, const Expected& expected, const Seen& seen,
+                                  pose_wall_motion_result* result) {
+  const Eigen::Matrix3d& R = expected.pose.R;
+  const Eigen::Matrix3d level = upright(seen.observations, R, reading_.lidar_base_m) * R;
   const double yaw_rad = squaring_yaw_rad(seen.observations, level);
-  return {turn_by(Eigen::Vector3d(0.0, 0.0, yaw_rad)) * level, expected.t};
+  start_ = {turn_by(Eigen::Vector3d(0.0, 0.0, yaw_rad)) * level, expected.pose.t};
+  begin_map(frame, seen, start_);
+  report(course_, course_.bounds(settings_.protection_sigmas), start_, true, result);
+  return {POSE_WALL_ALONG_MEASURED, POSE_WALL_MOTION_R_FIRST};
 }
 
 // The machine may be as far as it can have moved. The map starts anew there.

@@ -6,9 +6,9 @@
 
 #pragma once
 
+#include "motion/conclude.hpp"
 #include "motion/frame_clock.hpp"
 #include "motion/keyframes.hpp"
-#include "motion/motion_report.hpp"
 
 namespace pose_wall::motion {
 
@@ -25,10 +25,13 @@ class Odometry {
   std::uint32_t map_points(std::uint32_t first, std::uint32_t capacity, float* xyz_start_m) const;
 
  private:
-  Findings measure(const Frame& frame);
-  Findings stay() const;
-  Concluded stand() const;
-  Pose stand_upright(const Seen& seen, const Pose& expected) const;
+  struct Verdict {
+    std::uint32_t state = POSE_WALL_ALONG_LOST, reasons = 0;
+  };
+  Verdict measure(const Frame& frame, pose_wall_motion_result* result);
+  Verdict begin(const Frame& frame, const Expected& expected, const Seen& seen, pose_wall_motion_result* result);
+  Verdict go_on(const Frame& frame, const Expected& expected, const Seen& seen, pose_wall_motion_result* result);
+  Verdict stay(const Frame& frame, pose_wall_motion_result* result);
   void begin_anew(const Frame& frame, const Seen& seen);
   void begin_map(const Frame& frame, const Seen& seen, const Pose& at);
   void begin_map_here();

@@ -66,22 +66,20 @@ class Placing {
   }
 
   // By the planes, with the axes of the road there.
-  Alignment coarse(const Pose& at) {
-    Alignment a;
-    a.pose = at;
-    a.axes = road_.course.axes;
-    const Eigen::Vector3d forward = a.pose.R * road_.settings.forward_base;
-    find_axes(scan_, forward, &a);
+  void fit_planes(const Pose& at, Alignment* a) {
+    a->pose = at;
+    a->axes = road_.course.axes;
+    const Eigen::Vector3d forward = at.R * road_.settings.forward_base;
+    find_axes(scan_, forward, a);
     StepOptions coarse;
-    coarse.with_along = a.axes.hold > kHoldOfHall;
+    coarse.with_along = a->axes.hold > kHoldOfHall;
     coarse.every = 4;
     bool moves = true;
     for (int pass = 0; pass < kPassesMost && moves; ++pass) {
       work_.add(observations_.size() / coarse.every, steps::kEquation);
-      moves = take_steps(scan_, coarse, &s_.steps, &a);
+      moves = take_steps(scan_, coarse, &s_.steps, a);
     }
-    find_axes(scan_, forward, &a);
-    return a;
+    find_axes(scan_, forward, a);
   }
 
   // The place along the road and its uncertainty.
@@ -110,15 +108,13 @@ class Placing {
     return out;
   }
 
-  // By the relief.
-  Alignment fine(Alignment a) {
+  void fit_relief(Alignment* a) {
     StepOptions fine;
     fine.use_relief = true;
     fine.every = (observations_.size() + kEquationsMost - 1) / kEquationsMost;
     fine.rounds = 3;
     work_.add(observations_.size() / fine.every, steps::kEquation);
-    take_steps(scan_, fine, &s_.steps, &a);
-    return a;
+    take_steps(scan_, fine, &s_.steps, a);
   }
 
   // The last centimetres along the road.
@@ -173,27 +169,8 @@ double variance_along(const Road& road, const Curve& curve, double rock_variance
   return variance_m2 + of_map_m * of_map_m / 12.0;
 }
 
-Placed refined(Placed placed, const Road& road, const FinePlace& fine) {
-  if (!(fine.told && fine.halves_m < kHalvesMost_m)) {
-    placed.reasons |= POSE_WALL_MOTION_R_HALVES_DIFFER;
-    placed.state = POSE_WALL_ALONG_UNOBSERVABLE;
-    return placed;
-  }
-  placed.alignment.pose.t += fine.best_m * placed.alignment.axes.along;
-  placed.rock_variance_m2 = pooled(fine.sigma_m * fine.sigma_m, placed.rock_variance_m2);
-  placed.alignment.covariance(0, 0) = variance_along(road, placed.curve, placed.rock_variance_m2);
-  placed.halves_m = fine.halves_m;
-  return placed;
-}
-
 std::uint32_t bit(bool is_set, std::uint32_t reason) {
   return is_set ? reason : 0U;
-}
-
-Placed lost(Placed placed, std::uint32_t reason) {
-  placed.state = POSE_WALL_ALONG_LOST;
-  placed.reasons |= reason;
-  return placed;
 }
 
 }  // namespace
@@ -215,19 +192,36 @@ Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, co
   Placing placing(road, frame, seen, scratch, work);
   const Entry entry = placing.enter(expected);
   out.wide = entry.wide;
-  if (!entry.fits) return lost(out, POSE_WALL_MOTION_R_FEW_MATCHES);
+  if (!entry.fits) {
+    out.reasons |= POSE_WALL_MOTION_R_FEW_MATCHES;
+    out.state = POSE_WALL_ALONG_LOST;
+    return out;
+  }
   Alignment& a = out.alignment;
-  a = placing.coarse(entry.pose);
+  placing.fit_planes(entry.pose, &a);
   const Way way = placing.match_way(a, entry.wide);
   out.curve = way.curve;
   out.is_guessed = way.is_guessed;
   out.state = way.state;
+  out.reasons |= way.reasons;
   a.pose.t = way.t;
-  a = placing.fine(a);
-  out.reasons |= way.reasons | bit(!a.ground_alone, POSE_WALL_MOTION_R_NO_GROUND);
-  if (!out.is(POSE_WALL_ALONG_UNOBSERVABLE)) out = refined(out, road, placing.refine(a));
-  if (a.matched < kMatchedLeast) out = lost(out, POSE_WALL_MOTION_R_FEW_MATCHES);
-  if (!placing.is_in_reach(a)) out = lost(out, POSE_WALL_MOTION_R_AT_EDGE);
+  placing.fit_relief(&a);
+  if (!out.is(POSE_WALL_ALONG_UNOBSERVABLE)) {
+    const FinePlace fine = placing.refine(a);
+    if (fine.told && fine.halves_m < kHalvesMost_m) {
+      a.pose.t += fine.best_m * a.axes.along;
+      out.rock_variance_m2 = pooled(fine.sigma_m * fine.sigma_m, out.rock_variance_m2);
+      a.covariance(0, 0) = variance_along(road, out.curve, out.rock_variance_m2);
+      out.halves_m = fine.halves_m;
+    } else {
+      out.reasons |= POSE_WALL_MOTION_R_HALVES_DIFFER;
+      out.state = POSE_WALL_ALONG_UNOBSERVABLE;
+    }
+  }
+  const bool few = a.matched < kMatchedLeast, far = !placing.is_in_reach(a);
+  out.reasons |= bit(!a.ground_alone, POSE_WALL_MOTION_R_NO_GROUND) | bit(few, POSE_WALL_MOTION_R_FEW_MATCHES) |
+                 bit(far, POSE_WALL_MOTION_R_AT_EDGE);
+  if (few || far) out.state = POSE_WALL_ALONG_LOST;
   return out;
 }
 
