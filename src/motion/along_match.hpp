@@ -11,9 +11,12 @@
 
 namespace pose_wall::motion {
 
-constexpr std::uint32_t kShiftsMost = 33;  // 0.4 m to each side in steps of 25 mm
-constexpr std::uint32_t kFineShifts = 7;   // of the last centimetres: a parabola has three numbers
-constexpr std::uint32_t kRowsMost = 2048;  // observations of the curve
+// Of one curve, to each side: half of a usual pitch of steel sets, so that the next one is out of it.
+constexpr double kReachMost_m = 0.4;
+constexpr double kCurveStep_m = kReachMost_m / 16;  // half of a cell along: heights between two cells are interpolated
+constexpr std::uint32_t kShiftsMost = 33;           // in these steps, and the middle
+constexpr std::uint32_t kFineShifts = 7;            // of the last centimetres: a parabola has three numbers
+constexpr std::uint32_t kRowsMost = 2048;           // observations of the curve
 constexpr int kRest = 6;  // turns about along, across and up, moves across and up, and the common range error
 
 struct Curve {

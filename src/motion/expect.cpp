@@ -8,6 +8,8 @@
 namespace pose_wall::motion {
 namespace {
 
+// The last motion is a guess for so long. A machine that stops from 2 m/s is then 2 m off, and curves side by side
+// reach 2.8 m (far_match). From 0.3 to 5 s the sweep measured the same frames.
 constexpr double kTwistLasts_s = 1.0;
 constexpr double kNoTurn2 = 1e-10;  // (rad/s)²: keeps a turn of nothing from being divided by nothing
 

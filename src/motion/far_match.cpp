@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kWindowsMost = 4;                       // to each side
 constexpr double kWindowStep_m = 1.5 * kReachMost_m;  // each overlaps the next by a quarter
-constexpr double kRivalCost = 1.5;                    // of the best place's misfit: a place that fits worse is none
 constexpr int kCurvesInFull = 3;                      // more, and all but the best are drawn coarsely
 
 // How a curve is drawn: in steps of 25 mm by all that it takes; or in steps of 5 cm, a cell of the map, by fewer
@@ -69,7 +68,7 @@ FarPlace match_far(const Scan& scan, double far_m, bool placed, const Alignment&
   double apart_m = 0.0;
   for (int k = 0; k < count; ++k) {
     const double away_m = Windows::way_m(k > best ? k - best : best - k);
-    const bool rivals = found[k].told && found[k].bottom < kRivalCost * found[best].bottom;
+    const bool rivals = found[k].told && found[k].bottom < kRivalMisfit * found[best].bottom;
     if (rivals && away_m > 2.0 * kReachMost_m) apart_m = away_m + kReachMost_m;
   }
   FarPlace out = {in_full ? found[best] : draw_window.draw(best - windows, kFull), middle.pose.t};

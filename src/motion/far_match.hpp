@@ -10,8 +10,6 @@
 
 namespace pose_wall::motion {
 
-constexpr double kReachMost_m = 0.4;  // of one curve, to each side
-
 // The best curve, and the place of its middle.
 struct FarPlace {
   Curve curve;

@@ -11,7 +11,11 @@
 
 namespace pose_wall::motion {
 
+// Twice as many as a curve or the fine steps take (kRowsMost, kEquationsMost), so that each takes an even half.
 constexpr std::uint32_t kObservationsMost = 4096;
+// Cosine to an axis that a surface faces, within 53 degrees. A normal has 0.577 at least to its nearest one, so nearly
+// all surfaces face one.
+constexpr float kFaces = 0.6F;
 
 struct Observation {
   float x, y, z;        // base, m
@@ -31,7 +35,7 @@ FeatureCounts mark_features(RangeImage* image);
 // neither noise nor the rock's roughness turns it over. False where there are none.
 bool normal_about(const RangeImage& image, std::uint32_t point, Eigen::Vector3f* normal);
 
-// The axis of the map that a normal faces; false where it faces none by 53 degrees.
+// The axis of the map that a normal faces; false where it faces none (kFaces).
 bool facing_of(const Eigen::Vector3f& normal_map, std::uint8_t* facing);
 
 // Facings of successive points of the image: within half of a normal's reach the last one's holds for its neighbours.

@@ -42,8 +42,9 @@ class FrameClock {
  private:
   // Of the usual period: more than two, and at least one frame is missing.
   static constexpr double kGapPeriods = 2.5;
+  // A longer silence is no period: sensors turn once a second at least.
   static constexpr double kPeriodMost_s = 10.0;
-  static constexpr double kOfPeriod = 0.1;
+  static constexpr double kOfPeriod = 0.1;      // so the mean of some ten frames: one late frame is no gap's measure
   static constexpr double kSameStamp_s = 1e-3;  // as the engine's POSE_WALL_R_STAMP_STILL
 
   std::int64_t stamp_ns_ = 0;

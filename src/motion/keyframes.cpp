@@ -11,9 +11,13 @@
 namespace pose_wall::motion {
 namespace {
 
+// Ten metres off, rock comes into view over a metre, the size of a tile. From 0.03 to 0.5 rad the sweep measured the
+// same frames.
 constexpr double kKeyframeTurn_rad = 0.1;
-constexpr float kRockRange_m = 14.0F;  // further away, only rays that meet at 17 degrees and more make surfaces
-constexpr float kFarIncidence = 0.3F;
+// Further away, only rays that meet at 17 degrees (of this sine) and more make surfaces. Flatter ones err by more along
+// the rock than a normal's baseline. With 7 m the sweep's 95th percentile of step errors is 26 mm and not 17; from 14 m
+// on it stays.
+constexpr float kRockRange_m = 14.0F, kFarIncidence = 0.3F;
 
 }  // namespace
 

@@ -22,30 +22,30 @@ void Imager::lay_out(Arena& arena) {
   print_ = arena.take_one<CloudPrint>();
 }
 
-bool Imager::repeats(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, Work* work) {
-  project(cloud, reading, twist, &image_, print_);
+bool Imager::repeats(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, Work* work) {
+  project(cloud, mount, twist, &image_, print_);
   work->add(points_of(cloud), steps::kPointProjected);
   return freshness_.keep(*print_, cloud.stamp_ns).is_one;
 }
 
-Seen Imager::look(const Pose& expected, const Reading& reading, Work* work) {
+Seen Imager::look(const Pose& expected, const Mount& mount, Work* work) {
   Seen out;
-  out.segments = segment(expected.R, reading, &segment_, &image_);
+  out.segments = segment(expected.R, mount, &segment_, &image_);
   out.features = mark_features(&image_);
   out.observations = observation_.first(choose_observations(image_, expected, &choice_, observation_));
   work->add(image_.count, steps::kPointLookedAt);
   return out;
 }
 
-void Imager::look_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, const Pose& at,
+void Imager::look_again(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, const Pose& at,
                         Work* work) {
   const std::uint32_t count = image_.count;
   work->add(points_of(cloud), steps::kPointProjected);
-  project_again(cloud, reading, twist, &image_);
+  project_again(cloud, mount, twist, &image_);
   if (image_.count == count) return;
   work->add(image_.count, steps::kPointLookedAt);
   image_.flags.fill(0);
-  segment(at.R, reading, &segment_, &image_);
+  segment(at.R, mount, &segment_, &image_);
   mark_features(&image_);
 }
 

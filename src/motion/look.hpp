@@ -9,11 +9,10 @@
 #include "base/containers/work.hpp"
 #include "lidar/seen_clouds.hpp"
 #include "motion/features.hpp"
+#include "motion/gates.hpp"
 #include "motion/segmentation.hpp"
 
 namespace pose_wall::motion {
-
-constexpr std::uint32_t kObservationsLeast = 150;
 
 struct Seen {
   Segments segments;
@@ -29,11 +28,11 @@ class Imager {
   void lay_out(Arena& arena);
   void reset() { freshness_ = Freshness{}; }
   // Reads the cloud, freed of the twist. True if its points, or a part of them, came before.
-  bool repeats(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, Work* work);
+  bool repeats(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, Work* work);
   // Of a cloud that was read.
-  Seen look(const Pose& expected, const Reading& reading, Work* work);
+  Seen look(const Pose& expected, const Mount& mount, Work* work);
   // Frees the image of another twist. No observation is chosen anew.
-  void look_again(const pose_wall_cloud& cloud, const Reading& reading, const Twist& twist, const Pose& at, Work* work);
+  void look_again(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, const Pose& at, Work* work);
 
   const RangeImage& image() const { return image_; }
 

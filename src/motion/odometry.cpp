@@ -7,14 +7,18 @@
 #include <limits>
 
 #include "base/math/finite.hpp"
+#include "base/math/golden_ratio.hpp"
 #include "motion/motion_report.hpp"
 #include "motion/wide_start.hpp"
 
 namespace pose_wall::motion {
 namespace {
 
-constexpr double kSlipMost_m = 0.8;                // more, and the map's rock is somewhere else
-constexpr double kBent_m = 0.02, kBentAt_m = 5.0;  // a scan that its motion bends by less, so far off, is straight
+// A scan that its motion bends by less, so far off, is straight: two ranges differ by as much (1.4 kRangeSigma_m). From
+// 5 to 100 mm the sweep measured the same frames.
+constexpr double kBent_m = 0.02, kBentAt_m = 5.0;
+// With 1 the sweep's median level along is 49 mm and not 40. With 10 the map takes in what it is then measured by: 33
+// poses left their level and not 9.
 constexpr std::uint32_t kYoungFrames = 3;
 
 }  // namespace
@@ -50,7 +54,7 @@ void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* re
   Verdict verdict;
   if (!clock_.goes_on(dt_s)) {
     verdict = stay(frame, result);
-  } else if (imager_.repeats(cloud, reading_, model_.twist(), &work_)) {  // as if nothing had been seen
+  } else if (imager_.repeats(cloud, mount_, model_.twist(), &work_)) {  // as if nothing had been seen
     verdict.reasons = POSE_WALL_MOTION_R_REPEATED;
   } else {
     verdict = measure(frame, result);
@@ -80,7 +84,7 @@ Odometry::Verdict Odometry::stay(const Frame& frame, pose_wall_motion_result* re
 
 Odometry::Verdict Odometry::measure(const Frame& frame, pose_wall_motion_result* result) {
   const Expected expected = model_.expect(course_, settings_, frame);
-  const Seen seen = imager_.look(expected.pose, reading_, &work_);
+  const Seen seen = imager_.look(expected.pose, mount_, &work_);
   report(seen, result);
   keyframes_.set_corner(expected.pose.t);
   // Time counts from the last frame with a pose: frames of nothing have no effect.
@@ -93,7 +97,7 @@ Odometry::Verdict Odometry::measure(const Frame& frame, pose_wall_motion_result*
 
 Odometry::Verdict Odometry::go_on(const Frame& frame, const Expected& expected, const Seen& seen,
                                   pose_wall_motion_result* result) {
-  const Road road = {keyframes_.map(), course_, settings_, reading_.lidar_base_m};
+  const Road road = {keyframes_.map(), course_, settings_, mount_.sensor_base_m};
   const Placed placed = place_scan(road, frame, expected.pose, seen, &scratch_, &work_);
   report(placed, result);
   if (placed.is(POSE_WALL_ALONG_LOST)) {
@@ -112,7 +116,7 @@ Odometry::Verdict Odometry::go_on(const Frame& frame, const Expected& expected, 
 Odometry::Verdict Odometry::begin(const Frame& frame, const Expected& expected, const Seen& seen,
                                   pose_wall_motion_result* result) {
   const Eigen::Matrix3d& R = expected.pose.R;
-  const Eigen::Matrix3d level = upright(seen.observations, R, reading_.lidar_base_m) * R;
+  const Eigen::Matrix3d level = upright(seen.observations, R, mount_.sensor_base_m) * R;
   const double yaw_rad = squaring_yaw_rad(seen.observations, level);
   start_ = {turn_by(Eigen::Vector3d(0.0, 0.0, yaw_rad)) * level, expected.pose.t};
   begin_map(frame, seen, start_);
@@ -140,15 +144,14 @@ void Odometry::begin_map(const Frame& frame, const Seen& seen, const Pose& at) {
   course_.is_bent = frame.cloud.time.type != POSE_WALL_FIELD_NONE;
   begin_map_here();
   // A number that no other map has, one of another motion that began at another time neither.
-  constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL;  // 2^64 over the golden ratio: spreads neighbours apart
-  run_ = (run_ + static_cast<std::uint64_t>(frame.cloud.stamp_ns) + 1) * kGolden | 1U;
+  run_ = (run_ + static_cast<std::uint64_t>(frame.cloud.stamp_ns) + 1) * kGoldenTurn64 | 1U;
   model_.forget_rates(settings_);
   has_map_ = true;
 }
 
 void Odometry::begin_map_here() {
   course_.rock_variance_m2 = 0.0;
-  keyframes_.begin(imager_.image(), course_.pose, reading_.lidar_base_m, &work_);
+  keyframes_.begin(imager_.image(), course_.pose, mount_.sensor_base_m, &work_);
 }
 
 // What was concluded becomes the memory of the next frames.
@@ -176,7 +179,7 @@ bool Odometry::is_keyframe(const Placed& placed) const {
 }
 
 void Odometry::take_in_scan() {
-  keyframes_.take_in(imager_.image(), course_.pose, reading_.lidar_base_m, &work_);
+  keyframes_.take_in(imager_.image(), course_.pose, mount_.sensor_base_m, &work_);
   course_.travel.take_in(course_.covariance, keyframes_.count());
 }
 
@@ -191,7 +194,7 @@ bool Odometry::begins_unbent(const Frame& frame, const Placed& placed) const {
 // machine stands, two scans that were bent alike have shown that.
 void Odometry::begin_unbent(const Frame& frame) {
   course_.travel.take_in(course_.covariance, keyframes_.count());
-  imager_.look_again(frame.cloud, reading_, model_.twist(), course_.pose, &work_);
+  imager_.look_again(frame.cloud, mount_, model_.twist(), course_.pose, &work_);
   begin_map_here();
   course_.travel.begin_with(course_.covariance);
 }

@@ -13,6 +13,8 @@
 
 namespace pose_wall::motion {
 
+constexpr float kTurn_rad = static_cast<float>(2.0 * kPi);  // once around a circle
+
 // A point p of base lies at R p + t in the map.
 struct Pose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();

@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint32_t kLooks = 4096;  // points for a cloud's rings, elevations and times
 // Fewer are the lines of a pattern without rings: four of a Livox Mid-360, six of an Avia or HAP.
 constexpr double kRingsLeast = 8.0;
-constexpr float kTurn_rad = 6.2831853F;
 
 // Within 1e-3 rad: which column, no more (the odd polynomial of Hastings, Approximations for Digital Computers, 1955).
 FourFloats rough_arc_tangent2(FourFloats y, FourFloats x) {

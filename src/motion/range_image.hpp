@@ -19,11 +19,11 @@
 namespace pose_wall::motion {
 
 // Rows by ring, else by elevation; columns by azimuth. There are as many as the sensor has directions or cells allow:
-// 64 rings in 512 directions. More points of one scan give the way along no better, and each costs time.
+// 64 rings in 512 directions, 16 in 2048. More points of one scan give the way along no better, and each costs time:
 constexpr std::uint32_t kImageCells = 32768;
 constexpr std::uint32_t kImageRowsMost = 64;
-constexpr std::uint32_t kImageColumnsLeast = 512, kImageColumnsMost = 2048;
-constexpr std::uint16_t kNoPoint = 0xFFFF;
+constexpr std::uint32_t kImageColumnsLeast = kImageCells / kImageRowsMost, kImageColumnsMost = 2048;
+constexpr std::uint16_t kNoPoint = 0xFFFF;  // beyond all numbers of points: there are kImageCells at most
 
 enum PointFlag : std::uint8_t {
   kGround = 1,  // marked as ground

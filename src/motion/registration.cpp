@@ -19,14 +19,10 @@ constexpr float kRangeSigma_m = 0.012F;
 constexpr float kCellSigma_m = 0.004F;
 // Rock about a plane where its relief is not known yet.
 constexpr float kRockSigma_m = 0.04F;
-constexpr float kTukey = 4.0F;              // deviations beyond which an observation does not count
-constexpr std::uint32_t kGroundLeast = 60;  // observations of ground that settle roll, pitch and height
-constexpr double kDamping = 1e-3;           // Levenberg's, of the diagonal, at the start
-constexpr double kStepLeast2 = 1e-9;        // a step of 0.03 mm and mrad is the last
-constexpr float kStill2 = 4e-6F;            // 2 mm and mrad: surfaces are found anew for more
-constexpr std::uint32_t kCountLeast = 12;   // observations for three unknowns
-constexpr float kNear_m = 0.3F;             // from a plane whose relief is not used: most of a tile's layer
-constexpr float kFacesAlong = 0.6F;         // cosine: within 53 degrees, as facing_of has it
+constexpr double kDamping = 1e-3;     // Levenberg's, of the diagonal, at the start
+constexpr double kStepLeast2 = 1e-9;  // a step of 0.03 mm and mrad is the last
+constexpr float kStill2 = 4e-6F;      // 2 mm and mrad: surfaces are found anew for more
+constexpr float kNear_m = 0.3F;       // from a plane whose relief is not used: most of a tile's layer
 
 struct Sums {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
@@ -123,7 +119,8 @@ class Equations {
       const FourTruths known = known_share > zero;
       const FourFloats variance =
           load_four(&s_.variance[i]) * (known ? all_four(scales.variance[1]) : all_four(scales.variance[0]));
-      const FourFloats cut2 = use_relief ? kTukey * kTukey * variance + all_four(1e-4F) : all_four(kNear_m * kNear_m);
+      const FourFloats cut2 =
+          use_relief ? kOutlier * kOutlier * variance + all_four(1e-4F) : all_four(kNear_m * kNear_m);
       const FourFloats squared = distance * distance;
       const FourFloats left = larger_of(one - squared / cut2, zero), trust = left * left;
       const FourFloats weight = trust / variance, pull = weight * distance;
@@ -178,7 +175,7 @@ class Equations {
 
   // Pads to a whole four with points too far off to count.
   void fill_up() {
-    constexpr float kFar_m = 100.0F;
+    constexpr float kFar_m = 100.0F;  // beyond every cut: of no weight
     for (; count_ % kFour != 0; ++count_) {
       for (Span<float>& by : s_.by_move) by[count_] = 0.0F;
       s_.distance[count_] = kFar_m;
@@ -288,7 +285,7 @@ Pose moved(const Alignment& a, const float (&by)[6]) {
 }  // namespace
 
 void StepScratch::lay_out(Arena& arena) {
-  constexpr std::uint32_t kMost = kObservationsMost + kParts * kFour;
+  constexpr std::uint32_t kMost = kObservationsMost + kParts * kFour;  // each part ends in a whole four
   for (Span<float>& by : by_move) by = arena.take<float>(kMost);
   distance = arena.take<float>(kMost);
   variance = arena.take<float>(kMost);
@@ -299,7 +296,7 @@ void StepScratch::lay_out(Arena& arena) {
 }
 
 bool faces_along(const Eigen::Vector3f& normal, const Eigen::Vector3f& along) {
-  return std::fabs(along.dot(normal)) > kFacesAlong;
+  return std::fabs(along.dot(normal)) > kFaces;
 }
 
 bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation& o, Fit* fit) {
@@ -367,7 +364,7 @@ std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts
 namespace {
 
 // Cosine of 45 degrees to the machine's up. The sixteen rings of a VLP-16 see little floor and roof, and know least
-// which way is up (engine_with_motion_test). No road is as steep. Judgement, 2026-11-26: halfway between the two.
+// which way is up (engine_with_motion_test). No road is as steep: halfway between the two.
 constexpr double kUpright = 0.7;
 
 // By inverse iteration: the smallest eigenvalue is far below the others on a road, and any axis does in a hall.

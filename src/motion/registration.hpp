@@ -7,6 +7,7 @@
 #pragma once
 
 #include "motion/features.hpp"
+#include "motion/gates.hpp"
 #include "motion/relief_map.hpp"
 
 namespace pose_wall::motion {
@@ -40,10 +41,6 @@ struct Shifts {
 std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts, bool by_plane, std::uint32_t apart,
                           float* misfit);
 
-// Hold along the axis (RoadAxes): below it no plane gives the way. Surfaces that face along are then bumps of the rock,
-// which are seen from one side only. They drew steel sets by 30 mm (2026-11, simulated).
-constexpr double kHoldOfRoad = 0.05;
-constexpr double kHoldOfHall = 0.3;  // its own planes give the way
 bool faces_along(const Eigen::Vector3f& normal, const Eigen::Vector3f& along);
 
 // The road's axes in the map: along is where the surfaces give least hold.

@@ -11,6 +11,7 @@
 namespace pose_wall::motion {
 namespace {
 
+// Units of a cell's height, its sizes, and the unit of its points' place:
 constexpr float kUnit_m = 1e-4F;
 constexpr float kAlong_m = 1.0F / kAlongCells;
 constexpr float kAcross_m = 1.0F / kAcrossCells;

