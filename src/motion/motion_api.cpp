@@ -25,7 +25,7 @@ using pose_wall::motion::Odometry;
 
 constexpr StructSizes kSettingsSizes = {0, sizeof(pose_wall_motion_settings), sizeof(pose_wall_motion_settings)};
 constexpr StructSizes kMotionResultSizes = {0, offsetof(pose_wall_motion_result, run), sizeof(pose_wall_motion_result)};
-constexpr std::uint32_t kMark = 0x4E544F4DU;
+constexpr std::uint32_t kMark = 0x4E544F4DU;  // the letters 'MOTN'
 
 constexpr const char* kStates[] = {"lost", "unobservable", "ambiguous", "measured"};
 constexpr const char* kDirections[POSE_WALL_MOTION_DIRECTIONS] = {"along", "across", "up", "roll", "pitch", "yaw"};
