@@ -22,7 +22,7 @@ class Image(BrokenProject):
         for folder in ("tools/plc", "tools/language/zh"):
             shutil.copytree(source / folder, self.root / folder)
         for path in ("include/pose_wall.h", "include/pose_wall_motion.h", "include/pose_wall_planar_stop.h",
-                     "tests/checks/image_members.def", "tests/checks/abi_layout.txt", "tools/live/modbus/README.md",
+                     "tests/checks/abi_layout.txt", "tools/live/modbus/README.md",
                      "tools/live/modbus/modbus_registers.hpp", "tools/planar/stop_reasons.cpp"):
             (self.root / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source / path, self.root / path)

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Writes what follows from image.def and blocks.def: the images' structs in the public headers, the members that
-tests/checks/abi_layout.c looks at, the tables of registers in tools/live/modbus/README.md, those of the stop's image in
-tools/plc/README.md, what goes over CAN (can/can.def), and FB_PoseWall as plain text, PLCopen XML and SCL. States and
-numbers are those of the headers.
+"""Writes what follows from image.def and blocks.def: the images' structs in the public headers, the tables of registers
+in tools/live/modbus/README.md, those of the stop's image in tools/plc/README.md, what goes over CAN (can/can.def), and
+FB_PoseWall as plain text, PLCopen XML and SCL. States and numbers are those of the headers.
 
 usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if a file would change, or if
-                                       tests/checks/abi_layout.txt pins other offsets than image.def gives"""
+                                       tests/checks/abi_layout.txt pins other offsets than image.def gives
+       generate.py --members FILE      writes the members that tests/checks/abi_layout.c looks at; each build does"""
 
 import itertools
 import pathlib
@@ -97,7 +97,6 @@ def outputs(root):
         plc / "FB_PoseWall.scl": dialects.scl(read),
         plc / "FB_PoseWall.xml": plcopen.xml(read, dialects.NOTE),
         **can_description.outputs(root, structs, header_text),
-        root / "tests/checks/image_members.def": layout_members(structs),
         modbus / "README.md": register_table.with_tables(structs, header_text, registers_hpp, page),
         plc / "README.md": stop_tables.with_tables(structs, header_text, root, plc_page),
     }
@@ -112,6 +111,9 @@ def check(root):
 
 
 def main():
+    if "--members" in sys.argv:
+        pathlib.Path(sys.argv[-1]).write_text(layout_members(description.read_structs()), encoding="utf-8")
+        return
     root = pathlib.Path(sys.argv[-1])
     if "--check" in sys.argv:
         faults = check(root)
