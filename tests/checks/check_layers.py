@@ -4,6 +4,7 @@
 """Includes go one way. A trunk carries all libraries: base <- part <- lidar <- place. Engine, motion, planar and
 runtime stand on it side by side, and inside each of them the rooms stand one on the other as a frame goes through them.
 All take nothing but Eigen and small parts of the standard library; tools and the runtime see them by their headers.
+Folders of tools/ form no circle, and the daemon takes nothing of the command's verbs.
 
 usage: check_layers.py ROOT        exit status 1 and one line per broken rule"""
 
@@ -107,6 +108,47 @@ def fault_of(src, path, bracket, name):
     return f'{room} includes "{name}" of {there}; it may include {", ".join(sorted(MAY_INCLUDE[room])) or "nothing"}'
 
 
+def folder_of(relative):
+    """A folder of tools/, or a file beside them."""
+    return relative.parts[0] if len(relative.parts) > 1 else relative.stem
+
+
+def folder_includes(tools):
+    """{(folder, folder that it includes): (file, name)}, the first file of each pair."""
+    pairs = {}
+    for path in sources(tools):
+        for _, name in includes(path):
+            target = tools / name if (tools / name).exists() else path.parent / name
+            target = target.resolve()
+            if not target.exists() or not target.is_relative_to(tools.resolve()):
+                continue
+            pair = folder_of(path.relative_to(tools)), folder_of(target.relative_to(tools.resolve()))
+            if pair[0] != pair[1]:
+                pairs.setdefault(pair, (path, name))
+    return pairs
+
+
+def folders_in_circles(pairs):
+    """What is left when folders go that nobody includes, or that include nobody, until none is left to go."""
+    folders = {folder for pair in pairs for folder in pair}
+    while True:
+        inside = [pair for pair in pairs if set(pair) <= folders]
+        staying = {here for here, _ in inside} & {there for _, there in inside}
+        if staying == folders:
+            return folders
+        folders = staying
+
+
+def folder_faults(tools):
+    pairs = folder_includes(tools)
+    circle = folders_in_circles(pairs)
+    for (here, there), (path, name) in pairs.items():
+        if here in circle and there in circle:
+            yield path, f'tools/{here} includes "{name}" of {there}, and these stand in a circle of folders'
+        if (here, there) == ("live", "verbs"):
+            yield path, f'the daemon includes "{name}" of the command\'s verbs'
+
+
 def faults(root):
     src, include, tools = root / "src", root / "include", root / "tools"
     for path in sources(src):
@@ -126,6 +168,7 @@ def faults(root):
         for bracket, name in includes(header):
             if name not in C_HEADERS | {"pose_wall.h"} and not name.startswith("pose_wall_planar_"):
                 yield header, f"includes {name}; it may include pose_wall.h and other headers of planar"
+    yield from folder_faults(tools)
     for path in sources(tools):
         for bracket, name in includes(path):
             inside = not (tools / name).exists() and not (path.parent / name).exists() and (src / name).exists()

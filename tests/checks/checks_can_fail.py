@@ -123,6 +123,18 @@ class Layers(BrokenProject):
         self.include("tools/main.cpp", '#include "../src/engine/engine.hpp"')
         self.fails("tools see the engine only through", *self.check())
 
+    def test_folders_of_tools_stand_in_a_circle(self):
+        for here, there in (("planar", "options"), ("options", "command_line"), ("command_line", "planar")):
+            self.include(f"tools/{here}/all.hpp", f'#include "{there}/all.hpp"')
+        self.include("tools/verbs/scan.cpp", '#include "planar/all.hpp"')
+        self.fails('tools/options includes "command_line/all.hpp" of command_line, and these stand in a circle',
+                   *self.check())
+
+    def test_daemon_includes_a_verb(self):
+        self.include("tools/verbs/one_of.hpp", "")
+        self.include("tools/live/main.cpp", '#include "verbs/one_of.hpp"')
+        self.fails('the daemon includes "verbs/one_of.hpp"', *self.check())
+
     def test_runtime_includes_engine(self):
         self.include("src/engine/engine.hpp", "")
         self.include("src/runtime/worker.cpp", '#include "engine/engine.hpp"')

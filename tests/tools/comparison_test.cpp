@@ -11,7 +11,7 @@
 #include <limits>
 #include <sstream>
 
-#include "results/run_summary.hpp"
+#include "quantile.hpp"
 
 namespace pose_wall::tools {
 namespace {

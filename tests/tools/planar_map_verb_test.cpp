@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "planar/map_files.hpp"
 #include "planar/plane_pose.hpp"
+#include "planar_files/map_files.hpp"
 #include "planar_logs.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"

@@ -20,8 +20,8 @@
 #endif
 
 #include "planar/indexed_png.hpp"
-#include "planar/map_files.hpp"
 #include "planar/map_picture.hpp"
+#include "planar_files/map_files.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "csv/csv_table.hpp"
-#include "planar/map_files.hpp"
 #include "planar/map_picture.hpp"
+#include "planar_files/map_files.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

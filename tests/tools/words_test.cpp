@@ -20,6 +20,7 @@
 #include "ran_command.hpp"
 #include "terminal/colours.hpp"
 #include "terminal/progress_bar.hpp"
+#include "terminal/shell_word.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

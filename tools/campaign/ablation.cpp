@@ -13,7 +13,7 @@
 #include "campaign/card_words.hpp"
 #include "campaign/traced_runs.hpp"
 #include "explain/gate_list.hpp"
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 

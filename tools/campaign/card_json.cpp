@@ -8,8 +8,8 @@
 #include "campaign/gate.hpp"
 #include "campaign/rate_bound.hpp"
 #include "campaign/recipe.hpp"
+#include "json/json_words.hpp"
 #include "quantities.hpp"
-#include "results/json_words.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools::campaign {

@@ -8,10 +8,10 @@
 
 #include <optional>
 
+#include "terminal/shell_word.hpp"
+
 namespace pose_wall::tools::campaign {
 namespace {
-
-constexpr const char* kPlainSigns = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
 
 std::string names_or(const std::vector<std::string>& names, const char* otherwise) {
   return names.empty() ? otherwise : fmt::format("{}", fmt::join(names, ","));
@@ -22,13 +22,6 @@ std::string number_or(const std::optional<std::uint32_t>& number, const char* ot
 }
 
 }  // namespace
-
-std::string shell_word(const std::string& word) {
-  if (!word.empty() && word.find_first_not_of(kPlainSigns) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string set_words(const std::vector<std::string>& settings) {
   std::string words;

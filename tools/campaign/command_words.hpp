@@ -19,9 +19,6 @@ struct EngineChoice {
   std::vector<std::string> settings;
 };
 
-// As a shell reads it: in quotes where it must be.
-std::string shell_word(const std::string& word);
-
 // " --set KEY=VALUE" for each.
 std::string set_words(const std::vector<std::string>& settings);
 

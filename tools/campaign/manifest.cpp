@@ -14,7 +14,7 @@
 #include "config_file/key_table.hpp"
 #include "config_file/load_config.hpp"
 #include "frames/whole_file.hpp"
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 #include "terminal/counted.hpp"
 
 namespace pose_wall::tools::campaign {

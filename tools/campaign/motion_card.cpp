@@ -11,7 +11,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "results/run_summary.hpp"
+#include "quantile.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {

@@ -6,7 +6,7 @@
 #include "campaign/motion_card_files.hpp"
 #include "campaign/motion_gate.hpp"
 #include "campaign/recipe.hpp"
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {

@@ -10,7 +10,7 @@
 #include "campaign/card_words.hpp"
 #include "campaign/sweep.hpp"
 #include "explain/gate_list.hpp"
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/text_table.hpp"
 

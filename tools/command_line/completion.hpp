@@ -17,9 +17,6 @@ std::string bash_completion(const CommandGrammar& grammar);
 std::string zsh_completion(const CommandGrammar& grammar);
 std::string fish_completion(const CommandGrammar& grammar);
 
-// In single quotes, as all three shells read them.
-std::string shell_quoted(const std::string& text);
-
 // Keys of the engine that are one of some words, with those words.
 struct KeyChoices {
   std::string key;

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "command_line/completion.hpp"
+#include "terminal/shell_word.hpp"
 
 namespace pose_wall::tools {
 namespace {

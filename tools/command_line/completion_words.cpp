@@ -20,12 +20,6 @@ std::vector<std::string> split(const std::string& text) {
 
 }  // namespace
 
-std::string shell_quoted(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 std::vector<KeyChoices> keys_with_choices() {
   std::vector<KeyChoices> keys;
   for (const pose_wall_key_info& key : config_keys()) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "command_line/completion.hpp"
+#include "terminal/shell_word.hpp"
 
 namespace pose_wall::tools {
 namespace {

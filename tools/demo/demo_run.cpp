@@ -13,8 +13,8 @@
 #include "config_file/load_config.hpp"
 #include "language/language.hpp"
 #include "picture/frame_picture.hpp"
+#include "quantile.hpp"
 #include "quantities.hpp"
-#include "results/run_summary.hpp"
 #include "terminal/text_table.hpp"
 #include "truth/alert_limits.hpp"
 

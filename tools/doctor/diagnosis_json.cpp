@@ -5,7 +5,7 @@
 
 #include "angles.hpp"
 #include "doctor/diagnosis_output.hpp"
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 
 namespace pose_wall::tools::doctor {
 namespace {

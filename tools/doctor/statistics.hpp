@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "results/run_summary.hpp"
+#include "quantile.hpp"
 
 namespace pose_wall::tools::doctor {
 

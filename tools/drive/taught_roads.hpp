@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "drive/machine.hpp"
-#include "planar/map_files.hpp"
+#include "planar_files/map_files.hpp"
 #include "sim/drive_route.hpp"
 #include "sim/network.hpp"
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "planar/map_files.hpp"
 #include "planar/planned_route.hpp"
+#include "planar_files/map_files.hpp"
 
 namespace pose_wall::tools {
 

@@ -14,8 +14,8 @@
 #include "explain/notes.hpp"
 #include "explain/prose.hpp"
 #include "language/language.hpp"
+#include "quantile.hpp"
 #include "quantities.hpp"
-#include "results/run_summary.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "explain/digest.hpp"
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 
 namespace pose_wall::tools::explain {
 

@@ -8,8 +8,8 @@
 
 #include "explain/amounts.hpp"
 #include "explain/candidate_words.hpp"
+#include "json/json_words.hpp"
 #include "quantities.hpp"
-#include "results/json_words.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "explain/explanation.hpp"
 #include "explain/traced_frame.hpp"
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools::explain {

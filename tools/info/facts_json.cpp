@@ -8,7 +8,7 @@
 
 #include "frames/field_value.hpp"
 #include "info/input_facts.hpp"
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 
 namespace pose_wall::tools {
 namespace {

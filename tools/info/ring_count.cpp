@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "angles.hpp"
-#include "results/run_summary.hpp"
+#include "quantile.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "frames/frame_stamps.hpp"
 #include "language/language.hpp"
-#include "results/run_summary.hpp"
+#include "quantile.hpp"
 
 namespace pose_wall::tools {
 namespace {

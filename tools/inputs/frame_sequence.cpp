@@ -18,7 +18,7 @@
 #include "language/language.hpp"
 #include "packets/bag_packets.hpp"
 #include "packets/packet_source.hpp"
-#include "planar/planar_input.hpp"
+#include "planar_files/planar_input.hpp"
 
 namespace pose_wall::tools {
 

@@ -22,7 +22,7 @@
 #include "config_file/load_config.hpp"
 #include "language/language.hpp"
 #include "live/daemon.hpp"
-#include "verbs/one_of.hpp"
+#include "options/one_of.hpp"
 
 namespace pose_wall::tools::live {
 namespace {

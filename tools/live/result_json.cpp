@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 #include "results/result_json.hpp"
 
 namespace pose_wall::tools::live {

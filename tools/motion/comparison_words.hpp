@@ -7,8 +7,8 @@
 
 #include <string>
 
+#include "json/json_words.hpp"
 #include "motion/motion_comparison.hpp"
-#include "results/json_words.hpp"
 
 namespace pose_wall::tools {
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "planar/map_files.hpp"
 #include "planar/scan_trail.hpp"
+#include "planar_files/map_files.hpp"
 
 namespace pose_wall::tools {
 

@@ -14,9 +14,9 @@
 #include "angles.hpp"
 #include "info/stamp_steps.hpp"
 #include "info/wide_text.hpp"
+#include "json/json_words.hpp"
 #include "language/language.hpp"
 #include "planar/plane_pose.hpp"
-#include "results/json_words.hpp"
 #include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "planar/carmen_log.hpp"
+#include "planar_files/carmen_log.hpp"
 
 namespace pose_wall::tools {
 

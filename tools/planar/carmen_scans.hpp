@@ -7,9 +7,9 @@
 
 #include <string>
 
-#include "planar/carmen_log.hpp"
-#include "planar/planar_input.hpp"
 #include "planar/scan_source.hpp"
+#include "planar_files/carmen_log.hpp"
+#include "planar_files/planar_input.hpp"
 
 namespace pose_wall::tools {
 

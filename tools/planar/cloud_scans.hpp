@@ -13,10 +13,10 @@
 #include "frames/frame_stamps.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "motion/moving_engine.hpp"
+#include "options/frame_options.hpp"
 #include "planar/part_block.hpp"
 #include "planar/scan_source.hpp"
 #include "pose_wall_planar_scan.h"
-#include "verbs/frame_options.hpp"
 
 namespace pose_wall::tools {
 

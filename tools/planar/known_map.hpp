@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "planar/map_files.hpp"
 #include "planar/saved_trail.hpp"
+#include "planar_files/map_files.hpp"
 
 namespace pose_wall::tools {
 

@@ -15,7 +15,7 @@
 
 #include "csv/csv_table.hpp"
 #include "planar/plane_pose.hpp"
-#include "planar/relations.hpp"
+#include "planar_files/relations.hpp"
 #include "pose_wall_planar_localise.h"
 
 namespace pose_wall::tools {

@@ -12,6 +12,7 @@
 
 #include "csv/csv_file.hpp"
 #include "frames/whole_file.hpp"
+#include "json/json_words.hpp"
 #include "language/language.hpp"
 #include "planar/known_map.hpp"
 #include "planar/localised_rows.hpp"
@@ -19,7 +20,6 @@
 #include "report/assets.hpp"
 #include "report/columns.hpp"
 #include "report/filled_page.hpp"
-#include "results/json_words.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "csv/csv_table.hpp"
 #include "language/language.hpp"
-#include "planar/map_files.hpp"
 #include "planar/plane_pose.hpp"
 #include "planar/setting_words.hpp"
 #include "planar/thread_clock.hpp"
+#include "planar_files/map_files.hpp"
 
 namespace pose_wall::tools {
 namespace {

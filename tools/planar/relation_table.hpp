@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "planar/relations.hpp"
+#include "planar_files/relations.hpp"
 
 namespace pose_wall::tools {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "angles.hpp"
-#include "planar/carmen_log.hpp"
-#include "planar/relations.hpp"
+#include "planar_files/carmen_log.hpp"
+#include "planar_files/relations.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "options/frame_options.hpp"
 #include "planar/scan_source.hpp"
-#include "verbs/frame_options.hpp"
 
 namespace pose_wall::tools {
 

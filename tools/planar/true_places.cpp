@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "frames/text_cursor.hpp"
-#include "planar/relations.hpp"
+#include "planar_files/relations.hpp"
 
 namespace pose_wall::tools {
 

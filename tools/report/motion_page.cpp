@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "json/json_words.hpp"
 #include "motion/comparison_words.hpp"
 #include "pose_wall.h"
 #include "report/assets.hpp"
 #include "report/columns.hpp"
 #include "report/filled_page.hpp"
-#include "results/json_words.hpp"
 
 namespace pose_wall::tools::report {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "config_file/key_table.hpp"
 #include "config_file/resolved_frames.hpp"
+#include "json/json_words.hpp"
 #include "picture/parts.hpp"
 #include "report/assets.hpp"
 #include "report/filled_page.hpp"
-#include "results/json_words.hpp"
 #include "results/usability.hpp"
 
 namespace pose_wall::tools::report {

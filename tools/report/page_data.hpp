@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "config_file/sensor_mount.hpp"
+#include "json/json_words.hpp"
 #include "picture/drawn_frame.hpp"
 #include "report/cloud_choice.hpp"
 #include "report/columns.hpp"
-#include "results/json_words.hpp"
 #include "results/result_csv.hpp"
 #include "truth/truth_csv.hpp"
 

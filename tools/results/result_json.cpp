@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "json/json_words.hpp"
 #include "quantities.hpp"
-#include "results/json_words.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools {

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 #include "results/result_csv.hpp"
 
 namespace pose_wall::tools {

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "angles.hpp"
 #include "language/language.hpp"
+#include "quantile.hpp"
 #include "quantities.hpp"
 #include "terminal/frames_text.hpp"
 #include "terminal/text_table.hpp"
@@ -40,14 +40,6 @@ std::string percent(std::size_t part, std::size_t whole) {
 }
 
 }  // namespace
-
-double quantile(std::vector<double> values, double fraction) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const double last = static_cast<double>(values.size() - 1);
-  const auto rank = static_cast<std::ptrdiff_t>(std::llround(fraction * last));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
-}
 
 void RunSummary::add(const FrameOutcome& outcome) {
   ++frames_;

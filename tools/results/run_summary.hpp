@@ -61,7 +61,4 @@ class RunSummary {
   std::vector<double> processor_ms_;
 };
 
-// The value below which `fraction` of the values lie (nearest rank); NaN when there are none.
-double quantile(std::vector<double> values, double fraction);
-
 }  // namespace pose_wall::tools

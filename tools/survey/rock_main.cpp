@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "frames/whole_file.hpp"
+#include "options/output_folder.hpp"
 #include "picture/spectra_diagram.hpp"
 #include "sim/check_setup.hpp"
 #include "sim/parameters.hpp"
@@ -22,7 +23,6 @@
 #include "sim/world.hpp"
 #include "survey/survey_file.hpp"
 #include "terminal/text_table.hpp"
-#include "verbs/output_folder.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "planar/relations.hpp"
+#include "planar_files/relations.hpp"
 #include "sim/survey_line.hpp"
 #include "survey/survey_file.hpp"
 

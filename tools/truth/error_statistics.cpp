@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "pose_wall.h"
-#include "results/run_summary.hpp"
+#include "quantile.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "frames/load_frame.hpp"
 #include "frames/whole_file.hpp"
-#include "verbs/output_folder.hpp"
+#include "options/output_folder.hpp"
 
 namespace pose_wall::tools {
 namespace {

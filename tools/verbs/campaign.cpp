@@ -33,11 +33,11 @@
 #include "campaign/sweep.hpp"
 #include "config_file/config_place.hpp"
 #include "config_file/load_config.hpp"
+#include "options/one_of.hpp"
+#include "options/output_folder.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
 #include "verbs/complaint.hpp"
-#include "verbs/one_of.hpp"
-#include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

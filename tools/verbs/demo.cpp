@@ -18,6 +18,8 @@
 #include "demo/live_table.hpp"
 #include "frames/whole_file.hpp"
 #include "language/language.hpp"
+#include "options/one_of.hpp"
+#include "options/output_folder.hpp"
 #include "results/result_output.hpp"
 #include "terminal/colours.hpp"
 #include "terminal/counted.hpp"
@@ -25,8 +27,6 @@
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
 #include "verbs/frame_work.hpp"
-#include "verbs/one_of.hpp"
-#include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

@@ -20,12 +20,12 @@
 #include "doctor/diagnosis_output.hpp"
 #include "info/next_steps.hpp"
 #include "language/language.hpp"
+#include "options/frame_options.hpp"
+#include "options/one_of.hpp"
+#include "options/output_file.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
-#include "verbs/frame_options.hpp"
-#include "verbs/one_of.hpp"
-#include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

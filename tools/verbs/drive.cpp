@@ -16,13 +16,13 @@
 #include "drive/story_files.hpp"
 #include "frames/whole_file.hpp"
 #include "language/language.hpp"
+#include "options/one_of.hpp"
+#include "options/output_folder.hpp"
+#include "options/pose_word.hpp"
 #include "sim/network_kinds.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
 #include "verbs/complaint.hpp"
-#include "verbs/one_of.hpp"
-#include "verbs/output_folder.hpp"
-#include "verbs/pose_word.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

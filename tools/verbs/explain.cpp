@@ -25,12 +25,13 @@
 #include "explain/gate_list.hpp"
 #include "explain/prose.hpp"
 #include "language/language.hpp"
+#include "options/frame_options.hpp"
+#include "options/output_file.hpp"
 #include "terminal/colours.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
+#include "terminal/shell_word.hpp"
 #include "verbs/complaint.hpp"
-#include "verbs/frame_options.hpp"
-#include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {
@@ -57,9 +58,9 @@ std::string command_of(const FrameOptions& frames) {
   std::string command = "pose_wall explain" + campaign::engine_words({frames.config_file, frames.settings});
   if (frames.rate_hz != FrameOptions{}.rate_hz) command += fmt::format(" --rate {}", frames.rate_hz);
   for (const auto& [name, text] : texts) {
-    if (!text.empty()) command += fmt::format(" --{} {}", name, campaign::shell_word(text));
+    if (!text.empty()) command += fmt::format(" --{} {}", name, shell_word(text));
   }
-  for (const std::string& input : frames.inputs) command += " " + campaign::shell_word(input);
+  for (const std::string& input : frames.inputs) command += " " + shell_word(input);
   return command;
 }
 

@@ -19,12 +19,12 @@
 #include "info/next_steps.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "language/language.hpp"
+#include "options/frame_options.hpp"
 #include "planar/carmen_facts.hpp"
 #include "planar/carmen_scans.hpp"
 #include "terminal/frames_text.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
-#include "verbs/frame_options.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

@@ -16,6 +16,10 @@
 
 #include "frames/whole_file.hpp"
 #include "language/language.hpp"
+#include "options/frame_options.hpp"
+#include "options/one_of.hpp"
+#include "options/output_file.hpp"
+#include "options/output_folder.hpp"
 #include "planar/built_map.hpp"
 #include "planar/map_picture.hpp"
 #include "planar/plane_pose.hpp"
@@ -27,10 +31,6 @@
 #include "terminal/progress_bar.hpp"
 #include "terminal/text_table.hpp"
 #include "verbs/complaint.hpp"
-#include "verbs/frame_options.hpp"
-#include "verbs/one_of.hpp"
-#include "verbs/output_file.hpp"
-#include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

@@ -23,13 +23,13 @@
 #include "motion/motion_rows.hpp"
 #include "motion/motion_runner.hpp"
 #include "motion/motion_summary.hpp"
+#include "options/frame_options.hpp"
+#include "options/output_file.hpp"
 #include "results/row_output.hpp"
 #include "terminal/counted.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/progress_bar.hpp"
-#include "verbs/frame_options.hpp"
 #include "verbs/frame_work.hpp"
-#include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

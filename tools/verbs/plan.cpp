@@ -17,16 +17,16 @@
 
 #include "angles.hpp"
 #include "language/language.hpp"
-#include "planar/map_files.hpp"
+#include "options/one_of.hpp"
+#include "options/output_file.hpp"
+#include "options/pose_word.hpp"
 #include "planar/map_picture.hpp"
-#include "planar/planar_input.hpp"
 #include "planar/planned_route.hpp"
+#include "planar_files/map_files.hpp"
+#include "planar_files/planar_input.hpp"
 #include "results/row_output.hpp"
 #include "terminal/text_table.hpp"
 #include "verbs/complaint.hpp"
-#include "verbs/one_of.hpp"
-#include "verbs/output_file.hpp"
-#include "verbs/pose_word.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

@@ -25,6 +25,9 @@
 #include "motion/motion_comparison.hpp"
 #include "motion/motion_table.hpp"
 #include "motion/pose_truth.hpp"
+#include "options/frame_options.hpp"
+#include "options/one_of.hpp"
+#include "options/output_file.hpp"
 #include "planar/map_report.hpp"
 #include "report/motion_page.hpp"
 #include "report/page.hpp"
@@ -35,9 +38,6 @@
 #include "truth/row_pairs.hpp"
 #include "truth/truth_csv.hpp"
 #include "verbs/complaint.hpp"
-#include "verbs/frame_options.hpp"
-#include "verbs/one_of.hpp"
-#include "verbs/output_file.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

@@ -19,6 +19,8 @@
 #include "info/usable_times.hpp"
 #include "inputs/frame_sequence.hpp"
 #include "language/language.hpp"
+#include "options/frame_options.hpp"
+#include "options/one_of.hpp"
 #include "results/frame_runner.hpp"
 #include "results/next_steps.hpp"
 #include "results/result_output.hpp"
@@ -28,9 +30,7 @@
 #include "terminal/progress_bar.hpp"
 #include "truth/alert_limits.hpp"
 #include "verbs/annotated_folder.hpp"
-#include "verbs/frame_options.hpp"
 #include "verbs/frame_work.hpp"
-#include "verbs/one_of.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

@@ -18,6 +18,10 @@
 
 #include "csv/csv_table.hpp"
 #include "language/language.hpp"
+#include "options/frame_options.hpp"
+#include "options/one_of.hpp"
+#include "options/output_file.hpp"
+#include "options/pose_word.hpp"
 #include "planar/cloud_scans.hpp"
 #include "planar/scan_inputs.hpp"
 #include "planar/scan_picture.hpp"
@@ -26,10 +30,6 @@
 #include "terminal/progress_bar.hpp"
 #include "terminal/text_table.hpp"
 #include "verbs/complaint.hpp"
-#include "verbs/frame_options.hpp"
-#include "verbs/one_of.hpp"
-#include "verbs/output_file.hpp"
-#include "verbs/pose_word.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

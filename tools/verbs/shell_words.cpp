@@ -12,8 +12,8 @@
 #include "command_line/completion.hpp"
 #include "command_line/grammar.hpp"
 #include "command_line/man_page.hpp"
+#include "options/one_of.hpp"
 #include "pose_wall.h"
-#include "verbs/one_of.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

@@ -18,6 +18,8 @@
 
 #include "frames/pcd_writer.hpp"
 #include "frames/whole_file.hpp"
+#include "options/one_of.hpp"
+#include "options/output_folder.hpp"
 #include "sim/parameters.hpp"
 #include "sim/run_files.hpp"
 #include "sim/scenes.hpp"
@@ -30,8 +32,6 @@
 #include "terminal/text_table.hpp"
 #include "truth/truth_csv.hpp"
 #include "verbs/complaint.hpp"
-#include "verbs/one_of.hpp"
-#include "verbs/output_folder.hpp"
 #include "verbs/verbs.hpp"
 
 namespace pose_wall::tools {

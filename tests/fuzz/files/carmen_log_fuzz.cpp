@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fuzz/fuzz_target.hpp"
-#include "planar/carmen_log.hpp"
+#include "planar_files/carmen_log.hpp"
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include "live/log.hpp"
 #include "live/planar/live_map.hpp"
 #include "live/planar/place_finder.hpp"
-#include "planar/map_files.hpp"
 #include "planar/part_block.hpp"
+#include "planar_files/map_files.hpp"
 #include "pose_wall_planar_slam.h"
 
 namespace pose_wall::tools::live {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "planar/gzip_text.hpp"
+#include "planar_files/gzip_text.hpp"
 
 #include <fstream>
 #include <memory>

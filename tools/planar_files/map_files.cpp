@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "planar/map_files.hpp"
+#include "planar_files/map_files.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "config_file/yaml_entries.hpp"
 #include "frames/whole_file.hpp"
 #include "language/language.hpp"
-#include "planar/pgm_image.hpp"
+#include "planar_files/pgm_image.hpp"
 
 namespace pose_wall::tools {
 namespace {

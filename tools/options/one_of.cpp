@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "verbs/one_of.hpp"
+#include "options/one_of.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "verbs/frame_options.hpp"
+#include "options/frame_options.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <optional>
 
-#include "command_line/completion.hpp"
 #include "config_file/config_place.hpp"
 #include "frames/bare_points.hpp"
 #include "frames/length_unit.hpp"
 #include "frames/text_cursor.hpp"
 #include "language/language.hpp"
-#include "verbs/one_of.hpp"
+#include "options/one_of.hpp"
+#include "terminal/shell_word.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -32,14 +32,9 @@ std::string layout_fault(const std::string& word) {
   return parse_bare_layout(word) ? "" : say("'{}' is refused; allowed: {}", word, bare_layout_rule());
 }
 
-bool needs_no_quotes(const std::string& word) {
-  constexpr const char* kSafe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
-  return !word.empty() && word.find_first_not_of(kSafe) == std::string::npos;
-}
-
 void append(std::string* words, const std::string& word) {
   if (!words->empty()) *words += ' ';
-  *words += needs_no_quotes(word) ? word : shell_quoted(word);
+  *words += shell_word(word);
 }
 
 void append(std::string* words, const char* option, const std::string& value) {

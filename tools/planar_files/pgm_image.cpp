@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "planar/pgm_image.hpp"
+#include "planar_files/pgm_image.hpp"
 
 #include <fmt/format.h>
 

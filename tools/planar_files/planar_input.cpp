@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "planar/planar_input.hpp"
+#include "planar_files/planar_input.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include "frames/file_content.hpp"
 #include "frames/text_points.hpp"
 #include "language/language.hpp"
-#include "planar/map_files.hpp"
+#include "planar_files/map_files.hpp"
 
 namespace pose_wall::tools {
 namespace {

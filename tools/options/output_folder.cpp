@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "verbs/output_folder.hpp"
+#include "options/output_folder.hpp"
 
 #include <fmt/format.h>
 

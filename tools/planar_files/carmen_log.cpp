@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "planar/carmen_log.hpp"
+#include "planar_files/carmen_log.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 #include "frames/frame.hpp"
 #include "frames/text_cursor.hpp"
 #include "language/language.hpp"
-#include "planar/gzip_text.hpp"
+#include "planar_files/gzip_text.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "results/json_words.hpp"
+#include "json/json_words.hpp"
 
 #include <nlohmann/json.hpp>
 

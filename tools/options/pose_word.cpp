@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "verbs/pose_word.hpp"
+#include "options/pose_word.hpp"
 
 #include <cmath>
 #include <filesystem>
