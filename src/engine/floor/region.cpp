@@ -96,8 +96,8 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
     return;
   }
   // Most of it may be no floor, or another one. Then either plane may be the right one.
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(at.roll_rad - to.roll_rad) + known.roll_rad;
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(at.pitch_rad - to.pitch_rad) + known.pitch_rad;
+  floor->reach_to_rival(std::fabs(at.roll_rad - to.roll_rad) + known.roll_rad,
+                        std::fabs(at.pitch_rad - to.pitch_rad) + known.pitch_rad);
 }
 
 }  // namespace pose_wall

@@ -23,6 +23,12 @@ struct FloorResult {
   double area_m2 = 0.0;
   double roi_radius_m = 0.0;
   std::uint32_t open_points = 0;  // open points within the radius
+
+  // The truth may be another floor, whose roll and pitch lie so far off.
+  void reach_to_rival(double roll_rad, double pitch_rad) {
+    roll_bound_rad[POSE_WALL_PART_RIVAL] += roll_rad;
+    pitch_bound_rad[POSE_WALL_PART_RIVAL] += pitch_rad;
+  }
 };
 
 // Protection levels of the two angles. A refused floor has none.

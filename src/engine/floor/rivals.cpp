@@ -116,8 +116,7 @@ std::uint32_t widest_gap(const Holds& holds) {
 void reach_to_unseen_ground(const Eighths& seen, const Settings& s, FloorResult* floor) {
   if (widest_gap([&](std::uint32_t eighth) { return seen.has_ground(eighth); }) <= kGapOfHalf) return;
   if (demand<gate::FLOOR_NEAR>(&floor->fit, seen.near_share(), s)) return;
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += kUnseenRamp_rad;
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += kUnseenRamp_rad;
+  floor->reach_to_rival(kUnseenRamp_rad, kUnseenRamp_rad);
 }
 
 // Copies open points off the floor and below the sensor. Over the floor they may be as high as the sensor. In base they
@@ -211,8 +210,7 @@ void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const
     const bool must_stand_alone = best.evidence.area_m2 < kSmallArea_m2 && !rival.ghost;
     if (must_stand_alone && !lie_alike(best.plane, rival.plane)) demand<gate::FLOOR_ALONE>(&floor->fit, share, s);
   }
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += roll;
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += pitch;
+  floor->reach_to_rival(roll, pitch);
 }
 
 // The levels reach to the floor within another radius, and beyond, since that one is not the truth either. A wider look
@@ -227,8 +225,7 @@ void reach_to_other_look(const FloorResult& other, const Settings& s, FloorResul
   const auto of_rivals = [&](const ProtectionParts& bound) { return other.fit.refused ? bound.sum() : 0.0; };
   const double roll = kBeyond * std::fabs(a.roll_rad - b.roll_rad) + of_rivals(other.roll_bound_rad);
   const double pitch = kBeyond * std::fabs(a.pitch_rad - b.pitch_rad) + of_rivals(other.pitch_bound_rad);
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, roll - known.roll_rad);
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += larger(0.0, pitch - known.pitch_rad);
+  floor->reach_to_rival(larger(0.0, roll - known.roll_rad), larger(0.0, pitch - known.pitch_rad));
 }
 
 void widen_by_claims(std::uint32_t claims, const Settings& s, FloorResult* floor) {
@@ -236,8 +233,7 @@ void widen_by_claims(std::uint32_t claims, const Settings& s, FloorResult* floor
   if (floor->fit.refused) return;
   const double curse = kPerOtherClaim * static_cast<double>(claims - 1);
   const Protections known = protections_of(*floor, s);
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += curse * known.roll_rad;
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += curse * known.pitch_rad;
+  floor->reach_to_rival(curse * known.roll_rad, curse * known.pitch_rad);
 }
 
 void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratch* scratch, FloorResult* floor) {
@@ -281,8 +277,7 @@ void reach_to_upright(FloorResult* floor) {
   if (floor->fit.refused || (floor->fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS) == 0) return;
   const double tilt_rad = tilt_of_up(floor->fit.plane.n);
   if (!(tilt_rad > kSteep_rad)) return;
-  floor->roll_bound_rad[POSE_WALL_PART_RIVAL] += tilt_rad;
-  floor->pitch_bound_rad[POSE_WALL_PART_RIVAL] += tilt_rad;
+  floor->reach_to_rival(tilt_rad, tilt_rad);
 }
 
 FloorResult doubted_by_walls(const FloorResult& floor, const Eigen::Vector3d& tilt_level_rad, const Settings& s,
@@ -292,8 +287,7 @@ FloorResult doubted_by_walls(const FloorResult& floor, const Eigen::Vector3d& ti
   if (demand<gate::FLOOR_BY_WALLS>(&out.fit, std::sqrt(tilt_level_rad.squaredNorm()), s)) return out;
   // A turn about base X is roll, about base Y pitch.
   const Eigen::Vector3d tilt_base_rad = levelling.R_level_base.transpose() * tilt_level_rad;
-  out.roll_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.x());
-  out.pitch_bound_rad[POSE_WALL_PART_RIVAL] += std::fabs(tilt_base_rad.y());
+  out.reach_to_rival(std::fabs(tilt_base_rad.x()), std::fabs(tilt_base_rad.y()));
   return out;
 }
 
