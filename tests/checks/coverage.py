@@ -26,7 +26,7 @@ KINDS = ("unit", "property", "abi", "runtime", "faults")
 LINES_MIN, BRANCHES_MIN = 95.0, 90.0
 
 
-# Statistics over many draws; as in .ci/run.
+# Statistics over many draws; as in .ci/weekly.
 MANY_DRAWS = ("WallStrips.TheRock*:WallStrips.RockWithout*:StripProfile.RoughRockHasNone*:GrooveProfile.RockIsNot*:"
               "PatchFit.OnRoughRock*:PatchFit.AFoot*:PatchFit.AFlat*:PatchFit.OnAFlat*:GroundFit.TheErrors*:"
               "UnevenPlane.Errors*:*SimRender.EveryScene*:*FramesAndSigns*")
