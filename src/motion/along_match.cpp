@@ -15,7 +15,7 @@ namespace {
 constexpr float kCap = kOutlier * kOutlier;  // squared deviations: more is of another surface
 // Of the curve against the rows' levels. With 1 the sweep's 95th percentile of step errors is 21 mm and not 17, with 6
 // it is 17 as well.
-constexpr int kSweeps = 3;
+constexpr int kRounds = 3;
 constexpr double kNobodyKnows = 1e3;  // cost of a shift at which the map knows no row
 // Common to all ranges of a sensor, at most (range_bias_max of the engine). Map and scan hold it alike but for how they
 // were met, and that is a pattern which travels with the machine.
@@ -128,7 +128,7 @@ class CurveBuilder {
   double curve(double (&f)[kShiftsMost]) {
     for (double& value : f) value = 0.0;
     double level = 0.0;
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (int round = 0; round < kRounds; ++round) {
       double sum[kShiftsMost] = {}, known[kShiftsMost] = {}, levels = 0.0;
       level = 0.0;
       for (std::uint32_t row = 0; row < rows_; ++row) {

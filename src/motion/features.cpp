@@ -63,14 +63,15 @@ struct FourColumns {
   FourTruths told, flat;
 };
 
-// The first point in a direction that lies on the same surface.
-std::uint16_t neighbour(const RangeImage& image, std::int32_t row, std::int32_t column, std::int32_t row_step,
-                        std::int32_t column_step, float range) {
+// The first point in a direction that lies on the same surface; else the point itself.
+std::uint32_t neighbour(const RangeImage& image, std::uint32_t self, std::int32_t row, std::int32_t column,
+                        std::int32_t row_step, std::int32_t column_step) {
+  const float range = image.range[self];
   for (std::int32_t k = 0; k < kTries; ++k, row += row_step, column += column_step) {
     const std::uint16_t j = image.at(row, column);
     if (j != kNoPoint && std::fabs(image.range[j] - range) < 0.3F + 0.3F * range) return j;
   }
-  return kNoPoint;
+  return self;
 }
 
 std::uint32_t cube_of(const Eigen::Vector3f& p) {
@@ -117,16 +118,11 @@ bool normal_about(const RangeImage& image, std::uint32_t i, Eigen::Vector3f* nor
   const float spacing_m = r * (kTurn_rad / static_cast<float>(image.columns));
   std::int32_t far = static_cast<std::int32_t>(kBaseline_m / spacing_m + 0.5F);
   far = far < 1 ? 1 : far > 16 ? 16 : far;
-  std::uint16_t right = neighbour(image, row, column + far, 0, 1, r);
-  std::uint16_t left = neighbour(image, row, column - far, 0, -1, r);
+  const std::uint32_t right = neighbour(image, i, row, column + far, 0, 1);
+  const std::uint32_t left = neighbour(image, i, row, column - far, 0, -1);
   const std::int32_t up_by = image.rows > 40 ? (r < 3.0F ? 4 : 2) : 1;
-  std::uint16_t above = neighbour(image, row + up_by, column, 1, 0, r);
-  std::uint16_t below = neighbour(image, row - up_by, column, -1, 0, r);
-  const std::uint16_t self = static_cast<std::uint16_t>(i);
-  if (right == kNoPoint) right = self;
-  if (left == kNoPoint) left = self;
-  if (above == kNoPoint) above = self;
-  if (below == kNoPoint) below = self;
+  const std::uint32_t above = neighbour(image, i, row + up_by, column, 1, 0);
+  const std::uint32_t below = neighbour(image, i, row - up_by, column, -1, 0);
   if (right == left || above == below) return false;
   const Eigen::Vector3f p = image.point(i);
   Eigen::Vector3f n = (image.point(right) - image.point(left)).cross(image.point(above) - image.point(below));

@@ -109,16 +109,18 @@ bool ReliefMap::find(const Eigen::Vector3f& p, std::uint8_t facing, Surface* out
   return found;
 }
 
-bool ReliefMap::find_again(const Eigen::Vector3f& p, const Tile* before, Surface* out) const {
-  const Tile& tile = *before;
+Surface ReliefMap::over(const Tile& tile, const Eigen::Vector3f& p) const {
   const int iu = kU[tile.facing], iv = kV[tile.facing];
   const float u = p[iu] - static_cast<float>(tile.u - corner_[iu]) - 0.5F;
   const float v = p[iv] - static_cast<float>(tile.v - corner_[iv]) - 0.5F;
-  if (!(std::fabs(u) <= 0.5F && std::fabs(v) <= 0.5F)) return find(p, tile.facing, out);
-  const float above =
-      p[tile.facing] - (tile.height_m - static_cast<float>(corner_[tile.facing])) - tile.slope_u * u - tile.slope_v * v;
-  *out = {before, u, v, above};
-  return std::fabs(above) < kLayer_m;
+  const float plane_m = tile.height_m - static_cast<float>(corner_[tile.facing]);
+  return {&tile, u, v, p[tile.facing] - plane_m - tile.slope_u * u - tile.slope_v * v};
+}
+
+bool ReliefMap::find_again(const Eigen::Vector3f& p, const Tile* before, Surface* out) const {
+  *out = over(*before, p);
+  if (!(std::fabs(out->u) <= 0.5F && std::fabs(out->v) <= 0.5F)) return find(p, before->facing, out);
+  return std::fabs(out->above_m) < kLayer_m;
 }
 
 namespace {
@@ -206,14 +208,9 @@ std::int32_t ReliefMap::take_tile() {
 // Points come one beside the other: most lie on the tile of the one before.
 bool ReliefMap::is_still_over(const Tile& tile, const Eigen::Vector3f& p, std::uint8_t facing, Surface* at) const {
   if (tile.facing != facing) return false;
-  const int iu = kU[facing], iv = kV[facing];
-  const float u = p[iu] - static_cast<float>(tile.u - corner_[iu]) - 0.5F;
-  const float v = p[iv] - static_cast<float>(tile.v - corner_[iv]) - 0.5F;
-  const float above =
-      p[facing] - (tile.height_m - static_cast<float>(corner_[facing])) - tile.slope_u * u - tile.slope_v * v;
-  *at = {&tile, u, v, above};
+  *at = over(tile, p);
   constexpr float kNoOther_m = 0.5F * kLayer_m;  // further off, another surface may be nearer
-  return std::fabs(u) < 0.5F && std::fabs(v) < 0.5F && std::fabs(above) < kNoOther_m;
+  return std::fabs(at->u) < 0.5F && std::fabs(at->v) < 0.5F && std::fabs(at->above_m) < kNoOther_m;
 }
 
 Tile* ReliefMap::tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface* at) {

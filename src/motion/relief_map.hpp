@@ -142,6 +142,7 @@ class ReliefMap {
   std::uint32_t bucket_of(std::int32_t u, std::int32_t v, std::uint8_t facing) const;
   Tile* tile_for(const Eigen::Vector3f& p, std::uint8_t facing, Surface* at);
   std::int32_t take_tile();
+  Surface over(const Tile& tile, const Eigen::Vector3f& p) const;
   bool is_still_over(const Tile& tile, const Eigen::Vector3f& p, std::uint8_t facing, Surface* at) const;
   void settle(Tile* tile);
   bool goes_on_behind(const Tile& tile) const;

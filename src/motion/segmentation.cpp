@@ -63,7 +63,7 @@ class Clusters {
         if (is_rock(at)) {
           const std::uint16_t beside = other_of(at, left, but_one);
           s_.label[at] = beside != kNoPoint ? s_.label[beside] : new_label();
-          look(at, place >= columns ? image_.cell[place - columns] : kNoPoint,
+          join(at, place >= columns ? image_.cell[place - columns] : kNoPoint,
                place >= 2 * columns ? image_.cell[place - 2 * columns] : kNoPoint);
         }
         but_one = left;
@@ -71,8 +71,8 @@ class Clusters {
       }
       // columns go round
       const std::uint16_t first = image_.cell[row], second = image_.cell[row + 1];
-      if (is_rock(first)) look(first, left, but_one);
-      if (is_rock(second) && !is_rock(first)) look(second, first, left);
+      if (is_rock(first)) join(first, left, but_one);
+      if (is_rock(second) && !is_rock(first)) join(second, first, left);
     }
     for (std::uint32_t k = 0; k < labels_; ++k) s_.leads_to[k] = root(static_cast<std::uint16_t>(k));
   }
@@ -95,7 +95,7 @@ class Clusters {
     return kNoPoint;
   }
 
-  void look(std::uint16_t at, std::uint16_t next, std::uint16_t but_one) {
+  void join(std::uint16_t at, std::uint16_t next, std::uint16_t but_one) {
     const std::uint16_t other = other_of(at, next, but_one);
     if (other == kNoPoint || s_.label[at] == s_.label[other]) return;
     const std::uint16_t a = root(s_.label[at]), b = root(s_.label[other]), least = a < b ? a : b;

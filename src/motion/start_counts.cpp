@@ -226,7 +226,7 @@ Start StartGrid::at(std::uint32_t index) const {
 void StartScratch::lay_out(Arena& arena) {
   bits = arena.take<std::uint64_t>(kFacings * kBins * kLayerWords);
   bound = arena.take<std::uint8_t>(kStartsInRow * kStartsInRow * kStartsInRow);
-  best = arena.take<std::uint32_t>(kLooksMost);
+  best = arena.take<std::uint32_t>(kExactMost);
   asked = arena.take<Observation>(kAskedMost);
   facing = arena.take<std::uint8_t>(kStartsInRow * kAskedMost);
   window = arena.take<BitWindow>(kAskedMost);

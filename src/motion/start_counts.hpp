@@ -55,13 +55,13 @@ struct StartScratch {
 };
 
 constexpr double kBoundUnit = 1.0 / 255.0;  // a share of one fills a byte
-constexpr std::uint32_t kLooksMost = 128;   // exact ones of the grid; see README, After gaps
+constexpr std::uint32_t kExactMost = 128;   // of the grid that are tried exactly; see README, After gaps
 
 // How observations face in another attitude. One that faces no axis there keeps its own.
 void find_facings(const Eigen::Matrix3d& R_map_base, Span<const Observation> asked, Span<std::uint8_t> facing);
 
 // The bounds of all starts about the pose, and how the observations face at each yaw. Gives how many of the best
-// starts stand in scratch->best, at most kLooksMost.
+// starts stand in scratch->best, at most kExactMost.
 std::uint32_t count_starts(const ReliefMap& map, Span<const Observation> asked, const Pose& pose, const StartGrid& grid,
                            StartScratch* scratch, Work* work);
 

@@ -50,18 +50,26 @@ double squaring_yaw_rad(Span<const Observation> observations, const Eigen::Matri
   return -0.25 * arc_tangent2(s, c);
 }
 
+namespace {
+
+// How well a point lies on the map: 1 on a plane, 0 off the layer about it.
+double nearness(const ReliefMap& map, const LocalPose& local, const Observation& o, std::uint8_t facing) {
+  Surface at;
+  const bool on = map.find(local(Eigen::Vector3f(o.x, o.y, o.z)), facing, &at);
+  return on ? 1.0 - static_cast<double>(std::fabs(at.above_m) / kLayer_m) : 0.0;
+}
+
+}  // namespace
+
 double share_on_map(const ReliefMap& map, Span<const Observation> observations, const Pose& pose,
                     std::uint32_t stride) {
   const LocalPose local(pose, map.corner());
   double on = 0.0, asked = 0.0;
   for (std::uint32_t i = 0; i < observations.size(); i += stride) {
     const Observation& o = observations[i];
-    Surface at;
     if (o.ground != 0) continue;  // is met wherever the machine turns and goes
     asked += 1.0;
-    if (map.find(local(Eigen::Vector3f(o.x, o.y, o.z)), o.facing, &at)) {
-      on += 1.0 - static_cast<double>(std::fabs(at.above_m) / kLayer_m);
-    }
+    on += nearness(map, local, o, o.facing);
   }
   return asked > 0.0 ? on / asked : 0.0;
 }
@@ -78,17 +86,17 @@ std::uint32_t choose_asked(Span<const Observation> observations, Span<Observatio
   return count;
 }
 
-// Looks exactly: the best start so far of a grid about a pose.
-class Looks {
+// The best start so far of a grid about a pose, each tried exactly.
+class BestStart {
  public:
-  Looks(const ReliefMap& map, Span<const Observation> asked, const Pose& middle, double place_step_m, Work* work)
+  BestStart(const ReliefMap& map, Span<const Observation> asked, const Pose& middle, double place_step_m, Work* work)
       : map_(map), asked_(asked), middle_(middle), pose_(middle), place_step_m_(place_step_m), work_(work) {}
 
-  double best() const { return best_; }
+  double share() const { return best_; }
   const Pose& pose() const { return pose_; }
 
   // turn: of the start's yaw; facing: of the observations there.
-  void look_at(const Start& start, const Eigen::Matrix3d& turn, Span<const std::uint8_t> facing) {
+  void try_out(const Start& start, const Eigen::Matrix3d& turn, Span<const std::uint8_t> facing) {
     const Pose at = {turn * middle_.R, middle_.t + place_step_m_ * Eigen::Vector3d(start.x, start.y, 0.0)};
     const double cost = start.cost(), share = share_above(at, facing, best_ + cost);
     if (!(share - cost > best_)) return;
@@ -105,11 +113,7 @@ class Looks {
     double on = 0.0;
     for (std::uint32_t i = 0; i < asked_.size(); ++i) {
       work_->add(steps::kStartLookedAt);
-      const Observation& o = asked_[i];
-      Surface at;
-      if (map_.find(local(Eigen::Vector3f(o.x, o.y, o.z)), facing[i], &at)) {
-        on += 1.0 - static_cast<double>(std::fabs(at.above_m) / kLayer_m);
-      }
+      on += nearness(map_, local, asked_[i], facing[i]);
       if (!(on + (all - i - 1.0) > least * all)) return 0.0;
     }
     return on / all;
@@ -140,16 +144,16 @@ double search_all(const ReliefMap& map, Span<const Observation> asked, const Pas
                   Work* work, Pose* pose) {
   const StartGrid grid = pass.grid();
   const Span<std::uint8_t> facing = scratch->facing.first(asked.size());
-  Looks looks(map, asked, *pose, pass.place_step_m, work);
+  BestStart best(map, asked, *pose, pass.place_step_m, work);
   for (int yaw = -grid.yaws; yaw <= grid.yaws; ++yaw) {
     const Eigen::Matrix3d turn = grid.turn(yaw);
     find_facings(turn * pose->R, asked, facing);
     for (int x = -grid.places; x <= grid.places; ++x) {
-      for (int y = -grid.places; y <= grid.places; ++y) looks.look_at({yaw, x, y}, turn, facing);
+      for (int y = -grid.places; y <= grid.places; ++y) best.try_out({yaw, x, y}, turn, facing);
     }
   }
-  *pose = looks.pose();
-  return looks.best();
+  *pose = best.pose();
+  return best.share();
 }
 
 // Of a large one those whose bound is better than the best, the best bound first.
@@ -157,14 +161,14 @@ void search_bounded(const ReliefMap& map, Span<const Observation> asked, const P
                     Work* work, Pose* pose) {
   const StartGrid grid = pass.grid();
   const std::uint32_t count = count_starts(map, asked, *pose, grid, scratch, work);
-  Looks looks(map, asked, *pose, pass.place_step_m, work);
+  BestStart best(map, asked, *pose, pass.place_step_m, work);
   for (std::uint32_t k = 0; k < count; ++k) {
     const std::uint32_t index = scratch->best[k];
-    if (scratch->bound[index] * kBoundUnit <= looks.best()) break;  // so are all that follow
+    if (scratch->bound[index] * kBoundUnit <= best.share()) break;  // so are all that follow
     const Start start = grid.at(index);
-    looks.look_at(start, grid.turn(start.yaw), grid.of_yaw(scratch->facing, asked.size(), start.yaw));
+    best.try_out(start, grid.turn(start.yaw), grid.of_yaw(scratch->facing, asked.size(), start.yaw));
   }
-  *pose = looks.pose();
+  *pose = best.pose();
 }
 
 }  // namespace
