@@ -11,28 +11,29 @@
 #include <memory>
 #include <vector>
 
-#include "planar/localise/place_fit.hpp"
+#include "place/slide.hpp"
+#include "planar/localise/surroundings.hpp"
 
 namespace pose_wall::planar {
 namespace {
 
-// A map and a look in one dirty block.
+// A map and surroundings in one dirty block.
 class Opened {
  public:
   explicit Opened(std::uint32_t tiles_most = 64) {
     Arena measure(nullptr);
     map_.lay_out(measure, tiles_most);
-    look_.lay_out(measure);
+    around_.lay_out(measure);
     const std::uint64_t bytes = measure.bytes();
     block_.reset(static_cast<unsigned char*>(std::aligned_alloc(64, (bytes + 63) / 64 * 64)));
     std::memset(block_.get(), 0xA5, bytes);
     Arena arena(block_.get());
     map_.lay_out(arena, tiles_most);
-    look_.lay_out(arena);
+    around_.lay_out(arena);
     map_.open();
   }
   PlaceMap& map() { return map_; }
-  Look& look() { return look_; }
+  Surroundings& around() { return around_; }
 
  private:
   struct Free {
@@ -40,7 +41,7 @@ class Opened {
   };
   std::unique_ptr<unsigned char, Free> block_;
   PlaceMap map_;
-  Look look_;
+  Surroundings around_;
 };
 
 // Walls at y = 2.5 and -2.5 with bumps, from x = first to last, seen from the origin.
@@ -95,26 +96,25 @@ TEST(LocaliseFit, FindsAPoseAndPatchesTellPlacesApart) {
   std::vector<ScanPoint> points = road(-8, 8, 0.08);
   opened.map().add(span_of(points), {0.0, 0.0, 0.0});
   opened.map().finish();
-  Look& look = opened.look();
+  Surroundings& around = opened.around();
   std::vector<ScanPoint> scan = road(-5, 5, 0.08);
-  look.take(span_of(scan), {0.0, 0.0}, 0.02);
-  EXPECT_GT(look.patches, 18U);
-  const Fit fit = fit_pose(opened.map(), look, {0.1, -0.08, 0.03}, {0.05, 0.3, 1, 12, {}});
+  around.take(span_of(scan), {0.0, 0.0}, 0.02);
+  EXPECT_GT(around.patches, 18U);
+  const Fit fit = fit_pose(opened.map(), around.points, {0.1, -0.08, 0.03}, {0.05});
   EXPECT_NEAR(fit.pose.x_m, 0.0, 0.01);
   EXPECT_NEAR(fit.pose.y_m, 0.0, 0.005);
   EXPECT_NEAR(fit.pose.yaw_rad, 0.0, 0.002);
   EXPECT_GT(fit.explained, 0.95);
   PatchCosts right, wrong;
-  const PatchVerdict here = judge_patches(opened.map(), look, fit.pose, &right);
+  const PatchVerdict here = judge_patches(opened.map(), around, fit.pose, &right);
   Pose2 shifted = fit.pose;
   shifted.x_m += 1.0;
-  const PatchVerdict there = judge_patches(opened.map(), look, shifted, &wrong);
+  const PatchVerdict there = judge_patches(opened.map(), around, shifted, &wrong);
   EXPECT_GT(here.fits, 0.95);
   EXPECT_LT(there.fits, 0.7);
-  EXPECT_GT(worse_by(look, right, wrong), 3.0);
-  EXPECT_EQ(worse_by(look, right, right), 0.0);
-  PatchCosts room[2];
-  EXPECT_LE(slide_of(opened.map(), look, fit, 4.0, room).reach_m, 0.4);
+  EXPECT_GT(worse_by(around, right, wrong), 3.0);
+  EXPECT_EQ(worse_by(around, right, right), 0.0);
+  EXPECT_LE(slide_of(opened.map(), around, fit, kExcludedBy).reach_m, 0.4);
 }
 
 TEST(LocaliseFit, SmoothWallsSlide) {
@@ -122,12 +122,11 @@ TEST(LocaliseFit, SmoothWallsSlide) {
   std::vector<ScanPoint> points = road(-12, 12, 0.0);
   opened.map().add(span_of(points), {0.0, 0.0, 0.0});
   opened.map().finish();
-  Look& look = opened.look();
+  Surroundings& around = opened.around();
   std::vector<ScanPoint> scan = road(-5, 5, 0.0);
-  look.take(span_of(scan), {0.0, 0.0}, 0.02);
-  const Fit fit = fit_pose(opened.map(), look, Pose2(), {0.02, 0.3, 1, 8, {}});
-  PatchCosts room[2];
-  const Slid slid = slide_of(opened.map(), look, fit, 4.0, room);
+  around.take(span_of(scan), {0.0, 0.0}, 0.02);
+  const Fit fit = fit_pose(opened.map(), around.points, Pose2(), {0.02});
+  const Slide slid = slide_of(opened.map(), around, fit, kExcludedBy);
   EXPECT_EQ(slid.reach_m, 3.2);
   EXPECT_NEAR(std::abs(slid.direction.x()), 1.0, 1e-2);
 }
@@ -139,10 +138,10 @@ TEST(LocaliseFit, LinesOfSightThroughWallsCount) {
   opened.map().finish();
   std::vector<ScanPoint> inside = road(-6, 6, 0.0), wide = inside;
   for (ScanPoint& point : wide) point.y_m *= 2.0F;  // a road of 10 m
-  opened.look().take(span_of(inside), {0.0, 0.0}, 0.02);
-  EXPECT_LT(seen_through(opened.map(), opened.look(), Pose2()), 0.05);
-  opened.look().take(span_of(wide), {0.0, 0.0}, 0.02);
-  EXPECT_GT(seen_through(opened.map(), opened.look(), Pose2()), 0.8);
+  opened.around().take(span_of(inside), {0.0, 0.0}, 0.02);
+  EXPECT_LT(seen_through(opened.map(), opened.around(), Pose2()), 0.05);
+  opened.around().take(span_of(wide), {0.0, 0.0}, 0.02);
+  EXPECT_GT(seen_through(opened.map(), opened.around(), Pose2()), 0.8);
 }
 
 }  // namespace

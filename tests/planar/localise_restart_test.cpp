@@ -200,7 +200,7 @@ TEST(LocaliseRestart, WorkIsSharedOutOverCalls) {
   own.forget();
   own.set_work(1U << 30);
   ASSERT_EQ(own.process(read_beams(scan, own.beams()), nullptr), Where::unique);
-  const Pose2 whole = own.tracker().pose();
+  const Pose2 whole = own.follower().pose();
   own.forget();
   own.set_work(20000);
   Where where = Where::searching;
@@ -213,7 +213,7 @@ TEST(LocaliseRestart, WorkIsSharedOutOverCalls) {
   }
   EXPECT_EQ(where, Where::unique);
   EXPECT_GT(calls, 3);
-  EXPECT_LT(between(whole, own.tracker().pose()).place().norm(), 0.02);
+  EXPECT_LT(between(whole, own.follower().pose()).place().norm(), 0.02);
   own.set_work(1U << 30);
 }
 

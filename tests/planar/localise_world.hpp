@@ -273,8 +273,8 @@ class World {
           scan_at(at, restart.things, restart.seed * 64 + static_cast<std::uint64_t>(k), &ranges);
       const Where where = own.process(read_beams(scan, own.beams()), restart.has_odometry ? &odometry : nullptr);
       if (own.is_tracking() && restart.is_mapped) {
-        const Pose2 apart = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
-        const double variance = own.tracker().covariance()(0, 0) + own.tracker().covariance()(1, 1);
+        const Pose2 apart = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.follower().pose());
+        const double variance = own.follower().covariance()(0, 0) + own.follower().covariance()(1, 1);
         const double error2 = apart.place().squaredNorm();
         ++out.tracked;
         out.beyond += error2 > 9.0 * variance ? 1 : 0;
@@ -282,7 +282,7 @@ class World {
         out.normal += error2 / variance;
       }
       if (where == Where::unique) {
-        const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
+        const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.follower().pose());
         out.error_m = off.place().norm();
         out.error_rad = std::abs(off.yaw_rad);
         const bool wrong = !(out.error_m < 0.5 && out.error_rad < 0.1);
@@ -298,9 +298,9 @@ class World {
       if (verbose && own.is_tracking())
         std::printf("    %.2f m tracked: state %u off %.2f m, sigma %.2f m, slide %.1f fits %.2f\n", driven_m,
                     static_cast<unsigned>(where),
-                    between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose()).place().norm(),
-                    std::sqrt(own.tracker().covariance().topLeftCorner<2, 2>().trace()), own.tracker().slide_m(),
-                    own.tracker().verdict().fits);
+                    between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.follower().pose()).place().norm(),
+                    std::sqrt(own.follower().covariance().topLeftCorner<2, 2>().trace()), own.follower().slide_m(),
+                    own.follower().verdict().fits);
       searches_ = own.searches();
       if (k == 2) out.standing = where;
       if (k == 2 + 8) out.after_2m = where;
@@ -363,14 +363,14 @@ class World {
           scan_at(at, restart.things, restart.seed * 64 + static_cast<std::uint64_t>(out.scans), &ranges);
       const Where where = own.process(read_beams(scan, own.beams()), has_odometry ? &odometry : nullptr);
       if (!own.is_tracking()) continue;
-      const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
-      const double variance = own.tracker().covariance()(0, 0) + own.tracker().covariance()(1, 1);
+      const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.follower().pose());
+      const double variance = own.follower().covariance()(0, 0) + own.follower().covariance()(1, 1);
       ++out.tracked;
       if (off.place().squaredNorm() > 9.0 * variance) ++out.beyond;
       if (std::getenv("WHY") != nullptr)
         std::printf("  %.2f m state %u off %.2f m %.3f rad sigma %.2f slide %.1f fits %.2f\n", driven_m,
                     static_cast<unsigned>(where), off.place().norm(), off.yaw_rad, std::sqrt(variance),
-                    own.tracker().slide_m(), own.tracker().verdict().fits);
+                    own.follower().slide_m(), own.follower().verdict().fits);
       if (where != Where::unique) continue;
       ++out.unique;
       out.worst_m = std::max(out.worst_m, off.place().norm());
@@ -400,7 +400,7 @@ class World {
       last = at;
       const pose_wall_planar_scan scan = scan_at(at, to.things, to.seed * 64 + static_cast<std::uint64_t>(k), &ranges);
       const Where where = own.process(read_beams(scan, own.beams()), to.has_odometry ? &odometry : nullptr);
-      const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.tracker().pose());
+      const Pose2 off = between(in_map({at.x_m, at.y_m, at.yaw_rad}), own.follower().pose());
       const bool is_right = off.place().norm() < 0.5 && std::abs(off.yaw_rad) < 0.1;
       if (!out.noticed) ++out.scans;
       out.noticed = out.noticed || where != Where::unique || is_right;

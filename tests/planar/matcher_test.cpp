@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/math/random.hpp"
+#include "place/slide.hpp"
 
 namespace {
 
@@ -18,14 +19,18 @@ using pose_wall::Random;
 using pose_wall::Span;
 using pose_wall::planar::between;
 using pose_wall::planar::compose;
+using pose_wall::planar::Fit;
+using pose_wall::planar::fit_pose;
 using pose_wall::planar::Found;
+using pose_wall::planar::kExcludedBy;
 using pose_wall::planar::Matcher;
 using pose_wall::planar::Pose2;
 using pose_wall::planar::Prior;
-using pose_wall::planar::Refined;
 using pose_wall::planar::ScanPoint;
 using pose_wall::planar::Slide;
+using pose_wall::planar::slide_of;
 using pose_wall::planar::SurfaceMap;
+using pose_wall::planar::told_by;
 using pose_wall::planar::Turn2;
 
 class Bench {
@@ -101,11 +106,11 @@ TEST(Matcher, ASearchFindsThePoseInAWideWindow) {
     const Points scan = seen_from(road(-8.0, 8.0, 100 + static_cast<std::uint64_t>(trial), rough), truth);
     const Found found = bench.matcher.search(span(scan), bench.map, {Pose2(), 4.0, 0.5});
     EXPECT_TRUE(found.is_whole) << trial;
-    const Refined refined = bench.matcher.refine(span(scan), bench.map, found.pose, Prior(), 0.02);
-    ASSERT_TRUE(refined.is_valid);
-    EXPECT_LT((refined.pose.place() - truth.place()).norm(), 0.02) << trial;
-    EXPECT_NEAR(refined.pose.yaw_rad, truth.yaw_rad, 0.003) << trial;
-    EXPECT_GT(refined.explained, 0.95) << trial;
+    const Fit fit = fit_pose(bench.map, span(scan), found.pose, {0.02});
+    ASSERT_TRUE(fit.is_valid);
+    EXPECT_LT((fit.pose.place() - truth.place()).norm(), 0.02) << trial;
+    EXPECT_NEAR(fit.pose.yaw_rad, truth.yaw_rad, 0.003) << trial;
+    EXPECT_GT(fit.explained, 0.95) << trial;
   }
 }
 
@@ -117,15 +122,15 @@ TEST(Matcher, ASmoothRoadSlidesAndARoughOneDoesNot) {
     bench.map.add(span(road(-20.0, 20.0, 1, bump)), Pose2(), true);
     bench.map.finish();
     const Points scan = road(-8.0, 8.0, 2, bump);
-    const Refined refined = bench.matcher.refine(span(scan), bench.map, Pose2(), Prior(), 0.02);
-    const Slide slide = bench.matcher.slide(span(scan), bench.map, refined, 0.02);
+    const Fit fit = fit_pose(bench.map, span(scan), Pose2(), {0.02});
+    const Slide slide = slide_of(bench.map, bench.matcher.sort(span(scan), 0.02), fit, kExcludedBy);
     if (is_rough) {
       EXPECT_LE(slide.reach_m, 0.1);
       continue;
     }
     EXPECT_GE(slide.reach_m, 3.2);
     EXPECT_GT(slide.direction.x() * slide.direction.x(), 0.99);  // along the road
-    const Eigen::Matrix3d information = bench.matcher.information(refined, slide);
+    const Eigen::Matrix3d information = told_by(fit, slide);
     const Eigen::Vector3d along(slide.direction.x(), slide.direction.y(), 0.0);
     EXPECT_LE(along.dot(information * along), 1.001 / (3.2 * 3.2));
     EXPECT_GT(information(1, 1), 1e3);
@@ -138,9 +143,9 @@ TEST(Matcher, WhatWasNeverSeenIsNoContradiction) {
   bench.map.add(span(road(-20.0, 0.0, 1, rough)), Pose2(), true);  // the road ahead is not known yet
   bench.map.finish();
   const Points scan = road(-8.0, 8.0, 2, rough);
-  const Refined refined = bench.matcher.refine(span(scan), bench.map, Pose2(), Prior(), 0.02);
-  EXPECT_GT(refined.explained, 0.9);
-  EXPECT_LT(refined.pose.place().norm(), 0.03);
+  const Fit fit = fit_pose(bench.map, span(scan), Pose2(), {0.02});
+  EXPECT_GT(fit.explained, 0.9);
+  EXPECT_LT(fit.pose.place().norm(), 0.03);
 }
 
 TEST(Matcher, ThePriorHoldsWhatTheScanDoesNot) {
@@ -151,10 +156,10 @@ TEST(Matcher, ThePriorHoldsWhatTheScanDoesNot) {
   const Points scan = road(-8.0, 8.0, 2, smooth);
   Prior prior{{0.7, 0.1, 0.01}, Eigen::Matrix3d::Zero()};
   prior.information.diagonal() << 1e4, 1e2, 1e2;
-  const Refined refined = bench.matcher.refine(span(scan), bench.map, prior.pose, prior, 0.02);
-  EXPECT_NEAR(refined.pose.x_m, 0.7, 0.05);
-  EXPECT_NEAR(refined.pose.y_m, 0.0, 0.01);
-  EXPECT_NEAR(refined.pose.yaw_rad, 0.0, 0.002);
+  const Fit fit = fit_pose(bench.map, span(scan), prior.pose, {0.02, prior});
+  EXPECT_NEAR(fit.pose.x_m, 0.7, 0.05);
+  EXPECT_NEAR(fit.pose.y_m, 0.0, 0.01);
+  EXPECT_NEAR(fit.pose.yaw_rad, 0.0, 0.002);
 }
 
 TEST(Matcher, NothingToMatchIsNotValid) {
@@ -162,9 +167,9 @@ TEST(Matcher, NothingToMatchIsNotValid) {
   bench.map.begin({0.0, 0.0});
   bench.map.finish();
   const Points scan = road(-8.0, 8.0, 2, rough);
-  EXPECT_FALSE(bench.matcher.refine(span(scan), bench.map, Pose2(), Prior(), 0.02).is_valid);
+  EXPECT_FALSE(fit_pose(bench.map, span(scan), Pose2(), {0.02}).is_valid);
   EXPECT_EQ(bench.matcher.search(span(scan), bench.map, {Pose2(), 1.0, 0.1}).score, 0.0);
-  EXPECT_FALSE(bench.matcher.refine(Span<const ScanPoint>(), bench.map, Pose2(), Prior(), 0.02).is_valid);
+  EXPECT_FALSE(fit_pose(bench.map, Span<const ScanPoint>(), Pose2(), {0.02}).is_valid);
 }
 
 TEST(SurfaceMap, AWindowThatIsBegunAnewHoldsNothingOfTheLast) {

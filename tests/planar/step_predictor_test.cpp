@@ -4,7 +4,7 @@
 // Proves: odometry is the first prediction, going on as before the last one, and odometry that stalled is expected to
 // make up for it.
 
-#include "planar/step_predictor.hpp"
+#include "place/step_predictor.hpp"
 
 #include <gtest/gtest.h>
 

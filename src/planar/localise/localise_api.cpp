@@ -123,13 +123,13 @@ void write_place(const Localiser& own, pose_wall_planar_localise_result* out) {
   for (double& value : out->covariance) value = kNone;
   out->fits = out->explained = out->misfit_m = out->slide_m = kNone;
   if (is_placed) {
-    const auto& tracker = own.tracker();
-    out->pose = pose_for_caller(tracker.pose());
-    for (int k = 0; k < 9; ++k) out->covariance[k] = tracker.covariance()(k / 3, k % 3);
-    out->fits = tracker.verdict().fits;
-    out->explained = tracker.fit().explained;
-    out->misfit_m = tracker.fit().rms_m;
-    out->slide_m = tracker.slide_m();
+    const auto& follower = own.follower();
+    out->pose = pose_for_caller(follower.pose());
+    for (int k = 0; k < 9; ++k) out->covariance[k] = follower.covariance()(k / 3, k % 3);
+    out->fits = follower.verdict().fits;
+    out->explained = follower.fit().explained;
+    out->misfit_m = follower.fit().rms_m;
+    out->slide_m = follower.slide_m();
   } else if (own.verdict().count > 0) {
     const auto& best = own.verdict().best;
     out->fits = best.fits;

@@ -23,11 +23,10 @@ void Localiser::lay_out(Arena& arena, const LocaliseSettings& settings) {
   matcher_.lay_out(arena);
   recent_.lay_out(arena);
   search_.lay_out(arena);
-  look_.lay_out(arena);
-  scan_look_.lay_out(arena);
+  around_.lay_out(arena);
+  scan_around_.lay_out(arena);
   beams_ = arena.take<Beam>(POSE_WALL_PLANAR_BEAMS_MAX);
   scan_points_ = arena.take<ScanPoint>(kMatchPointsMost);
-  room_ = arena.take<PatchCosts>(2);
   walls_ = arena.take<PatchWall>(kPatchesMost);
 }
 
@@ -36,7 +35,7 @@ void Localiser::open(const LocaliseSettings& settings) {
   map_.open();
   recent_.open(settings.odometry_m, settings.odometry_rad);
   search_.open();
-  tracker_.open(settings.odometry_m, settings.odometry_rad);
+  follower_.open(settings.odometry_m, settings.odometry_rad);
   searches_ = lost_ = 0;
   seen_ = SeenClouds{};
   forget();
@@ -49,13 +48,13 @@ void Localiser::forget() {
   looked_from_ = judged_from_ = Pose2();
   looked_at_m_ = looked_at_rad_ = 0.0;
   is_tracking_ = has_looked_ = false;
-  scans_since_look_ = 0;
+  scans_since_search_ = 0;
   where_ = Where::searching;
 }
 
 void Localiser::place(const Pose2& pose, double sigma_m, double sigma_rad) {
   forget();
-  tracker_.begin(pose, sigma_m, sigma_rad);
+  follower_.begin(pose, sigma_m, sigma_rad);
   is_tracking_ = true;
   where_ = Where::doubtful;
 }
@@ -66,15 +65,15 @@ bool Localiser::is_due() const {
   constexpr std::uint32_t kScans = 50;
   if (!has_looked_) return true;
   return recent_.travel_m() - looked_at_m_ >= kTravel_m || recent_.turned_rad() - looked_at_rad_ >= kTurn_rad ||
-         scans_since_look_ >= kScans;
+         scans_since_search_ >= kScans;
 }
 
 // The one place, if the present scan agrees.
 bool Localiser::settle(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
   constexpr double kKnown_m = 0.1, kKnown_rad = 0.03;
-  scan_look_.take(points, scan.origin_m, scan.sigma_m);
-  tracker_.begin(now(verdict_.candidates[0].pose), kKnown_m, kKnown_rad);
-  return tracker_.confirm(map_, scan_look_, odometry, room_.data()) == Track::tracked;
+  scan_around_.take(points, scan.origin_m, scan.sigma_m);
+  follower_.begin(now(verdict_.candidates[0].pose), kKnown_m, kKnown_rad);
+  return follower_.confirm(map_, scan_around_, odometry) == Track::tracked;
 }
 
 Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
@@ -84,20 +83,20 @@ Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, cons
     where_ = Where::searching;
     verdict_ = Verdict();
   }
-  ++scans_since_look_;
+  ++scans_since_search_;
   if (!search_.is_under_way() && is_due()) {
-    recent_.look(points, scan, &look_);
+    recent_.gather(points, scan, &around_);
     looked_from_ = recent_.pose();
     looked_at_m_ = recent_.travel_m();
     looked_at_rad_ = recent_.turned_rad();
     has_looked_ = true;
-    scans_since_look_ = 0;
-    search_.begin(map_, look_);
+    scans_since_search_ = 0;
+    search_.begin(map_, around_);
   }
-  if (!search_.is_under_way() || !search_.go_on(map_, look_, settings_.work)) return where_;
+  if (!search_.is_under_way() || !search_.go_on(map_, around_, settings_.work)) return where_;
   ++searches_;
   judged_from_ = looked_from_;
-  judge(map_, look_, search_, settings_.map_is_whole, walls_, &verdict_);
+  judge(map_, around_, search_, settings_.map_is_whole, walls_, &verdict_);
   if (verdict_.finding == Finding::unknown) return Where::unknown;
   if (verdict_.finding == Finding::ambiguous) return Where::ambiguous;
   if (!settle(points, scan, odometry)) {
@@ -110,8 +109,8 @@ Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, cons
 }
 
 Where Localiser::track(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
-  scan_look_.take(points, scan.origin_m, scan.sigma_m);
-  const Track track = tracker_.follow(map_, scan_look_, odometry, room_.data());
+  scan_around_.take(points, scan.origin_m, scan.sigma_m);
+  const Track track = follower_.follow(map_, scan_around_, odometry);
   if (track == Track::lost) {
     ++lost_;
     forget();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The story of a scan: where the place is known, the tracker follows it. Where it is not, the last metres are searched
+// The story of a scan: where the place is known, the follower follows it. Where it is not, the last metres are searched
 // for in the whole map, again and again as they grow, until one place is left.
 
 #pragma once
@@ -9,8 +9,8 @@
 #include <cstdint>
 
 #include "lidar/seen_clouds.hpp"
+#include "planar/localise/map_follower.hpp"
 #include "planar/localise/recent.hpp"
-#include "planar/localise/tracker.hpp"
 #include "planar/localise/verdict.hpp"
 
 namespace pose_wall::planar {
@@ -43,7 +43,7 @@ class Localiser {
   Where where() const { return where_; }
   // Why it is not unique.
   Why why() const { return is_tracking_ ? tracking_ : verdict_.why; }
-  const Tracker& tracker() const { return tracker_; }
+  const MapFollower& follower() const { return follower_; }
   bool is_tracking() const { return is_tracking_; }
   const Verdict& verdict() const { return verdict_; }
   const PlaceSearch& search() const { return search_; }
@@ -64,12 +64,11 @@ class Localiser {
   Matcher matcher_;
   Recent recent_;
   PlaceSearch search_;
-  Tracker tracker_;
-  Look look_, scan_look_;
+  MapFollower follower_;
+  Surroundings around_, scan_around_;
   Verdict verdict_;
   Span<Beam> beams_;
   Span<ScanPoint> scan_points_;
-  Span<PatchCosts> room_;
   Span<PatchWall> walls_;
   Pose2 looked_from_, judged_from_;  // of the search under way, and of the verdict
   double looked_at_m_ = 0.0, looked_at_rad_ = 0.0;
@@ -77,7 +76,7 @@ class Localiser {
   Why tracking_ = Why::none;  // of the tracked place
   SeenClouds seen_;
   bool is_tracking_ = false, has_looked_ = false;
-  std::uint32_t searches_ = 0, lost_ = 0, scans_since_look_ = 0;
+  std::uint32_t searches_ = 0, lost_ = 0, scans_since_search_ = 0;
 };
 
 }  // namespace pose_wall::planar

@@ -1,30 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The whole saved map for localisation: surfaces in cells of a decimetre (a normal-distributions transform: Biber and
-// Strasser, IROS 2003), which places were seen, and a coarse field of likelihood for the search. Tiles hold what there
-// is, so a road costs by its length and not by the square around it.
+// The whole saved map for localisation: surfaces in cells of a decimetre, which places were seen, and a coarse field of
+// likelihood for the search. Tiles hold what there is, so a road costs by its length and not by the square around it.
 
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "base/containers/arena.hpp"
 #include "place/pose2.hpp"
-#include "planar/match/surface_map.hpp"
+#include "place/scan_points.hpp"
+#include "place/surface.hpp"
 
 namespace pose_wall::planar {
 
 class PlaceMap {
  public:
-  static constexpr double kCell_m = 0.1;
-  static constexpr std::int32_t kTileCells = 64;  // to a side
-  static constexpr std::int32_t kShrink = 4;      // cells in a coarse one
-  static constexpr double kCoarse_m = kCell_m * kShrink;
-  static constexpr std::int32_t kTileCoarse = kTileCells / kShrink;
+  static constexpr std::int32_t kTileCells = 64;                         // to a side: 6.4 m, the width of a road
+  static constexpr std::int32_t kTileCoarse = kTileCells / kSightCells;  // coarse cells to a side, kSight_m each
   static constexpr std::int32_t kAcross = 640;  // tiles of the square that a map may lie in: 4 km
-  static constexpr double kReach_m = 0.5;       // of a surface: places nearer than this find it
+  static constexpr std::int32_t kReach = 5;     // cells: from 0.5 m a seed of the search, up to 0.28 m off, finds walls
   static constexpr std::uint8_t kLikely = 3;    // the most of the coarse field
 
   void lay_out(Arena& arena, std::uint32_t tiles_most);
@@ -38,17 +34,17 @@ class PlaceMap {
   // After the last of them.
   void finish();
 
-  bool is_empty() const { return used_ == 0; }
+  bool is_empty() const { return cells_.used() == 0; }
   bool is_finished() const { return is_finished_; }
   std::uint32_t tiles() const { return tile_count_; }
-  std::uint32_t surfaces() const { return used_; }
+  std::uint32_t surfaces() const { return cells_.used(); }
   const Eigen::Vector2d& middle_m() const { return middle_m_; }
 
-  // Places below are given from the middle. A surface within kReach_m, or nullptr.
+  // Places below are given from the middle. A surface within kReach cells, or nullptr.
   const Surface* near(double x_m, double y_m) const {
-    if (!is_inside(x_m, y_m)) return nullptr;
-    const std::uint32_t* const index = nearest_at(cell_of(x_m), cell_of(y_m));
-    return index != nullptr && *index != kNoSurface ? &surfaces_[*index] : nullptr;
+    if (!Cells::holds(x_m, y_m)) return nullptr;
+    const std::uint32_t* const slot = nearest_at(Cells::cell_of(x_m), Cells::cell_of(y_m));
+    return slot != nullptr ? cells_.surface(*slot) : nullptr;
   }
   // Whether lines of sight went through the 40 cm about a place.
   bool is_seen(double x_m, double y_m) const;
@@ -62,29 +58,14 @@ class PlaceMap {
   bool has_tile(std::int32_t tile_x, std::int32_t tile_y) const { return find(tile_x, tile_y) != kNone; }
 
  private:
-  struct Cell {
-    float x_m, y_m, xx_m2, xy_m2, yy_m2;  // sums about the cell's middle
-    std::uint32_t count;
-    std::int32_t column, row;
-  };
+  // What spreads from a cell stays inside the square, also the coarse field's 1.2 m.
+  using Cells = SurfaceCells<kAcross * kTileCells, 20, std::uint32_t>;
 
-  static constexpr std::uint32_t kNone = 0xFFFF;
-  static constexpr std::uint32_t kNoSurface = 0xFFFFFFFF;
-  static constexpr std::uint32_t kTileSize = static_cast<std::uint32_t>(kTileCells * kTileCells);
-  static constexpr std::uint32_t kTileCoarseSize = static_cast<std::uint32_t>(kTileCoarse * kTileCoarse);
-  // In the mean. Rough roads need 132.
-  static constexpr std::uint32_t kCellsPerTile = 256;
+  static constexpr std::uint32_t kNone = 0xFFFF;  // no tile: more than a localisation may have
+  static constexpr auto kTileSize = static_cast<std::uint32_t>(kTileCells * kTileCells);          // cells
+  static constexpr auto kTileCoarseSize = static_cast<std::uint32_t>(kTileCoarse * kTileCoarse);  // coarse cells
+  static constexpr std::uint32_t kCellsPerTile = 256;  // in the mean. Rough roads need 132.
 
-  static constexpr std::int32_t kSide = kAcross * kTileCells;  // cells of the square
-  static bool is_inside(double x_m, double y_m) {
-    constexpr double kMargin_m = 2.0;  // what spreads from a place stays inside, too
-    constexpr double kMost_m = kCell_m * (kSide / 2) - kMargin_m;
-    return x_m > -kMost_m && x_m < kMost_m && y_m > -kMost_m && y_m < kMost_m;
-  }
-  // Of a place inside, so that the sum is above 0 and the cast rounds down.
-  static std::int32_t cell_of(double place_m) {
-    return static_cast<std::int32_t>(place_m * (1.0 / kCell_m) + kSide / 2);
-  }
   std::uint32_t find(std::int32_t tile_x, std::int32_t tile_y) const {
     if (tile_x < 0 || tile_x >= kAcross || tile_y < 0 || tile_y >= kAcross) return kNone;
     return directory_[static_cast<std::uint32_t>(tile_y * kAcross + tile_x)];
@@ -99,19 +80,15 @@ class PlaceMap {
   std::uint8_t* coarse_at(const Span<std::uint8_t>& of, std::int32_t column, std::int32_t row) const;
   void take_middle(const Eigen::Vector2d& place_m);
   bool put(const Eigen::Vector2d& p);
-  bool see(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m);
   bool see_at(const Eigen::Vector2d& p);
-  void make_surface(std::uint32_t index);
-  void spread(std::uint32_t index);
-  void spread_likelihood(const Cell& cell);
+  void spread_likelihood(const SurfaceCell& cell);
 
   Eigen::Vector2d middle_m_ = Eigen::Vector2d::Zero();
   Span<std::uint16_t> directory_;
   Span<std::uint32_t> nearest_;  // of each cell of each tile: a surface
   Span<std::uint8_t> seen_, field_;
-  Span<Cell> cells_;
-  Span<Surface> surfaces_;
-  std::uint32_t tile_count_ = 0, tiles_most_ = 0, used_ = 0;
+  Cells cells_;
+  std::uint32_t tile_count_ = 0, tiles_most_ = 0;
   bool has_middle_ = false, is_finished_ = false;
 };
 

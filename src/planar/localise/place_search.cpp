@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include "planar/heap_sort.hpp"
+
+#include "base/containers/heap_sort.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -34,33 +35,33 @@ void PlaceSearch::open() {
 }
 
 // One point of each patch, then a second one, and so on: near walls would have all of them otherwise.
-void PlaceSearch::choose_points(const Look& look) {
+void PlaceSearch::choose_points(const Surroundings& around) {
   std::uint32_t taken[kPatchesMost];
   chosen_count_ = 0;
   double farthest2_m2 = 1.0;
   constexpr std::uint32_t kPerPatch = 4;
   for (std::uint32_t round = 0; round < kPerPatch && chosen_count_ < kPointsMost; ++round) {
-    for (std::uint32_t at = 0; at < look.patches; ++at) taken[at] = 0;
-    for (std::uint32_t k = 0; k < look.point_count && chosen_count_ < kPointsMost; ++k) {
-      const std::uint32_t at = look.patch[k];
+    for (std::uint32_t at = 0; at < around.patches; ++at) taken[at] = 0;
+    for (std::uint32_t k = 0; k < around.points.size() && chosen_count_ < kPointsMost; ++k) {
+      const std::uint32_t at = around.patch[k];
       if (at == kPatchesMost) continue;
       // The middle one of the patch's share of this round.
-      const std::uint32_t wanted = look.in_patch[at] * (2 * round + 1) / (2 * kPerPatch);
-      if (taken[at]++ != wanted || (round > 0 && look.in_patch[at] <= round)) continue;
-      const double range2_m2 = as_double(look.points[k]).squaredNorm();
+      const std::uint32_t wanted = around.in_patch[at] * (2 * round + 1) / (2 * kPerPatch);
+      if (taken[at]++ != wanted || (round > 0 && around.in_patch[at] <= round)) continue;
+      const double range2_m2 = as_double(around.points[k]).squaredNorm();
       if (!(range2_m2 < kFarthest_m * kFarthest_m)) continue;
-      chosen_[chosen_count_++] = look.points[k];
+      chosen_[chosen_count_++] = around.points[k];
       farthest2_m2 = std::max(farthest2_m2, range2_m2);
     }
   }
   constexpr double kStepMost_rad = 0.04;
-  const double step_rad = std::min(kStepMost_rad, PlaceMap::kCoarse_m / std::sqrt(farthest2_m2));
+  const double step_rad = std::min(kStepMost_rad, kSight_m / std::sqrt(farthest2_m2));
   yaws_ = static_cast<std::uint32_t>(2.0 * kPi / step_rad) + 1;
   yaw_step_rad_ = 2.0 * kPi / yaws_;
 }
 
-void PlaceSearch::begin(const PlaceMap& map, const Look& look) {
-  choose_points(look);
+void PlaceSearch::begin(const PlaceMap& map, const Surroundings& around) {
+  choose_points(around);
   seed_count_ = hypothesis_count_ = 0;
   is_whole_ = true;
   least_ = static_cast<std::uint32_t>(kLeast * PlaceMap::kLikely * chosen_count_) + 1;
@@ -127,12 +128,12 @@ void PlaceSearch::draw_block(const PlaceMap& map) {
 }
 
 // Where the points lie in the window, from the own cell (0, 0) with base in its middle.
-void PlaceSearch::turn(const Look&) {
+void PlaceSearch::turn() {
   const Turn2 turn(yaw_of(yaw_));
   for (std::uint32_t k = 0; k < chosen_count_; ++k) {
     const Eigen::Vector2d p = turn * as_double(chosen_[k]);
-    const auto column = static_cast<std::int32_t>(std::floor(p.x() / PlaceMap::kCoarse_m + 0.5));
-    const auto row = static_cast<std::int32_t>(std::floor(p.y() / PlaceMap::kCoarse_m + 0.5));
+    const auto column = static_cast<std::int32_t>(std::floor(p.x() / kSight_m + 0.5));
+    const auto row = static_cast<std::int32_t>(std::floor(p.y() / kSight_m + 0.5));
     offset_[k] = (row + kMargin) * kWide + column + kMargin;
   }
 }
@@ -264,53 +265,51 @@ void PlaceSearch::keep(const Hypothesis& hypothesis) {
   }
 }
 
-void PlaceSearch::refine(const PlaceMap& map, const Look& look, const Seed& seed) {
-  constexpr double kWide_m = 0.25, kNarrow_m = 0.08, kFine_m = 0.25;
+void PlaceSearch::refine(const PlaceMap& map, const Surroundings& around, const Seed& seed) {
+  constexpr double kWide_m = 0.25, kNarrow_m = 0.08;
+  constexpr std::uint32_t kRounds = 4;
   constexpr std::uint32_t kFewPoints = 64, kSomePoints = 128, kMorePoints = 320;
   constexpr std::int32_t kMiddle = PlaceMap::kAcross * PlaceMap::kTileCoarse / 2;
-  Pose2 start{(seed.x - kMiddle + 0.5) * PlaceMap::kCoarse_m + map.middle_m().x(),
-              (seed.y - kMiddle + 0.5) * PlaceMap::kCoarse_m + map.middle_m().y(), yaw_of(seed.yaw)};
-  const auto stride = [&](std::uint32_t points) { return std::max(1U, look.point_count / points); };
-  FitRule rule{kWide_m, PlaceMap::kReach_m, stride(kFewPoints), 4, {}};
-  const Fit wide = fit_pose(map, look, start, rule);
+  const Pose2 seeded{(seed.x - kMiddle + 0.5) * kSight_m + map.middle_m().x(),
+                     (seed.y - kMiddle + 0.5) * kSight_m + map.middle_m().y(), yaw_of(seed.yaw)};
+  const auto fit_from = [&](const Pose2& start, double sigma_m, std::uint32_t few) {
+    return fit_pose(map, around.points, start, {sigma_m, {}, std::max(1U, around.points.size() / few), kRounds});
+  };
+  const Fit wide = fit_from(seeded, kWide_m, kFewPoints);
   if (!is_new(wide.pose)) return;
-  rule = {kNarrow_m, 0.3, stride(kSomePoints), 4, {}};
-  const Fit narrow = fit_pose(map, look, wide.pose, rule);
+  const Fit narrow = fit_from(wide.pose, kNarrow_m, kSomePoints);
   constexpr double kHopeful = 0.5, kPlausible = 0.45;
   if (!(narrow.explained >= kHopeful)) return;
-  rule = {look.sigma_m, kFine_m, stride(kSomePoints), 4, {}};
-  const Fit first = fit_pose(map, look, narrow.pose, rule);
+  const Fit first = fit_from(narrow.pose, around.sigma_m, kSomePoints);
   if (!(first.explained >= kPlausible)) return;
-  rule = {look.sigma_m, kFine_m, stride(kMorePoints), 4, {}};
-  const Fit fine = fit_pose(map, look, first.pose, rule);
+  const Fit fine = fit_from(first.pose, around.sigma_m, kMorePoints);
   Hypothesis hypothesis;
   hypothesis.pose = fine.pose;
-  hypothesis.verdict = judge_patches(map, look, fine.pose, &hypothesis.costs);
+  hypothesis.verdict = judge_patches(map, around, fine.pose, &hypothesis.costs);
   keep(hypothesis);
 }
 
 // The best first, each fitted once more with all points.
-void PlaceSearch::sort_out(const PlaceMap& map, const Look& look) {
+void PlaceSearch::sort_out(const PlaceMap& map, const Surroundings& around) {
   const auto better = [](const Hypothesis& a, const Hypothesis& b) { return a.verdict.cost < b.verdict.cost; };
   heap_sort(hypotheses_.begin(), hypotheses_.begin() + hypothesis_count_, better);
   constexpr std::uint32_t kBest = 32;
   for (std::uint32_t k = 0; k < std::min(kBest, hypothesis_count_); ++k) {
     Hypothesis& own = hypotheses_[k];
-    const FitRule rule{look.sigma_m, 0.25, 1, 8, {}};
-    const Fit fit = fit_pose(map, look, own.pose, rule);
+    const Fit fit = fit_pose(map, around.points, own.pose, {around.sigma_m});
     own.pose = fit.pose;
     own.explained = fit.explained;
     own.seen = fit.seen;
     own.rms_m = fit.rms_m;
-    own.verdict = judge_patches(map, look, fit.pose, &own.costs);
+    own.verdict = judge_patches(map, around, fit.pose, &own.costs);
   }
   heap_sort(hypotheses_.begin(), hypotheses_.begin() + std::min(kBest, hypothesis_count_), better);
 }
 
-bool PlaceSearch::go_on(const PlaceMap& map, const Look& look, std::uint64_t steps) {
+bool PlaceSearch::go_on(const PlaceMap& map, const Surroundings& around, std::uint64_t steps) {
   std::uint64_t done = 0;
   while (stage_ == Stage::kCoarse && done < steps) {
-    turn(look);
+    turn();
     for (std::uint32_t k = 0; k < chunk_count_; ++k) score(chunks_[k]);
     constexpr std::uint64_t kYaw = 64;  // steps that a yaw costs by itself
     done += chunk_count_ + kYaw;
@@ -325,11 +324,11 @@ bool PlaceSearch::go_on(const PlaceMap& map, const Look& look, std::uint64_t ste
   }
   while (stage_ == Stage::kFine && done < steps) {
     if (seed_ == seed_count_) {
-      sort_out(map, look);
+      sort_out(map, around);
       stage_ = Stage::kEnded;
       break;
     }
-    refine(map, look, seeds_[seed_++]);
+    refine(map, around, seeds_[seed_++]);
     done += static_cast<std::uint64_t>(kSteps) / 5;
   }
   return stage_ == Stage::kEnded;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Every place of the map where the machine may stand, in every direction: which of them does a look not exclude? The
-// work is cut into shares, so that a call takes bounded time.
+// Every place of the map where the machine may stand, in every direction: which of them does what was seen not exclude?
+// The work is cut into shares, so that a call takes bounded time.
 //
 // First a correlative search (Olson, ICRA 2009) over coarse cells and all yaws: 64 points against a field of
 // likelihood, 16 places at once. What scores well is a seed. Seeds become hypotheses: Gauss and Newton with wide, then
@@ -12,12 +12,12 @@
 
 #include <cstdint>
 
-#include "planar/localise/place_fit.hpp"
+#include "planar/localise/surroundings.hpp"
 
 namespace pose_wall::planar {
 
 struct Hypothesis {
-  Pose2 pose;  // of base in the map when the look was taken
+  Pose2 pose;  // of base in the map when it was seen
   PatchCosts costs;
   PatchVerdict verdict;
   double explained = 0.0, seen = 0.0, rms_m = 0.0;
@@ -29,10 +29,10 @@ class PlaceSearch {
 
   void lay_out(Arena& arena);
   void open();
-  // Begins anew with what `look` holds. The look and the map must not change before the search has ended.
-  void begin(const PlaceMap& map, const Look& look);
+  // Begins anew with what was seen. Neither that nor the map may change before the search has ended.
+  void begin(const PlaceMap& map, const Surroundings& around);
   // Goes on for about so many steps of work: a step compares 64 points at 16 places, some 60 ns. True: it has ended.
-  bool go_on(const PlaceMap& map, const Look& look, std::uint64_t steps);
+  bool go_on(const PlaceMap& map, const Surroundings& around, std::uint64_t steps);
   bool is_under_way() const { return stage_ == Stage::kCoarse || stage_ == Stage::kFine; }
   // From 0 to 1.
   double progress() const;
@@ -70,19 +70,19 @@ class PlaceSearch {
     std::uint16_t score;
   };
 
-  void choose_points(const Look& look);
+  void choose_points(const Surroundings& around);
   bool next_block(const PlaceMap& map);
   void draw_block(const PlaceMap& map);
-  void turn(const Look& look);
+  void turn();
   void score(const Chunk& chunk);
   void note(std::uint32_t cell, std::uint32_t score);
   bool is_peak(std::int32_t cell, const Peak& peak) const;
   void harvest();
   void plant(const Seed& seed);
-  void refine(const PlaceMap& map, const Look& look, const Seed& seed);
+  void refine(const PlaceMap& map, const Surroundings& around, const Seed& seed);
   bool is_new(const Pose2& pose);
   void keep(const Hypothesis& hypothesis);
-  void sort_out(const PlaceMap& map, const Look& look);
+  void sort_out(const PlaceMap& map, const Surroundings& around);
   double yaw_of(std::uint32_t yaw) const { return yaw * yaw_step_rad_; }
 
   Span<std::uint8_t> window_;  // the coarse field about a block

@@ -46,11 +46,11 @@ double Recent::look_back_m() const {
   return count_ > 0 ? std::min(kLookBack_m, travel_m_ - kept(0).travel_m) : 0.0;
 }
 
-bool Recent::follow(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry, const Matcher& matcher) {
+bool Recent::follow(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry, Matcher& matcher) {
   constexpr double kContinues = 0.5;
   bool continues = true;
   if (count_ > 0) {
-    const Refined placed = follower_.follow(pose_, points, near_, scan.sigma_m, odometry, matcher).match;
+    const Fit placed = follower_.follow(pose_, points, near_, scan.sigma_m, odometry, matcher).match;
     continues = placed.is_valid && placed.explained >= kContinues;
     if (continues) {
       const Pose2 step = between(pose_, placed.pose);
@@ -90,7 +90,7 @@ void Recent::draw() {
   near_.finish();
 }
 
-void Recent::look(Span<const ScanPoint> points, const BeamScan& scan, Look* out) const {
+void Recent::gather(Span<const ScanPoint> points, const BeamScan& scan, Surroundings* out) const {
   std::uint32_t first = 0, all = points.size();
   while (first < count_ && travel_m_ - kept(first).travel_m > kLookBack_m) ++first;
   // The last keyframe may be this very scan.
@@ -98,25 +98,25 @@ void Recent::look(Span<const ScanPoint> points, const BeamScan& scan, Look* out)
   const std::uint32_t end = is_kept ? count_ - 1 : count_;
   for (std::uint32_t k = first; k < end; ++k) all += kept(k).count;
   // Half of the room is the present scan's, which nothing can have moved.
-  const std::uint32_t own = std::min(points.size(), all > kLookPointsMost ? kLookPointsMost / 2 : kLookPointsMost);
+  const std::uint32_t own =
+      std::min(points.size(), all > kSurroundingsMost ? kSurroundingsMost / 2 : kSurroundingsMost);
   const std::uint32_t own_stride = own > 0 ? (points.size() + own - 1) / own : 1;
   std::uint32_t count = 0;
-  for (std::uint32_t k = 0; k < points.size() && count < kLookPointsMost; k += own_stride)
-    out->points[count++] = points[k];
-  const std::uint32_t others = all - points.size(), room = kLookPointsMost - count;
+  for (std::uint32_t k = 0; k < points.size() && count < kSurroundingsMost; k += own_stride)
+    out->room[count++] = points[k];
+  const std::uint32_t others = all - points.size(), room = kSurroundingsMost - count;
   const std::uint32_t stride = room > 0 ? std::max(1U, (others + room - 1) / room) : 1;
   std::uint32_t seen = 0;
   for (std::uint32_t k = first; k < end; ++k) {
     const Pose2 in_base = between(pose_, kept(k).pose);
     const Turn2 turn(in_base.yaw_rad);
     for (const ScanPoint& point : points_of(k)) {
-      if (seen++ % stride != 0 || count == kLookPointsMost) continue;
+      if (seen++ % stride != 0 || count == kSurroundingsMost) continue;
       const Eigen::Vector2d p = turn * as_double(point) + in_base.place();
-      out->points[count++] = {static_cast<float>(p.x()), static_cast<float>(p.y())};
+      out->room[count++] = {static_cast<float>(p.x()), static_cast<float>(p.y())};
     }
   }
-  out->sigma_m = scan.sigma_m;
-  out->sort_into_patches(count);
+  out->sort(out->room.first(count), scan.sigma_m);
   out->take_sights(points, scan.origin_m);
 }
 

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "planar/localise/place_fit.hpp"
+#include "planar/localise/surroundings.hpp"
 #include "planar/match/scan_follower.hpp"
 
 namespace pose_wall::planar {
@@ -20,13 +20,13 @@ class Recent {
   void open(double odometry_m, double odometry_rad);
   void clear();
   // False: the scan does not continue what was seen before. The frame then begins anew with it.
-  bool follow(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry, const Matcher& matcher);
+  bool follow(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry, Matcher& matcher);
   const Pose2& pose() const { return pose_; }
   double travel_m() const { return travel_m_; }  // since the beginning
   double turned_rad() const { return turned_rad_; }
-  double look_back_m() const;  // travel that a look holds now
+  double look_back_m() const;  // travel that gather() holds now
   // What the last metres and the scan that was followed last saw, from where base stands now.
-  void look(Span<const ScanPoint> points, const BeamScan& scan, Look* out) const;
+  void gather(Span<const ScanPoint> points, const BeamScan& scan, Surroundings* out) const;
 
  private:
   static constexpr std::uint32_t kKeyframesMost = 40;

@@ -7,11 +7,11 @@
 #include <cmath>
 
 #include "base/math/elementary.hpp"
+#include "place/slide.hpp"
 
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kExcluded = 4.0;   // standard errors of the mean patch
 constexpr double kPlausible = 0.6;  // share of patches that fit, of a place that may be right
 // Of the one place: what share of patches fits, lies in seen parts; how many; how far it may slide.
 constexpr double kFits = 0.85, kSeen = 0.75, kThroughMost = 0.1, kHolds_m = 0.3;
@@ -39,9 +39,9 @@ void add(const Hypothesis& hypothesis, double worse, Verdict* out) {
   out->candidates[out->count++] = {hypothesis.pose, weight, worse, hypothesis.verdict.fits, 0.0};
 }
 
-bool has_relief(const Look& look, const Evidence& best) {
+bool has_relief(const Surroundings& around, const Evidence& best) {
   std::uint32_t judged = 0;
-  for (std::uint32_t at = 0; at < look.patches; ++at) judged += look.in_patch[at] >= kPatchPointsLeast ? 1U : 0U;
+  for (std::uint32_t at = 0; at < around.patches; ++at) judged += around.is_judged(at) ? 1U : 0U;
   return best.relief >= kReliefLeast && best.relief >= kRelief * judged;
 }
 
@@ -59,8 +59,8 @@ Why doubt_of(const Verdict& verdict, const PlaceSearch& search) {
 
 }  // namespace
 
-void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, bool map_is_whole, Span<PatchWall> walls,
-           Verdict* out) {
+void judge(const PlaceMap& map, const Surroundings& around, const PlaceSearch& search, bool map_is_whole,
+           Span<PatchWall> walls, Verdict* out) {
   *out = Verdict();
   out->why = Why::no_fit;
   const Span<const Hypothesis> all = search.hypotheses();
@@ -71,20 +71,20 @@ void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, boo
   out->best.seen = best.verdict.judged > 0 ? static_cast<double>(best.verdict.seen) / best.verdict.judged : 0.0;
   out->best.rms_m = best.rms_m;
   out->best.patches = best.verdict.seen;
-  out->best.through = seen_through(map, look, best.pose);
-  PatchCosts room[2];
-  const FitRule rule{look.sigma_m, 0.25, 1, 1, {}};
-  const Slid slid = slide_of(map, look, fit_pose(map, look, best.pose, rule), kExcluded, room);
-  out->best.slide_m = slid.reach_m;
-  out->best.relief = relief_patches(map, look, best.pose, room, walls);
+  out->best.through = seen_through(map, around, best.pose);
+  const FitRule rule{around.sigma_m};
+  const Fit fit = fit_of(fit_sums(map, around.points, best.pose, rule), best.pose);
+  out->best.slide_m = slide_of(map, around, fit, kExcludedBy).reach_m;
+  out->best.relief = relief_patches(map, around, best.pose, walls);
   constexpr double kNoRival = 99.0;
   out->best.rival = kNoRival;
   for (std::uint32_t k = 0; k < all.size(); ++k) {
-    const double worse = k == 0 ? 0.0 : worse_by(look, best.costs, all[k].costs);
+    const double worse = k == 0 ? 0.0 : worse_by(around, best.costs, all[k].costs);
     if (k > 0 && out->count > 0 && !is_same(out->candidates[0], all[k].pose)) {
       out->best.rival = std::min(out->best.rival, worse);
     }
-    if (worse <= kExcluded && all[k].verdict.fits >= (k == 0 ? 0.0 : 0.5 * best.verdict.fits)) add(all[k], worse, out);
+    if (worse <= kExcludedBy && all[k].verdict.fits >= (k == 0 ? 0.0 : 0.5 * best.verdict.fits))
+      add(all[k], worse, out);
   }
   double sum = 0.0;
   for (std::uint32_t k = 0; k < out->count; ++k) sum += out->candidates[k].weight;
@@ -94,7 +94,7 @@ void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, boo
     return;
   }
   out->why = doubt_of(*out, search);
-  if (out->why == Why::none && !map_is_whole && !has_relief(look, out->best)) out->why = Why::smooth;
+  if (out->why == Why::none && !map_is_whole && !has_relief(around, out->best)) out->why = Why::smooth;
   out->finding = out->why == Why::none ? Finding::unique : Finding::ambiguous;
 }
 

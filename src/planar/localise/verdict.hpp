@@ -32,7 +32,7 @@ enum class Why : std::uint32_t {
 };
 
 struct CandidatePlace {
-  Pose2 pose;             // of base when the look was taken
+  Pose2 pose;             // of base when it was seen
   double weight = 0.0;    // all together 1
   double worse_by = 0.0;  // standard errors of the mean patch, than the best
   double fits = 0.0;      // share of the patches
@@ -60,7 +60,7 @@ struct Verdict {
 
 // map_is_whole: the machine cannot be where the map has nothing. Otherwise one place needs relief, too: of walls
 // without any there may be others, which the map lacks. `walls`: room for kPatchesMost.
-void judge(const PlaceMap& map, const Look& look, const PlaceSearch& search, bool map_is_whole, Span<PatchWall> walls,
-           Verdict* out);
+void judge(const PlaceMap& map, const Surroundings& around, const PlaceSearch& search, bool map_is_whole,
+           Span<PatchWall> walls, Verdict* out);
 
 }  // namespace pose_wall::planar

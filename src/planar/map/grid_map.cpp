@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/containers/heap_sort.hpp"
 #include "base/math/bits.hpp"
-#include "planar/heap_sort.hpp"
 #include "planar/map/tile_record.hpp"
 
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__

@@ -10,6 +10,7 @@
 #include "part/export.hpp"
 #include "part/held.hpp"
 #include "part/struct_sizes.hpp"
+#include "place/slide.hpp"
 #include "planar/match/matcher.hpp"
 #include "pose_wall_planar_match.h"
 
@@ -20,21 +21,26 @@ using pose_wall::planar::Beam;
 using pose_wall::planar::BeamScan;
 using pose_wall::planar::check_scan;
 using pose_wall::planar::even_points;
+using pose_wall::planar::Fit;
+using pose_wall::planar::fit_pose;
 using pose_wall::planar::Found;
 using pose_wall::planar::is_place;
 using pose_wall::planar::is_pose;
 using pose_wall::planar::is_within;
+using pose_wall::planar::kExcludedBy;
 using pose_wall::planar::kMatchPointsMost;
 using pose_wall::planar::kMatchSpacing_m;
+using pose_wall::planar::kSlideMost_m;
 using pose_wall::planar::Matcher;
 using pose_wall::planar::pose_for_caller;
 using pose_wall::planar::pose_of;
 using pose_wall::planar::Prior;
 using pose_wall::planar::read_beams;
-using pose_wall::planar::Refined;
 using pose_wall::planar::ScanPoint;
 using pose_wall::planar::Slide;
+using pose_wall::planar::slide_of;
 using pose_wall::planar::SurfaceMap;
+using pose_wall::planar::told_by;
 
 // What lives in the block.
 struct Body {
@@ -103,13 +109,11 @@ Prior prior_of(const pose_wall_planar_match_input& input) {
 }
 
 // What scan and prior hold together. Where neither holds anything, the reach does.
-Eigen::Matrix3d covariance_of(const Body& body, const Refined& match, const Slide& slide, const Prior& prior,
+Eigen::Matrix3d covariance_of(const Fit& fit, const Slide& slide, const Prior& prior,
                               const pose_wall_planar_match_input& input) {
-  constexpr double kOpen_m = 3.2;  // the last shift of Matcher::slide: what slides so far may slide on
-  Slide open = slide;
-  if (open.reach_m >= kOpen_m) open.reach_m = std::max(open.reach_m, input.reach_m);
-  Eigen::Matrix3d information = body.matcher.information(match, open) + prior.information;
-  const double place_m = std::max(kOpen_m, input.reach_m), turn_rad = std::max(0.1, input.reach_rad);
+  const double place_m = std::max(kSlideMost_m, input.reach_m), turn_rad = std::max(0.1, input.reach_rad);
+  const Slide open{slide.direction, slide.reach_m >= kSlideMost_m ? place_m : slide.reach_m};
+  Eigen::Matrix3d information = told_by(fit, open) + prior.information;
   information.diagonal() +=
       Eigen::Vector3d(1.0 / (place_m * place_m), 1.0 / (place_m * place_m), 1.0 / (turn_rad * turn_rad));
   return information.inverse();
@@ -126,7 +130,7 @@ pose_wall_planar_match_result no_match() {
   return out;
 }
 
-pose_wall_planar_match_result match(const Body& body, const BeamScan& scan, const pose_wall_planar_match_input& input) {
+pose_wall_planar_match_result match(Body& body, const BeamScan& scan, const pose_wall_planar_match_input& input) {
   pose_wall_planar_match_result out = no_match();
   const auto points = even_points(scan, kMatchSpacing_m, body.points);
   const Prior prior = prior_of(input);
@@ -140,16 +144,16 @@ pose_wall_planar_match_result match(const Body& body, const BeamScan& scan, cons
     if (found.second_score > 0.0) out.second = pose_for_caller(found.second);
     out.is_whole = found.is_whole ? 1 : 0;
   }
-  const Refined refined = body.matcher.refine(points, body.map, start, prior, scan.sigma_m);
-  out.explained = refined.explained;
-  out.points = refined.points;
-  if (!refined.is_valid) return out;
-  const Slide slide = body.matcher.slide(points, body.map, refined, scan.sigma_m);
-  const Eigen::Matrix3d covariance = covariance_of(body, refined, slide, prior, input);
+  const Fit fit = fit_pose(body.map, points, start, {scan.sigma_m, prior});
+  out.explained = fit.explained;
+  out.points = fit.points;
+  if (!fit.is_valid) return out;
+  const Slide slide = slide_of(body.map, body.matcher.sort(points, scan.sigma_m), fit, kExcludedBy);
+  const Eigen::Matrix3d covariance = covariance_of(fit, slide, prior, input);
   out.state = POSE_WALL_PLANAR_MATCH_FOUND;
-  out.pose = pose_for_caller(refined.pose);
+  out.pose = pose_for_caller(fit.pose);
   for (int k = 0; k < 9; ++k) out.covariance[k] = covariance(k / 3, k % 3);
-  out.misfit_m = refined.rms_m;
+  out.misfit_m = fit.rms_m;
   out.slide_m = slide.reach_m;
   out.slide_rad = pose_wall::arc_tangent2(slide.direction.y(), slide.direction.x());
   return out;

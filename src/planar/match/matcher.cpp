@@ -3,11 +3,10 @@
 
 #include "planar/match/matcher.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "planar/heap_sort.hpp"
+#include "base/containers/heap_sort.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -31,18 +30,22 @@ struct Matcher::Grid {
 
   double yaw_of(std::int32_t yaw) const { return middle.yaw_rad + yaw * yaw_step_rad; }
   Pose2 pose_of(const Node& node) const {
-    return {map.middle_m().x() + middle.x_m + node.x * SurfaceMap::kCell_m,
-            map.middle_m().y() + middle.y_m + node.y * SurfaceMap::kCell_m, wrapped(yaw_of(node.yaw))};
+    return {map.middle_m().x() + middle.x_m + node.x * kSurfaceCell_m,
+            map.middle_m().y() + middle.y_m + node.y * kSurfaceCell_m, wrapped(yaw_of(node.yaw))};
   }
 };
 
 void Matcher::lay_out(Arena& arena) {
   nodes_ = arena.take<Node>(kSearchNodesMost);
   parents_ = arena.take<Node>(kSearchNodesMost);
-  patches_ = arena.take<Patch>(kPatchesMost);
-  patch_of_ = arena.take<std::uint32_t>(kMatchPointsMost);
   offsets_ = arena.take<Offset>(kSearchPointsMost);
   chosen_ = arena.take<ScanPoint>(kSearchPointsMost);
+  patched_.lay_out(arena, kMatchPointsMost);
+}
+
+const PatchedPoints& Matcher::sort(Span<const ScanPoint> points, double sigma_m) {
+  patched_.sort(points, sigma_m);
+  return patched_;
 }
 
 // Cells of the points at a yaw, with the machine at the window's middle.
@@ -53,7 +56,7 @@ void Matcher::rotate(const Grid& grid, std::int32_t yaw) const {
     const Eigen::Vector2d p = turn * as_double(point);
     constexpr double kFar = 1e6;  // cells; far outside every window
     const auto cell = [](double place_m) {
-      const double cells = std::floor(place_m / SurfaceMap::kCell_m);
+      const double cells = std::floor(place_m / kSurfaceCell_m);
       return static_cast<std::int32_t>(cells > -kFar && cells < kFar ? cells : kFar);
     };
     offsets_[k] = {cell(p.x() + grid.middle.x_m) + SurfaceMap::kSide / 2,
@@ -179,196 +182,19 @@ Found Matcher::search(Span<const ScanPoint> points, const SurfaceMap& map, const
   // A step of yaw moves the outer points by no more than two cells; the bells reach that far.
   constexpr double kYawStepMost_rad = 0.02, kYawStepLeast_rad = 0.005;
   const double farthest_m = std::sqrt(farthest2_m2);
-  grid.yaw_step_rad = std::min(kYawStepMost_rad, std::max(kYawStepLeast_rad, 2.0 * SurfaceMap::kCell_m / farthest_m));
+  grid.yaw_step_rad = std::min(kYawStepMost_rad, std::max(kYawStepLeast_rad, 2.0 * kSurfaceCell_m / farthest_m));
   constexpr std::int32_t kYawsMost = 700, kCoarseMost = 24;  // half a turn to each side; 38 m
   grid.yaws = std::min(kYawsMost, static_cast<std::int32_t>(std::ceil(window.reach_rad / grid.yaw_step_rad)));
   constexpr std::int32_t kStep = kFineInCoarse[kCoarsest];
-  const auto coarse = static_cast<std::int32_t>(std::ceil(window.reach_m / (SurfaceMap::kCell_m * kStep)));
+  const auto coarse = static_cast<std::int32_t>(std::ceil(window.reach_m / (kSurfaceCell_m * kStep)));
   grid.cells = kStep * std::min(kCoarseMost, std::max(1, coarse));
-  grid.reach = static_cast<std::int32_t>(std::ceil(window.reach_m / SurfaceMap::kCell_m));
+  grid.reach = static_cast<std::int32_t>(std::ceil(window.reach_m / kSurfaceCell_m));
   std::uint32_t dropped = 0;
   std::uint32_t kept = look_coarse(grid, &dropped);
   kept = look_closer(grid, 1, kept, &dropped);
   kept = look_closer(grid, 0, kept, &dropped);
   keep_best(grid, &found, kept, dropped);
   return found;
-}
-
-namespace {
-
-// Sums of one round of Gauss and Newton.
-struct Normal {
-  Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d g = Eigen::Vector3d::Zero();
-  double squares = 0.0;  // of residuals across, of explained points
-  std::uint32_t explained = 0, inside = 0;
-};
-
-void add_row(const Eigen::Vector3d& row, double residual, double variance, Normal* normal) {
-  // Cauchy's weight: what lies 2.4 sigmas off has half the weight of what fits (the usual 95 % constant).
-  constexpr double kCauchy2 = 2.385 * 2.385;
-  const double weight = 1.0 / (variance * (1.0 + residual * residual / (variance * kCauchy2)));
-  normal->H += weight * row * row.transpose();
-  normal->g += weight * residual * row;
-}
-
-void add_point(const Eigen::Vector2d& turned, const Eigen::Vector2d& place, const SurfaceMap& map, double noise_m2,
-               Normal* normal) {
-  const Eigen::Vector2d p = turned + place;
-  constexpr double kHalf_m = SurfaceMap::kCell_m * (SurfaceMap::kSide / 2);
-  if (!(std::abs(p.x()) < kHalf_m && std::abs(p.y()) < kHalf_m)) return;
-  const Surface* const surface = map.near(p.x(), p.y());
-  if (surface != nullptr || map.is_seen(p.x(), p.y())) ++normal->inside;
-  if (surface == nullptr) return;
-  const Eigen::Vector2d off(p.x() - static_cast<double>(surface->x_m), p.y() - static_cast<double>(surface->y_m));
-  const Eigen::Vector2d n(static_cast<double>(surface->normal_x), static_cast<double>(surface->normal_y));
-  const auto row_of = [&](const Eigen::Vector2d& d) {
-    return Eigen::Vector3d(d.x(), d.y(), turned.x() * d.y() - turned.y() * d.x());
-  };
-  const double across = n.dot(off), across_m2 = noise_m2 + static_cast<double>(surface->across_m2);
-  add_row(row_of(n), across, across_m2, normal);
-  constexpr double kExplained = 3.0;  // sigmas
-  if (across * across < kExplained * kExplained * across_m2) {
-    ++normal->explained;
-    normal->squares += across * across;
-  }
-  // A cluster without direction tells both ways; along a wall, where a point lies in its cell tells nothing.
-  constexpr double kRound = 0.25;
-  if (surface->across_m2 > static_cast<float>(kRound) * surface->along_m2) {
-    const Eigen::Vector2d t(-n.y(), n.x());
-    add_row(row_of(t), t.dot(off), noise_m2 + static_cast<double>(surface->along_m2), normal);
-  }
-}
-
-}  // namespace
-
-namespace {
-
-// Squared residual over variance, capped. What lies nowhere near a surface counts as far off where the map was seen.
-double misfit(const Eigen::Vector2d& p, const SurfaceMap& map, double noise_m2) {
-  constexpr double kMost = 9.0;    // three sigmas
-  constexpr double kUnseen = 4.5;  // between that and none: a new surface is no contradiction, and no agreement
-  const Surface* const surface = map.near(p.x(), p.y());
-  if (surface == nullptr) return map.is_seen(p.x(), p.y()) ? kMost : kUnseen;
-  const double across = static_cast<double>(surface->normal_x) * (p.x() - static_cast<double>(surface->x_m)) +
-                        static_cast<double>(surface->normal_y) * (p.y() - static_cast<double>(surface->y_m));
-  return std::min(kMost, across * across / (noise_m2 + static_cast<double>(surface->across_m2)));
-}
-
-}  // namespace
-
-Refined Matcher::refine(Span<const ScanPoint> points, const SurfaceMap& map, const Pose2& start, const Prior& prior,
-                        double sigma_m, int rounds) const {
-  Refined out;
-  out.pose = start;
-  constexpr double kStill_m = 1e-4, kStill_rad = 1e-5;
-  Normal normal;
-  for (int round = 0; round < rounds; ++round) {
-    normal = Normal();
-    const Turn2 turn(out.pose.yaw_rad);
-    const Eigen::Vector2d place = out.pose.place() - map.middle_m();
-    for (const ScanPoint& point : points) {
-      add_point(turn * as_double(point), place, map, sigma_m * sigma_m, &normal);
-    }
-    const Eigen::Vector3d off(out.pose.x_m - prior.pose.x_m, out.pose.y_m - prior.pose.y_m,
-                              wrapped(out.pose.yaw_rad - prior.pose.yaw_rad));
-    // A thousandth of a metre's information: directions without any stay where they are.
-    const Eigen::Matrix3d H = normal.H + prior.information + 1e-3 * Eigen::Matrix3d::Identity();
-    const Eigen::Vector3d step = H.inverse() * (normal.g + prior.information * off);
-    if (!(step.squaredNorm() < 1e6)) return out;
-    out.pose = {out.pose.x_m - step.x(), out.pose.y_m - step.y(), wrapped(out.pose.yaw_rad - step.z())};
-    if (std::abs(step.x()) < kStill_m && std::abs(step.y()) < kStill_m && std::abs(step.z()) < kStill_rad) break;
-  }
-  out.information = normal.H;
-  const Turn2 turn(out.pose.yaw_rad);
-  const Eigen::Vector2d place = out.pose.place() - map.middle_m();
-  for (const ScanPoint& point : points) {
-    out.misfit += misfit(turn * as_double(point) + place, map, sigma_m * sigma_m);
-  }
-  out.points = normal.inside;
-  out.explained = normal.inside > 0 ? static_cast<double>(normal.explained) / normal.inside : 0.0;
-  out.rms_m = normal.explained > 0 ? std::sqrt(normal.squares / normal.explained) : 0.0;
-  out.is_valid = normal.explained >= 10;
-  return out;
-}
-
-// Sorts the points by patches of a square metre. Points beyond the last patch have none.
-std::uint32_t Matcher::make_patches(Span<const ScanPoint> points, const Turn2& turn,
-                                    const Eigen::Vector2d& place) const {
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d p =
-        turn * Eigen::Vector2d(static_cast<double>(points[i].x_m), static_cast<double>(points[i].y_m)) + place;
-    const auto column = static_cast<std::int32_t>(std::floor(p.x())),
-               row = static_cast<std::int32_t>(std::floor(p.y()));
-    std::uint32_t k = 0;
-    while (k < count && (patches_[k].column != column || patches_[k].row != row)) ++k;
-    if (k == count && count < patches_.size()) patches_[count++] = {column, row, 0.0};
-    patch_of_[i] = k;
-  }
-  return count;
-}
-
-// By how many of its standard errors the mean patch fits worse at another pose. None if that is too little to tell a
-// place by: cells and noise prefer where they are, a little and everywhere.
-double Matcher::agreed_gain(Span<const ScanPoint> points, const SurfaceMap& map, std::uint32_t patches,
-                            const Pose2& match, const Pose2& other, double noise_m2) const {
-  for (std::uint32_t k = 0; k < patches; ++k) patches_[k].gain = 0.0;
-  const Turn2 turn(match.yaw_rad), other_turn(other.yaw_rad);
-  const Eigen::Vector2d place = match.place() - map.middle_m(), other_place = other.place() - map.middle_m();
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (patch_of_[i] == patches) continue;
-    const Eigen::Vector2d p(static_cast<double>(points[i].x_m), static_cast<double>(points[i].y_m));
-    patches_[patch_of_[i]].gain +=
-        misfit(other_turn * p + other_place, map, noise_m2) - misfit(turn * p + place, map, noise_m2);
-  }
-  double sum = 0.0, squares = 0.0;
-  for (std::uint32_t k = 0; k < patches; ++k) {
-    sum += patches_[k].gain;
-    squares += patches_[k].gain * patches_[k].gain;
-  }
-  constexpr double kTold = 5.0;  // half of the sum, as a logarithm of likelihood
-  return 0.5 * sum / kAlike > kTold ? sum / std::sqrt(squares) : 0.0;
-}
-
-Slide Matcher::slide(Span<const ScanPoint> points, const SurfaceMap& map, const Refined& match, double sigma_m) const {
-  Slide out;
-  // The information about the place that is left when yaw is free.
-  const Eigen::Matrix3d& H = match.information;
-  const double yaw = H(2, 2) > 0.0 ? H(2, 2) : 1.0;
-  const double xx = H(0, 0) - H(0, 2) * H(0, 2) / yaw, yy = H(1, 1) - H(1, 2) * H(1, 2) / yaw;
-  const double xy = H(0, 1) - H(0, 2) * H(1, 2) / yaw;
-  const double strong_rad = 0.5 * arc_tangent2(2.0 * xy, xx - yy);
-  out.direction = {-sine(strong_rad), cosine(strong_rad)};
-  const std::uint32_t patches = make_patches(points, Turn2(match.pose.yaw_rad), match.pose.place() - map.middle_m());
-  // The rest is fitted anew at every shift: a direction that is a degree off would leave the wall.
-  constexpr double kHeld = 1e8;  // of information along the direction: 0.1 mm
-  constexpr int kRounds = 3;
-  const Eigen::Vector3d along(out.direction.x(), out.direction.y(), 0.0);
-  const auto is_excluded = [&](double shift_m) {
-    constexpr double kExcluded = 4.0;  // standard errors
-    const Eigen::Vector2d place = match.pose.place() + shift_m * out.direction;
-    const Prior held{{place.x(), place.y(), match.pose.yaw_rad}, kHeld * along * along.transpose()};
-    const Refined other = refine(points, map, held.pose, held, sigma_m, kRounds);
-    return agreed_gain(points, map, patches, match.pose, other.pose, sigma_m * sigma_m) > kExcluded;
-  };
-  constexpr double kShifts_m[] = {3.2, 1.6, 0.8, 0.4, 0.2, 0.1};
-  for (const double shift_m : kShifts_m) {
-    if (is_excluded(shift_m) && is_excluded(-shift_m)) continue;
-    out.reach_m = shift_m;
-    break;
-  }
-  return out;
-}
-
-Eigen::Matrix3d Matcher::information(const Refined& match, const Slide& slide) const {
-  Eigen::Matrix3d information = match.information / kAlike;
-  if (slide.reach_m == 0.0) return information;
-  const Eigen::Vector3d d(slide.direction.x(), slide.direction.y(), 0.0);
-  const Eigen::Vector3d held = information * d;
-  const double along = d.dot(held), most = 1.0 / (slide.reach_m * slide.reach_m);
-  if (along > most) information -= held * held.transpose() * ((along - most) / (along * along));
-  return information;
 }
 
 }  // namespace pose_wall::planar

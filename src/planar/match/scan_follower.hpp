@@ -5,16 +5,16 @@
 
 #pragma once
 
+#include "place/step_predictor.hpp"
 #include "planar/match/matcher.hpp"
-#include "planar/step_predictor.hpp"
 
 namespace pose_wall::planar {
 
 class ScanFollower {
  public:
   struct Followed {
-    Refined match;  // its pose is the first prediction's where it is not valid
-    Prior prior;    // the first prediction
+    Fit match;    // its pose is the first prediction's where it is not valid
+    Prior prior;  // the first prediction
   };
 
   // Standard deviation of a step of odometry by its length and turn.
@@ -25,17 +25,16 @@ class ScanFollower {
   void see_first(const Pose2* odometry);
   // Base stood at `from` when the last scan was taken. noise_m of a point about its surface.
   Followed follow(const Pose2& from, Span<const ScanPoint> points, const SurfaceMap& near, double noise_m,
-                  const Pose2* odometry, const Matcher& matcher);
+                  const Pose2* odometry, Matcher& matcher);
 
  private:
-  struct Belief {
+  // What is known of the place, if base moved as one of the predictions says.
+  struct Predicted {
     Prior prior;
     double unlikely = 0.0;  // as of StepPredictor
-
-    double squared_distance(const Pose2& to) const;
   };
 
-  std::uint32_t predict(const Pose2& from, const Pose2* odometry, Belief* beliefs) const;
+  std::uint32_t predict(const Pose2& from, const Pose2* odometry, Predicted* out) const;
 
   StepPredictor predictor_;
 };

@@ -1,34 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// What scans are matched against: the surfaces that placed scans saw, in a square window. Each cell holds the mean and
-// spread of its points and of those around it (a normal-distributions transform: Biber and Strasser, IROS 2003). Three
-// fields of likelihood over the same window, each coarser than the last, serve the search.
+// What scans are matched against: the surfaces that placed scans saw, in a square window. Three fields of likelihood
+// over the same window, each coarser than the last, serve the search.
 
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "base/containers/arena.hpp"
 #include "place/pose2.hpp"
-#include "planar/match/scan_points.hpp"
+#include "place/scan_points.hpp"
+#include "place/surface.hpp"
 
 namespace pose_wall::planar {
 
-// The surface about one cell.
-struct Surface {
-  float x_m, y_m;             // mean, from the window's middle
-  float normal_x, normal_y;   // unit: the direction of least spread
-  float across_m2, along_m2;  // variances along the normal and along the surface
-};
-
 class SurfaceMap {
  public:
-  static constexpr double kCell_m = 0.1;       // finer than relief of rock is long, coarser than a sensor's noise
-  static constexpr std::int32_t kSide = 1024;  // cells: 51 m to each side
-  static constexpr std::int32_t kShrink = 4;   // cells of a level in a cell of the next
-  static constexpr std::uint32_t kCellsMost = 24576;
+  static constexpr std::int32_t kSide = 1024;         // cells: 51 m to each side, beyond what most scanners see
+  static constexpr std::int32_t kShrink = 4;          // cells of a level in a cell of the next
+  static constexpr std::uint32_t kCellsMost = 24576;  // 60 keyframes of 360 points, should no two share a cell
 
   void lay_out(Arena& arena);
   // First use of memory that may hold anything.
@@ -42,40 +33,40 @@ class SurfaceMap {
   void finish();
 
   const Eigen::Vector2d& middle_m() const { return middle_m_; }
-  bool is_empty() const { return used_ == 0; }
+  bool is_empty() const { return cells_.used() == 0; }
   // The surface next to a place given from the window's middle, or nullptr.
-  const Surface* near(double x_m, double y_m) const;
+  const Surface* near(double x_m, double y_m) const {
+    if (!Cells::holds(x_m, y_m)) return nullptr;
+    return cells_.surface(nearest_[at(Cells::cell_of(x_m), Cells::cell_of(y_m))]);
+  }
   // Whether lines of sight went through the 40 cm about a place given from the window's middle, or ended there.
-  bool is_seen(double x_m, double y_m) const;
+  bool is_seen(double x_m, double y_m) const {
+    return Cells::holds(x_m, y_m) && seen_[seen_at(Cells::cell_of(x_m), Cells::cell_of(y_m))] != 0;
+  }
   // Likelihood, 0 to 255, of a cell of a level: 0 the finest. A coarse cell has the most of its cells and of those of
   // its right, upper and upper right neighbours.
   std::uint32_t likelihood(std::uint32_t level, std::int32_t cell_x, std::int32_t cell_y) const;
 
  private:
-  struct Cell {
-    float x_m, y_m, xx_m2, xy_m2, yy_m2;  // sums about the cell's middle
-    std::uint32_t count;
-    std::int32_t column, row;
-  };
+  static constexpr std::int32_t kReach =
+      3;  // cells about a surface that find it: beyond kSurfaceEnd_m of place/patches.hpp
+  static constexpr std::uint32_t kLevels = 3;  // 0.1, 0.4 and 1.6 m: the last is still finer than a road
+  using Cells = SurfaceCells<kSide, kReach + 1, std::uint16_t>;
 
-  Cell* cell_at(std::int32_t column, std::int32_t row);
-  void see(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m);
-  void make_surface(std::uint32_t index);
-  void spread_surface(std::uint32_t index);
-  void spread_likelihood(const Cell& cell);
+  static std::uint32_t at(std::int32_t column, std::int32_t row) {
+    return static_cast<std::uint32_t>(row * kSide + column);
+  }
+  static std::uint32_t seen_at(std::int32_t column, std::int32_t row) {
+    return static_cast<std::uint32_t>(row / kSightCells * (kSide / kSightCells) + column / kSightCells);
+  }
+  void spread_likelihood(const SurfaceCell& cell);
   void raise(std::uint32_t level, std::int32_t x, std::int32_t y, std::uint8_t value);
 
-  static constexpr std::uint16_t kNone = 0xFFFF;
-  static constexpr std::uint32_t kLevels = 3;
-
   Eigen::Vector2d middle_m_ = Eigen::Vector2d::Zero();
-  Span<std::uint16_t> index_;    // of the cell that holds points
+  Cells cells_;
   Span<std::uint16_t> nearest_;  // of the surface in or next to a cell
   Span<std::uint8_t> field_[kLevels];
   Span<std::uint8_t> seen_;  // of coarser cells: 1 where lines of sight went
-  Span<Cell> cells_;
-  Span<Surface> surfaces_;
-  std::uint32_t used_ = 0;
 };
 
 }  // namespace pose_wall::planar

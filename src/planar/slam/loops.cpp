@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "place/slide.hpp"
+
 namespace pose_wall::planar {
 namespace {
 
@@ -140,29 +142,27 @@ double Loops::seen_through(const Trail& trail, std::uint32_t old, std::uint32_t 
   return judged > 0 ? static_cast<double>(through) / judged : 1.0;
 }
 
-bool Loops::match(const Trail& trail, const Matcher& matcher, const Look& look, Candidate* candidate) {
-  const std::uint32_t old = look.old, now = look.now;
-  const double reach_m = look.reach_m;
+bool Loops::match(const Trail& trail, Matcher& matcher, const Revisit& visit, Candidate* candidate) {
+  const std::uint32_t old = visit.old, now = visit.now;
+  const double reach_m = visit.reach_m;
   const std::uint32_t last = trail.size() - 1;
-  const Trail::Range stretch = trail.around(old, look.group_m + kBeyond_m, kStretchMost, {0, now});
+  const Trail::Range stretch = trail.around(old, visit.group_m + kBeyond_m, kStretchMost, {0, now});
   trail.draw(&old_, old, {stretch.first, std::min(stretch.last, now - 1)});
-  const Span<const ScanPoint> points = group(trail, now, trail.around(now, look.group_m, kStretchMost, {0, last}));
+  const Span<const ScanPoint> points = group(trail, now, trail.around(now, visit.group_m, kStretchMost, {0, last}));
   const double reach_rad = drift(trail, old, now).yaw_rad();
-  const Found found = matcher.search(points, old_, {look.guess, reach_m, reach_rad});
-  const Refined refined = matcher.refine(points, old_, found.pose, Prior(), kNoise_m);
-  if (!refined.is_valid) return false;
-  const Slide slide = matcher.slide(points, old_, refined, kNoise_m);
-  candidate->explained = refined.explained;
-  candidate->rms_m = refined.rms_m;
+  const Found found = matcher.search(points, old_, {visit.guess, reach_m, reach_rad});
+  const Fit fit = fit_pose(old_, points, found.pose, {kNoise_m});
+  if (!fit.is_valid) return false;
+  const Slide slide = slide_of(old_, matcher.sort(points, kNoise_m), fit, kExcludedBy);
+  candidate->explained = fit.explained;
   candidate->second = found.score > 0.0 ? found.second_score / found.score : 1.0;
   candidate->slide_m = slide.reach_m;
-  const Eigen::Matrix3d information = matcher.information(refined, slide);
-  const Pose2 step = between(trail.pose(old), refined.pose);
-  candidate->edge = {old, now, step, in_frame_of(trail.pose(old), information), true};
+  const Pose2 step = between(trail.pose(old), fit.pose);
+  candidate->edge = {old, now, step, in_frame_of(trail.pose(old), told_by(fit, slide)), true};
   candidate->seen_through = seen_through(trail, old, now, step);
   constexpr double kExplained = 0.75, kThrough = 0.1, kSecond = 0.9, kHolds_m = 0.25;
   candidate->is_distinct = slide.reach_m <= kHolds_m && candidate->second < kSecond;
-  const bool is_inside = (refined.pose.place() - look.guess.place()).norm() < 1.5 * reach_m + 0.2;
+  const bool is_inside = (fit.pose.place() - visit.guess.place()).norm() < 1.5 * reach_m + 0.2;
   return is_inside && candidate->explained >= kExplained && candidate->seen_through <= kThrough;
 }
 
@@ -180,7 +180,7 @@ bool Loops::agrees(const Trail& trail, const Candidate& a, const Candidate& b) c
 }
 
 // A longer stretch decides where short ones slide: all that the last metres saw, about where the newest candidate lies.
-bool Loops::is_confirmed(const Trail& trail, const Matcher& matcher, const Candidate& newest) {
+bool Loops::is_confirmed(const Trail& trail, Matcher& matcher, const Candidate& newest) {
   const std::uint32_t last = trail.size() - 1;
   if (trail[last].travel_m - confirmed_at_m_ < kConfirm_m) return false;
   confirmed_at_m_ = trail[last].travel_m;
@@ -200,11 +200,10 @@ bool Loops::is_confirmed(const Trail& trail, const Matcher& matcher, const Candi
   Candidate whole;
   const double reach_m = 1.0 + newest.slide_m;
   const bool fits = match(trail, matcher, {old, now, guess, reach_m, kLong_m}, &whole);
-  last_whole = whole;
   return fits && whole.is_distinct && whole.explained > kConfirmed;
 }
 
-std::uint32_t Loops::believe(Trail* trail, const Matcher& matcher, const Candidate& newest) {
+std::uint32_t Loops::believe(Trail* trail, Matcher& matcher, const Candidate& newest) {
   constexpr double kSpan_m = 3.0, kPool_m = 12.0;
   // Two roads do not go through one another: where drift is less than half a road's width, the place is the same.
   constexpr double kSameSpace_m = 1.5;
@@ -264,9 +263,7 @@ bool Loops::doubt(Trail* trail, const Candidate& newest) {
   return true;
 }
 
-bool Loops::look(Trail* trail, const Matcher& matcher) {
-  looked = false;
-  last_whole = Candidate();
+bool Loops::look(Trail* trail, Matcher& matcher) {
   const std::uint32_t last = trail->size() - 1;
   if ((*trail)[last].travel_m - looked_at_m_ < kEvery_m) return false;
   looked_at_m_ = (*trail)[last].travel_m;
@@ -279,8 +276,6 @@ bool Loops::look(Trail* trail, const Matcher& matcher) {
   Candidate candidate;
   candidate.reach_m = reach_m;
   const bool fits = match(*trail, matcher, {old, now, trail->pose(now), reach_m, kGroup_m}, &candidate);
-  looked = true;
-  last_candidate = candidate;
   if (doubt(trail, candidate)) return true;
   if (!fits) return false;
   if (pool_count_ == kPoolMost) {

@@ -16,7 +16,7 @@ namespace pose_wall::planar {
 
 struct Candidate {
   Edge edge;  // from the old keyframe to the new one
-  double explained = 0.0, rms_m = 0.0, second = 0.0, seen_through = 0.0;
+  double explained = 0.0, second = 0.0, seen_through = 0.0;
   double slide_m = 0.0;  // along the direction that holds least
   double reach_m = 0.0;
   bool is_distinct = false;
@@ -36,7 +36,7 @@ class Loops {
   void open();
   // Looks for an old place about the keyframe added last. Ties the closures that are believed to the trail, or takes
   // back those that turned out wrong. True if the trail has to be solved.
-  bool look(Trail* trail, const Matcher& matcher);
+  bool look(Trail* trail, Matcher& matcher);
   // Takes the trail's closures for believed, for good: of a trail that was saved.
   void adopt(const Trail& trail);
   // Two keyframes whose relation is known as a closure's is: the trail's last edge.
@@ -44,13 +44,9 @@ class Loops {
   std::uint32_t believed() const { return believed_count_; }
   std::uint32_t taken_back() const { return taken_back_; }
 
-  bool looked = false;
-  Candidate last_whole;
-  Candidate last_candidate;  // for pictures and tests
-
  private:
   // A stretch of the last metres about `now`, guessed to lie about `old`.
-  struct Look {
+  struct Revisit {
     std::uint32_t old, now;
     Pose2 guess;
     double reach_m, group_m;
@@ -63,12 +59,12 @@ class Loops {
 
   Drift drift(const Trail& trail, std::uint32_t old, std::uint32_t now) const;
   bool nearest_old(const Trail& trail, std::uint32_t now, std::uint32_t* old, double* reach_m);
-  bool match(const Trail& trail, const Matcher& matcher, const Look& look, Candidate* candidate);
-  bool is_confirmed(const Trail& trail, const Matcher& matcher, const Candidate& newest);
+  bool match(const Trail& trail, Matcher& matcher, const Revisit& visit, Candidate* candidate);
+  bool is_confirmed(const Trail& trail, Matcher& matcher, const Candidate& newest);
   Span<const ScanPoint> group(const Trail& trail, std::uint32_t now, Trail::Range range) const;
   double seen_through(const Trail& trail, std::uint32_t old, std::uint32_t now, const Pose2& now_in_old) const;
   bool agrees(const Trail& trail, const Candidate& a, const Candidate& b) const;
-  std::uint32_t believe(Trail* trail, const Matcher& matcher, const Candidate& newest);
+  std::uint32_t believe(Trail* trail, Matcher& matcher, const Candidate& newest);
   bool doubt(Trail* trail, const Candidate& newest);
 
   static constexpr std::uint32_t kPoolMost = 48;

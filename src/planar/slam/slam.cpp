@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "place/slide.hpp"
+
 namespace pose_wall::planar {
 namespace {
 
@@ -46,14 +48,14 @@ double Slam::noise_m(const BeamScan& scan) const {
 
 // So much scatter that all but a few points are explained (Robbins and Monro 1951). Within limits: crowds are no
 // scatter.
-void Slam::learn_scatter(const Refined& placed) {
+void Slam::learn_scatter(const Fit& placed) {
   constexpr double kExplained = 0.92, kGain = 0.2, kMost = 3.0;
   if (placed.is_valid)
     scatter_ = std::min(kMost, std::max(1.0, scatter_ * (1.0 + kGain * (kExplained - placed.explained))));
 }
 
 // A scan that fits badly may stand wrong, and would spoil the map: the next may fit better.
-bool Slam::is_due(const Refined& placed) const {
+bool Slam::is_due(const Fit& placed) const {
   if (trail_.size() == 0) return true;
   if (resumes_) return placed.explained >= kTrusted;
   constexpr double kPatience = 3.0;  // keyframes' distances that a bad fit may wait
@@ -67,7 +69,7 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
   SlamStep step;
   const Span<const ScanPoint> points = even_points(scan, kMatchSpacing_m, scan_points_);
   Prior prior;
-  Refined placed;
+  Fit placed;
   if (trail_.size() > 0) {
     const ScanFollower::Followed followed = follower_.follow(pose_, points, near_, noise_m(scan), odometry, matcher_);
     placed = followed.match;
@@ -82,8 +84,8 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
   step.explained = placed.explained;
   step.rms_m = placed.rms_m;
   if (is_due(placed)) {
-    const Slide slide = matcher_.slide(points, near_, placed, noise_m(scan));
-    begin_keyframe(points, scan, matcher_.information(placed, slide) + prior.information);
+    const Slide slide = slide_of(near_, matcher_.sort(points, noise_m(scan)), placed, kExcludedBy);
+    begin_keyframe(points, scan, told_by(placed, slide) + prior.information);
     step.is_keyframe = true;
     const std::uint32_t believed = loops_.believed();
     if (loops_.look(&trail_, matcher_)) rounds_left_ = kRoundsMost;

@@ -48,8 +48,8 @@ class Slam {
 
  private:
   double noise_m(const BeamScan& scan) const;
-  void learn_scatter(const Refined& placed);
-  bool is_due(const Refined& placed) const;
+  void learn_scatter(const Fit& placed);
+  bool is_due(const Fit& placed) const;
   void begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information);
   void tie_to_saved(const Eigen::Matrix3d& information);
 

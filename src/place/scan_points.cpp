@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "planar/match/scan_points.hpp"
+#include "place/scan_points.hpp"
 
 namespace pose_wall::planar {
 namespace {

@@ -7,25 +7,25 @@
 
 #include <cstdint>
 
-#include "planar/localise/place_fit.hpp"
-#include "planar/step_predictor.hpp"
+#include "place/step_predictor.hpp"
+#include "planar/localise/surroundings.hpp"
 
 namespace pose_wall::planar {
 
 // loose: the scan fits, but the place is not certain along the road.
 enum class Track : std::uint32_t { tracked, loose, doubtful, blind, contradicted, lost };
 
-class Tracker {
+class MapFollower {
  public:
   // Standard deviation of a step of odometry by its length and turn.
   void open(double odometry_m, double odometry_rad);
   // Base stands here; standard deviations of what is known.
   void begin(const Pose2& pose, double sigma_m, double sigma_rad);
-  // One scan, in `look` from where base stands. odometry may be nullptr. `room` for two.
-  Track follow(const PlaceMap& map, const Look& look, const Pose2* odometry, PatchCosts* room);
+  // One scan, from where base stands. odometry may be nullptr.
+  Track follow(const PlaceMap& map, const Surroundings& around, const Pose2* odometry);
 
   // The scan was taken where base was said to stand.
-  Track confirm(const PlaceMap& map, const Look& look, const Pose2* odometry, PatchCosts* room);
+  Track confirm(const PlaceMap& map, const Surroundings& around, const Pose2* odometry);
 
   const Pose2& pose() const { return pose_; }
   const Eigen::Matrix3d& covariance() const { return covariance_; }
@@ -34,48 +34,40 @@ class Tracker {
   double slide_m() const { return slide_m_; }
 
  private:
-  struct Along {
-    Eigen::Vector2d direction;
-    double sigma_m;
-  };
-
   // What is known before the scan, if the machine moved as this prediction says.
-  struct Belief {
-    Pose2 pose;
-    Eigen::Matrix3d covariance, information;
+  struct Predicted : Prior {
+    Eigen::Matrix3d covariance;
     double unlikely = 0.0;  // a squared distance
     bool is_odometry = false;
 
-    Eigen::Vector3d off(const Pose2& to) const;
-    double squared_distance(const Pose2& to) const;
     bool agrees(const Pose2& to) const { return squared_distance(to) < StepPredictor::kAgrees; }
   };
 
-  struct Beliefs {
-    Belief all[StepPredictor::kMost];  // the likeliest before the scan first
+  struct Predictions {
+    Predicted all[StepPredictor::kMost];  // the likeliest before the scan first
     std::uint32_t count = 0;
 
-    const Belief* begin() const { return all; }
-    const Belief* end() const { return all + count; }
-    const Belief& first() const { return all[0]; }
+    const Predicted* begin() const { return all; }
+    const Predicted* end() const { return all + count; }
+    const Predicted& first() const { return all[0]; }
     // Of a place, and how unlikely it makes it.
-    const Belief& likeliest(const Pose2& at, double* unlikely) const;
+    const Predicted& likeliest(const Pose2& at, double* unlikely) const;
   };
   struct Placed {
     Fit fit;
     PatchVerdict verdict;
-    const Belief* belief = nullptr;  // the likeliest one
-    double cost = 0.0;               // of patches and belief
+    const Predicted* predicted = nullptr;  // the likeliest one
+    double cost = 0.0;                     // of patches and prediction
   };
 
-  static Along uncertain_along(const Eigen::Matrix3d& covariance);
-  Beliefs predict(const Pose2* odometry) const;
-  Track follow_to(const PlaceMap& map, const Look& look, const Pose2* odometry, const Beliefs& beliefs,
-                  PatchCosts* room);
-  static Placed fit_from(const PlaceMap& map, const Look& look, const Pose2& start, const Belief& belief,
-                         const Beliefs& beliefs, PatchCosts* room);
-  Placed place(const PlaceMap& map, const Look& look, const Beliefs& beliefs, PatchCosts* room) const;
-  void update(const PlaceMap& map, const Look& look, const Beliefs& beliefs, const Belief& likeliest, PatchCosts* room);
+  Predictions predict(const Pose2* odometry) const;
+  Track follow_to(const PlaceMap& map, const Surroundings& around, const Pose2* odometry,
+                  const Predictions& predictions);
+  static Placed fit_from(const PlaceMap& map, const Surroundings& around, const Pose2& start,
+                         const Predicted& predicted, const Predictions& predictions);
+  Placed place(const PlaceMap& map, const Surroundings& around, const Predictions& predictions) const;
+  void update(const PlaceMap& map, const Surroundings& around, const Predictions& predictions,
+              const Predicted& likeliest);
   Track judge(double step_m);
 
   StepPredictor predictor_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "planar/step_predictor.hpp"
+#include "place/step_predictor.hpp"
 
 #include <algorithm>
 #include <cmath>

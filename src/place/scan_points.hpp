@@ -13,8 +13,8 @@
 
 namespace pose_wall::planar {
 
-constexpr std::uint32_t kMatchPointsMost = 720;
-constexpr double kMatchSpacing_m = 0.05;  // along a surface: half a cell of surface_map.hpp
+constexpr std::uint32_t kMatchPointsMost = 720;  // a scanner of half a degree whole; denser ones err alike
+constexpr double kMatchSpacing_m = 0.05;  // along a surface: half a cell of surface.hpp
 
 struct ScanPoint {
   float x_m, y_m;  // in base

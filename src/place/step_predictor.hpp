@@ -15,7 +15,7 @@ namespace pose_wall::planar {
 
 class StepPredictor {
  public:
-  static constexpr std::uint32_t kMost = 3;
+  static constexpr std::uint32_t kMost = 3;  // odometry, odometry that stalled, the last step once more
 
   struct Prediction {
     Pose2 pose;

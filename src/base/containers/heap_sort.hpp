@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace pose_wall::planar {
+namespace pose_wall {
 
 // std::sort recurses; a heap does not, so the stack is known. Equal ones come out in an order that is always the same.
 template <typename Iterator, typename Before>
@@ -14,4 +14,4 @@ void heap_sort(Iterator begin, Iterator end, Before before) {
   std::sort_heap(begin, end, before);
 }
 
-}  // namespace pose_wall::planar
+}  // namespace pose_wall
