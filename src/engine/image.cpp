@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "base/math/finite.hpp"
-#include "base/math/image_words.hpp"
+#include "part/image_words.hpp"
 
 namespace pose_wall {
 namespace {
@@ -17,9 +17,6 @@ namespace {
 constexpr float kNoValue = -2147483648.0F;
 constexpr float kNoBound = 2147483648.0F;
 constexpr double kFloatMax = 2147483520.0;  // the last float before 2^31
-
-// Both images have it there.
-constexpr std::size_t kCrcWord = offsetof(pose_wall_image, crc32) / sizeof(std::uint32_t);
 
 static_assert(sizeof(pose_wall_image) == POSE_WALL_IMAGE_BYTES && POSE_WALL_IMAGE_BYTES % 4 == 0 &&
                   sizeof(pose_wall_image2) == POSE_WALL_IMAGE2_BYTES && POSE_WALL_IMAGE2_BYTES % 4 == 0 &&
@@ -87,10 +84,6 @@ static_assert(sizeof(Entry2) == sizeof(pose_wall_image2_angle) &&
                       3 * sizeof(pose_wall_image2_angle) + 3 * sizeof(pose_wall_image2_distance),
               "the seven lie one behind the other");
 
-std::uint32_t crc_of(const void* image, std::size_t bytes, std::uint32_t polynomial) {
-  return crc_of_words(image, bytes, kCrcWord, polynomial);
-}
-
 double scale_of(std::uint32_t quantity) {
   return quantity <= POSE_WALL_YAW ? kMilliDegreesPerRadian : kMillimetresPerMetre;
 }
@@ -99,10 +92,7 @@ template <typename Image>
 void fill_head(const pose_wall_result& result, Image* image) {
   image->sequence = static_cast<std::uint32_t>(result.frame_index + 1);
   image->config_crc32 = result.config_crc32;
-  image->library_version = POSE_WALL_VERSION_MAJOR * 65536U + POSE_WALL_VERSION_MINOR * 256U + POSE_WALL_VERSION_PATCH;
-  const std::uint64_t stamp = static_cast<std::uint64_t>(result.stamp_ns);
-  image->stamp_low = static_cast<std::uint32_t>(stamp & 0xFFFFFFFFU);
-  image->stamp_high = static_cast<std::uint32_t>(stamp >> 32U);
+  put_version_and_stamp(result.stamp_ns, image);
   image->verdict = POSE_WALL_VALID;
   image->valid = 0;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
@@ -123,7 +113,7 @@ void fill_image(const pose_wall_result& result, pose_wall_image* image) {
     const Entry entry = entry_of(result.quantity[q], scale_of(q));
     std::memcpy(to, &entry, sizeof(entry));
   }
-  image->crc32 = crc_of(image, sizeof(*image), kCrcIeee);
+  image->crc32 = image_crc(*image, &pose_wall_image::crc32, kCrcIeee);
 }
 
 pose_wall_image_source source_of(const pose_wall_result& result) {
@@ -151,17 +141,15 @@ void fill_image(const pose_wall_result& result, const pose_wall_image_source& so
     std::memcpy(to, &entry, bytes);
     to += bytes;
   }
-  image->crc32c = crc_of(image, sizeof(*image), kCrcCastagnoli);
+  image->crc32c = image_crc(*image, &pose_wall_image2::crc32c, kCrcCastagnoli);
 }
 
 std::int32_t check_image(const pose_wall_image& image) {
-  if (image.struct_size != sizeof(image) || image.version != POSE_WALL_IMAGE_VERSION) return POSE_WALL_E_IMAGE_VERSION;
-  return image.crc32 == crc_of(&image, sizeof(image), kCrcIeee) ? POSE_WALL_OK : POSE_WALL_E_IMAGE_CRC;
+  return check_image(image, POSE_WALL_IMAGE_VERSION, &pose_wall_image::crc32, kCrcIeee);
 }
 
 std::int32_t check_image(const pose_wall_image2& image) {
-  if (image.struct_size != sizeof(image) || image.version != POSE_WALL_IMAGE2_VERSION) return POSE_WALL_E_IMAGE_VERSION;
-  return image.crc32c == crc_of(&image, sizeof(image), kCrcCastagnoli) ? POSE_WALL_OK : POSE_WALL_E_IMAGE_CRC;
+  return check_image(image, POSE_WALL_IMAGE2_VERSION, &pose_wall_image2::crc32c, kCrcCastagnoli);
 }
 
 }  // namespace pose_wall

@@ -8,9 +8,8 @@
 #include <cstddef>
 
 #include "base/math/finite.hpp"
-#include "base/math/image_words.hpp"
 #include "motion/pose.hpp"
-#include "part/status.hpp"
+#include "part/image_words.hpp"
 
 namespace pose_wall::motion {
 namespace {
@@ -141,10 +140,7 @@ void fill_image(const pose_wall_motion_result& r, const pose_wall_image_source& 
   image->publication = static_cast<std::uint32_t>(source.publication);
   image->run = has_pose ? static_cast<std::uint32_t>(r.run) : 0;
   image->config_crc32 = r.config_crc32;
-  image->library_version = POSE_WALL_VERSION_MAJOR * 65536U + POSE_WALL_VERSION_MINOR * 256U + POSE_WALL_VERSION_PATCH;
-  const std::uint64_t stamp = static_cast<std::uint64_t>(r.stamp_ns);
-  image->stamp_low = static_cast<std::uint32_t>(stamp & 0xFFFFFFFFU);
-  image->stamp_high = static_cast<std::uint32_t>(stamp >> 32U);
+  put_version_and_stamp(r.stamp_ns, image);
   image->source_id = r.source_id;
   image->latency_ms = latency_ms(source.latency_ns);
   image->thinning = source.thinning;
@@ -158,16 +154,11 @@ void fill_image(const pose_wall_motion_result& r, const pose_wall_image_source& 
   } else {
     fill_turns({}, {}, {}, {}, {}, image);
   }
-  image->crc32c = crc_of_words(image, sizeof(*image), offsetof(pose_wall_motion_image, crc32c) / 4, kCrcCastagnoli);
+  image->crc32c = image_crc(*image, &pose_wall_motion_image::crc32c, kCrcCastagnoli);
 }
 
 std::int32_t check_image(const pose_wall_motion_image& image) {
-  if (image.struct_size != sizeof(image) || image.version != POSE_WALL_MOTION_IMAGE_VERSION) {
-    return POSE_WALL_E_IMAGE_VERSION;
-  }
-  const std::uint32_t crc =
-      crc_of_words(&image, sizeof(image), offsetof(pose_wall_motion_image, crc32c) / 4, kCrcCastagnoli);
-  return ok_if(image.crc32c == crc, POSE_WALL_E_IMAGE_CRC);
+  return pose_wall::check_image(image, POSE_WALL_MOTION_IMAGE_VERSION, &pose_wall_motion_image::crc32c, kCrcCastagnoli);
 }
 
 }  // namespace pose_wall::motion

@@ -8,8 +8,7 @@
 #include <cstring>
 
 #include "base/math/finite.hpp"
-#include "base/math/image_words.hpp"
-#include "part/status.hpp"
+#include "part/image_words.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -42,11 +41,6 @@ std::uint32_t age_ms(const pose_wall_planar_stop_result& r) {
   return milliseconds_above(age_ns > 0.0 ? age_ns / kNanosecondsPerSecond : 0.0);
 }
 
-std::uint32_t crc_of(const pose_wall_planar_stop_image& image) {
-  return crc_of_words(&image, sizeof(image), offsetof(pose_wall_planar_stop_image, crc32c) / sizeof(std::uint32_t),
-                      kCrcCastagnoli);
-}
-
 }  // namespace
 
 std::uint32_t settings_crc(const pose_wall_config& config, const pose_wall_planar_stop_settings& settings) {
@@ -74,10 +68,7 @@ void fill_image(const pose_wall_planar_stop_result& result, pose_wall_planar_sto
   image->version = POSE_WALL_PLANAR_STOP_IMAGE_VERSION;
   image->heartbeat = result.heartbeat;
   image->settings_crc32 = result.settings_crc32;
-  image->library_version = POSE_WALL_VERSION_MAJOR * 65536U + POSE_WALL_VERSION_MINOR * 256U + POSE_WALL_VERSION_PATCH;
-  const std::uint64_t stamp = static_cast<std::uint64_t>(result.stamp_ns);
-  image->stamp_low = static_cast<std::uint32_t>(stamp & 0xFFFFFFFFU);
-  image->stamp_high = static_cast<std::uint32_t>(stamp >> 32U);
+  put_version_and_stamp(result.stamp_ns, image);
   image->allowed_speed_mm_s = allowed_mm_s(result);
   image->state = image->allowed_speed_mm_s > 0 ? result.state : static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP);
   image->reasons = result.reasons;
@@ -85,14 +76,12 @@ void fill_image(const pose_wall_planar_stop_result& result, pose_wall_planar_sto
   // Rounded down also below zero, so that differences of clocks that begin there are right.
   const double now_ms = std::floor(static_cast<double>(result.now_ns) / kNanosecondsPerMillisecond);
   image->answered_ms = static_cast<std::uint32_t>(static_cast<std::int64_t>(now_ms));
-  image->crc32c = crc_of(*image);
+  image->crc32c = image_crc(*image, &pose_wall_planar_stop_image::crc32c, kCrcCastagnoli);
 }
 
 std::int32_t check_image(const pose_wall_planar_stop_image& image) {
-  if (image.struct_size != sizeof(image) || image.version != POSE_WALL_PLANAR_STOP_IMAGE_VERSION) {
-    return POSE_WALL_E_IMAGE_VERSION;
-  }
-  return ok_if(image.crc32c == crc_of(image), POSE_WALL_E_IMAGE_CRC);
+  return pose_wall::check_image(image, POSE_WALL_PLANAR_STOP_IMAGE_VERSION, &pose_wall_planar_stop_image::crc32c,
+                                kCrcCastagnoli);
 }
 
 }  // namespace pose_wall::planar

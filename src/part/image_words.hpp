@@ -6,12 +6,13 @@
 #pragma once
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
 #include "base/math/crc32.hpp"
 #include "base/math/elementary.hpp"
+#include "part/status.hpp"
+#include "pose_wall.h"
 
 namespace pose_wall {
 
@@ -50,16 +51,34 @@ inline std::uint32_t latency_ms(std::int64_t latency_ns) {
 }
 
 // Of all words but the sum's own.
-inline std::uint32_t crc_of_words(const void* image, std::size_t bytes, std::size_t crc_word,
-                                  std::uint32_t polynomial) {
-  const auto* from = static_cast<const unsigned char*>(image);
+// What every image tells of its library and of its frame's time.
+template <typename Image>
+void put_version_and_stamp(std::int64_t stamp_ns, Image* image) {
+  const auto stamp = static_cast<std::uint64_t>(stamp_ns);
+  image->library_version = POSE_WALL_VERSION_MAJOR * 65536U + POSE_WALL_VERSION_MINOR * 256U + POSE_WALL_VERSION_PATCH;
+  image->stamp_low = static_cast<std::uint32_t>(stamp & 0xFFFFFFFFU);
+  image->stamp_high = static_cast<std::uint32_t>(stamp >> 32U);
+}
+
+// Of all words but the one that holds it.
+template <typename Image>
+std::uint32_t image_crc(const Image& image, std::uint32_t Image::*member, std::uint32_t polynomial) {
+  const auto* const begin = reinterpret_cast<const unsigned char*>(&image);
+  const auto* const without = reinterpret_cast<const unsigned char*>(&(image.*member));
   Crc32 crc(polynomial);
-  for (std::size_t i = 0; i < bytes / sizeof(std::uint32_t); ++i) {
+  for (const unsigned char* at = begin; at != begin + sizeof(image); at += sizeof(std::uint32_t)) {
     std::uint32_t word;
-    std::memcpy(&word, from + i * sizeof(word), sizeof(word));
-    if (i != crc_word) crc.add_word(word);
+    std::memcpy(&word, at, sizeof(word));
+    if (at != without) crc.add_word(word);
   }
   return crc.value();
+}
+
+template <typename Image>
+std::int32_t check_image(const Image& image, std::uint32_t version, std::uint32_t Image::*member,
+                         std::uint32_t polynomial) {
+  if (image.struct_size != sizeof(image) || image.version != version) return POSE_WALL_E_IMAGE_VERSION;
+  return ok_if(image.*member == image_crc(image, member, polynomial), POSE_WALL_E_IMAGE_CRC);
 }
 
 }  // namespace pose_wall
