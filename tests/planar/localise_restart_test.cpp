@@ -11,6 +11,8 @@
 namespace pose_wall::planar::test {
 namespace {
 
+constexpr std::uint32_t kShare = 20000;  // of work in a call: a search takes some calls
+
 int count(const World& world, int places, int* wrong) {
   int unique = 0;
   for (int k = 0; k < places; ++k) {
@@ -124,7 +126,7 @@ TEST(LocaliseRestart, ACorrectedStartIsNoStep) {
 // A search takes metres of driving. Its candidates stand where the machine is when it ends, and move on with it, also
 // while the next search is under way.
 TEST(LocaliseRestart, CandidatesMoveOnWithTheMachine) {
-  const World world(5, 700);  // twin roads: several places fit
+  const World world(5, 700, World::lengths(700), 768, false, false, kShare);  // twin roads: several places fit
   Localiser& own = world.localiser();
   std::vector<float> ranges;
   int compared = 0;
@@ -132,7 +134,6 @@ TEST(LocaliseRestart, CandidatesMoveOnWithTheMachine) {
     const Restart restart = world.draw_restart(k);
     if (!restart.is_mapped) continue;
     own.forget();
-    own.set_work(20000);
     for (int scan_number = 0; scan_number < 40; ++scan_number) {
       const sim::PlanePose at = world.pose_at(restart, 0.12 * scan_number);
       const pose_wall_planar_scan scan =
@@ -149,13 +150,12 @@ TEST(LocaliseRestart, CandidatesMoveOnWithTheMachine) {
     }
   }
   EXPECT_GE(compared, 40);
-  own.set_work(1U << 30);
 }
 
 // One corridor with plain walls and no ends in sight: every place of it, both ways.
 TEST(LocaliseRestart, APlainCorridorStaysAmbiguous) {
   LocaliseSettings settings;
-  settings.work = 1U << 30;
+  settings.work = kWholeSearch;
   settings.tiles_most = 128;
   OpenedLocaliser localiser(settings);
   std::vector<ScanPoint> walls;
@@ -191,18 +191,13 @@ TEST(LocaliseRestart, APlainCorridorStaysAmbiguous) {
 
 // The same answer whatever the share of work in a call, and no more than a share in any.
 TEST(LocaliseRestart, WorkIsSharedOutOverCalls) {
-  const World world(0, 700);
-  Localiser& own = world.localiser();
-  const Restart restart = world.draw_restart(3);
+  const World at_once(0, 700), in_shares(0, 700, World::lengths(700), 768, false, false, kShare);
+  const Restart restart = at_once.draw_restart(3);
   std::vector<float> ranges;
-  const sim::PlanePose at = world.pose_at(restart, 0.0);
-  const pose_wall_planar_scan scan = world.scan_at(at, {}, 1, &ranges);
-  own.forget();
-  own.set_work(1U << 30);
-  ASSERT_EQ(own.process(read_beams(scan, own.beams()), nullptr), Where::unique);
-  const Pose2 whole = own.follower().pose();
-  own.forget();
-  own.set_work(20000);
+  const sim::PlanePose at = at_once.pose_at(restart, 0.0);
+  const pose_wall_planar_scan scan = at_once.scan_at(at, {}, 1, &ranges);
+  Localiser &whole = at_once.localiser(), &own = in_shares.localiser();
+  ASSERT_EQ(whole.process(read_beams(scan, whole.beams()), nullptr), Where::unique);
   Where where = Where::searching;
   int calls = 0;
   double progress = 0.0;
@@ -213,8 +208,7 @@ TEST(LocaliseRestart, WorkIsSharedOutOverCalls) {
   }
   EXPECT_EQ(where, Where::unique);
   EXPECT_GT(calls, 3);
-  EXPECT_LT(between(whole, own.follower().pose()).place().norm(), 0.02);
-  own.set_work(1U << 30);
+  EXPECT_LT(between(whole.follower().pose(), own.follower().pose()).place().norm(), 0.02);
 }
 
 }  // namespace

@@ -141,12 +141,14 @@ struct Counts {
   }
 };
 
+constexpr std::uint32_t kWholeSearch = 1U << 30;  // steps of work: a search ends in the call that begins it
+
 class World {
  public:
   World(int kind, std::uint64_t seed) : World(kind, seed, lengths(seed), 768) {}
   World(int kind, std::uint64_t seed, double length_m, std::uint32_t tiles_most, bool by_slam = false,
-        bool is_whole = false)
-      : random_seed_(seed), network_(plan_of(kind, length_m), seed), localiser_(settings(tiles_most)) {
+        bool is_whole = false, std::uint32_t work = kWholeSearch)
+      : random_seed_(seed), network_(plan_of(kind, length_m), seed), localiser_({tiles_most, work, is_whole}) {
     sensor_.noise_m = 0.015;
     // In half of the networks one of the roads is not in the map.
     const sim::NetworkGraph& graph = network_.graph();
@@ -157,16 +159,9 @@ class World {
       for (std::size_t e = 0; e < graph.edges.size(); ++e)
         is_hidden_[e] = graph.edges[e].road == 0 || random.chance(0.15);
     }
-    localiser_->set_whole(is_whole);
     by_slam ? draw_map_by_slam() : draw_map();
   }
 
-  static LocaliseSettings settings(std::uint32_t tiles_most) {
-    LocaliseSettings out;
-    out.tiles_most = tiles_most;
-    out.work = 1u << 30;
-    return out;
-  }
   static double lengths(std::uint64_t seed) { return 120.0 + static_cast<double>(seed % 7) * 40.0; }
 
   const sim::Network& network() const { return network_; }

@@ -31,8 +31,6 @@ class Localiser {
   PlaceMap& map() { return map_; }
   const PlaceMap& map() const { return map_; }
   Span<Beam> beams() const { return beams_; }
-  void set_work(std::uint32_t work) { settings_.work = work; }
-  void set_whole(bool map_is_whole) { settings_.map_is_whole = map_is_whole; }
 
   Where process(const BeamScan& scan, const Pose2* odometry);
   // Base stands here, as somebody says; scans can contradict.

@@ -11,7 +11,6 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kOld_m = 15.0;             // travel after which a place counts as seen before
 constexpr double kGroup_m = 2.5;            // travel to each side that is matched as one scan
 constexpr double kBeyond_m = 3.5;           // of the old trail beyond a group, to each side
 constexpr double kLong_m = 7.0;             // of a group that decides, to each side

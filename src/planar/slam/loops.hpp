@@ -32,6 +32,8 @@ struct Drift {
 
 class Loops {
  public:
+  static constexpr double kOld_m = 15.0;  // travel after which a place counts as seen before
+
   void lay_out(Arena& arena);
   void open();
   // Looks for an old place about the keyframe added last. Ties the closures that are believed to the trail, or takes

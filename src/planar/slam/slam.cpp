@@ -81,6 +81,7 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
     follower_.see_first(odometry);
   }
   step.is_valid = placed.is_valid;
+  step.is_trusted = placed.explained >= kTrusted;
   step.explained = placed.explained;
   step.rms_m = placed.rms_m;
   if (is_due(placed)) {
@@ -101,7 +102,7 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
 }
 
 void Slam::begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information) {
-  constexpr double kLeap_m = 20.0;  // more than kOld_m of loops.cpp: the saved trail is an old place
+  constexpr double kLeap_m = 4.0 / 3.0 * Loops::kOld_m;  // the saved trail is an old place
   const std::uint32_t k = trail_.size();
   constexpr double kDoubt_rad = 0.3, kDoubtMost_rad = 0.6;  // a scan that says nothing; several
   const double doubt_rad = std::min(kDoubtMost_rad, kDoubt_rad * doubtful_);

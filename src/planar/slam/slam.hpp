@@ -23,7 +23,8 @@ struct SlamStep {
   std::uint32_t keyframe = 0;  // that the scan belongs to
   Pose2 in_keyframe;
   bool is_keyframe = false;
-  bool is_valid = false;  // it has points on surfaces
+  bool is_valid = false;    // it has points on surfaces
+  bool is_trusted = false;  // so many of them that the pose is right
   double explained = 0.0, rms_m = 0.0;
   std::uint32_t closures = 0;  // believed with this scan
 };

@@ -77,11 +77,9 @@ std::int32_t take_settings(const pose_wall_planar_slam_settings* from, SlamSetti
 }
 
 std::uint32_t state_of(const SlamStep& step, bool is_first) {
-  constexpr double kFits = 0.75;  // kTrusted of slam.cpp
   if (is_first) return POSE_WALL_PLANAR_SLAM_FIRST;
   if (!step.is_valid) return POSE_WALL_PLANAR_SLAM_BLIND;
-  return step.explained >= kFits ? std::uint32_t{POSE_WALL_PLANAR_SLAM_TRACKED}
-                                 : std::uint32_t{POSE_WALL_PLANAR_SLAM_DOUBTFUL};
+  return step.is_trusted ? std::uint32_t{POSE_WALL_PLANAR_SLAM_TRACKED} : std::uint32_t{POSE_WALL_PLANAR_SLAM_DOUBTFUL};
 }
 
 // Bodies of calls about an opened SLAM. call(body) gives the status.

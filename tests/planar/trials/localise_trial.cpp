@@ -57,12 +57,11 @@ double processor_s() {
 // Processor time of calls with the default share of work, in a kilometre of roads.
 void cost(const Options& options) {
   const double begun = processor_s();
-  const World world(std::max(0, options.kind), 2 * options.seed, 1000.0, 1024);
+  const World world(std::max(0, options.kind), 2 * options.seed, 1000.0, 1024, false, false, LocaliseSettings().work);
   std::printf("map of a kilometre: %u tiles, %u surfaces, block %.1f MB, made in %.2f s with its scans\n",
               world.localiser().map().tiles(), world.localiser().map().surfaces(),
               static_cast<double>(world.bytes()) * 1e-6, processor_s() - begun);
   Localiser& own = world.localiser();
-  own.set_work(LocaliseSettings().work);
   std::vector<double> searching_ms, tracking_ms;
   std::vector<float> ranges;
   int calls = 0, restarts = 0;
