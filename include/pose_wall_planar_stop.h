@@ -69,39 +69,9 @@ typedef struct pose_wall_planar_stop_settings {
    * further than 5 m from base. */
   double corner_m[POSE_WALL_PLANAR_STOP_CORNERS_MAX][2];
 
-  double floor_z_m; /* -10 to 10: height of the tracks' contact with the floor in base */
-  double top_m;     /* 0.5 to 6: the machine's height above the floor, with clearance. Higher returns do not count */
-  double tall_m;    /* 0.5 to 2: persons near the machine are at least this tall */
-  /* The smallest thing that is found, as a standing cylinder. Returns up to floor_band_m above the floor are floor. */
-  double thing_height_m; /* 0.1 to 1, at least floor_band_m + 0.05 */
-  double thing_width_m;  /* 0.2 to 1 */
-  double floor_band_m;   /* 0.03 to 0.5: roughness of the floor and errors of its slope */
-  double slope_max_rad;  /* 0 to 0.35: largest slope of the floor against base */
-  double kink_max_rad;   /* 0.01 to 0.35: where no floor is seen, it may rise or fall so much ahead of the machine */
-
-  double speed_max_m_s;     /* 0.05 to 3: top speed of any point of the footprint that is allowed */
-  double turn_max_rad_s;    /* 0.01 to 2 */
-  double deceleration_m_s2; /* 0.1 to 10: least deceleration of the fastest point of the footprint */
-  double latency_s;         /* 0 to 2: from a result to the first effect of the brakes */
-  double stale_s;           /* 0.02 to 1: oldest frame. At least a frame's period and its own delay */
-  double scan_s;            /* 0 to 0.5: a point is measured up to so long before the stamp; 0: scan without skew */
-  double delay_s;           /* 0.1 to 2: in which sparse returns are told from dust; three frames at least */
-  double slack_s;   /* 0 to 2: allowed_speed_m_s is so much more careful than the stop. At least a frame's period, its
-                       delay and latency_s, or a driver who follows it is stopped where it could have slowed down */
-  double restart_s; /* 0 to 60: clear for so long before a stop ends */
-  double restart_speed_m_s; /* 0.01 to 1: allowed speed needed to end a stop */
-  double approach_m_s;      /* 0 to 3: speed of people towards the path; 0: nobody is there */
-  double settle_s;     /* 0.2 to 60: what stood still for so long and is part of something long that did, like a wall,
-                          is not expected to walk. What stands alone may walk at any time */
-  double creep_m_s;    /* 0 to 0.3: so slowly the machine may pass a thing that stood still alone for settle_s, however
-                          near. 0: never nearer than it could walk into the way */
-  double memory_s;     /* 0.1 to 600: low places are remembered for so long */
-  double drift_max_m;  /* 0.02 to 0.5: and while the machine's motion is known so well */
-  double confirm_m;    /* 0 to 3: width of the strip around the footprint that _confirm declares empty */
-  double protection_m; /* 0.02 to 1: errors of range, extrinsic and footprint */
-  double speed_error_ratio; /* 0 to 0.5: error of a given speed or turn rate, as a share of it */
-  double speed_error_m_s;   /* 0 to 0.5: and beside it while the machine moves */
-  double turn_error_rad_s;  /* 0 to 0.5 */
+  /* A member for each row of the table, which has its default, range, unit and meaning. */
+#define POSE_WALL_SETTING(type, name, standard, least, most, unit, help) type name;
+#include "pose_wall_planar_stop_settings.def"
 } pose_wall_planar_stop_settings;
 
 /* A roadheader of 4.5 x 1.2 m. Fails iff: NULL. */

@@ -47,8 +47,8 @@ PUBLIC = {
     "lidar": {"pose_wall.h"},
     "place": {"pose_wall.h", "pose_wall_planar_types.h"},
     "engine": {"pose_wall.h", "pose_wall.hpp", "pose_wall_trace.h"},
-    "motion": {"pose_wall.h", "pose_wall_motion.h"},
-    "planar": {"pose_wall.h", "pose_wall_motion.h", "pose_wall_planar*.h"},
+    "motion": {"pose_wall.h", "pose_wall_motion.h", "pose_wall_motion_settings.def"},
+    "planar": {"pose_wall.h", "pose_wall_motion.h", "pose_wall_planar*.h", "pose_wall_planar*.def"},
     # Of motion the types alone: its functions come through the options.
     "runtime": {"pose_wall.h", "pose_wall_runtime.h", "pose_wall_box.h", "pose_wall_motion.h"},
 }
@@ -158,7 +158,8 @@ def faults(root):
                 yield path, fault
     for header, allowed in ((include / "pose_wall.h", C_HEADERS),
                             (include / "pose_wall_runtime.h", C_HEADERS | MOTION_PUBLIC),
-                            (include / "pose_wall_motion.h", C_HEADERS | {"pose_wall.h"}),
+                            (include / "pose_wall_motion.h",
+                             C_HEADERS | {"pose_wall.h", "pose_wall_motion_settings.def"}),
                             (include / "pose_wall_trace.h", C_HEADERS | {"pose_wall.h"}),
                             (include / "pose_wall_box.h", C_HEADERS | MOTION_PUBLIC)):
         for bracket, name in includes(header) if header.exists() else ():

@@ -16,12 +16,14 @@
 namespace {
 
 using pose_wall::Arena;
+using pose_wall::default_settings;
 using pose_wall::Mount;
 using pose_wall::planar::FloorLooks;
 using pose_wall::planar::Ground;
 using pose_wall::planar::Rays;
 using pose_wall::planar::Sight;
 using pose_wall::planar::StopSettings;
+using pose_wall::planar::StopTable;
 using pose_wall::test::Draw;
 using pose_wall::test::Pattern;
 using pose_wall::test::round_thing;
@@ -35,7 +37,7 @@ class SightUnderTest {
     Arena arena(block_.data());
     sight_ = arena.take_one<Sight>();
     sight_->lay_out(arena);
-    settings_ = pose_wall::planar::default_stop_settings();
+    settings_ = default_settings<StopTable>();
   }
 
   // One frame of a sensor at rest in a world; the same draws give the same rays.

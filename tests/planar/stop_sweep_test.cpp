@@ -14,11 +14,12 @@
 
 namespace {
 
+using pose_wall::default_settings;
 using pose_wall::Span;
-using pose_wall::planar::default_stop_settings;
 using pose_wall::planar::Hazard;
 using pose_wall::planar::kSweepLevels;
 using pose_wall::planar::StopSettings;
+using pose_wall::planar::StopTable;
 using pose_wall::planar::Sweep;
 using pose_wall::planar::SweepMotion;
 using pose_wall::test::Draw;
@@ -83,7 +84,7 @@ double path_of(const StopSettings& s, double rim) {
 }
 
 TEST(StopSweep, StraightAheadTheSpeedIsThatOfTheBrakingDistance) {
-  const StopSettings settings = default_stop_settings();
+  const StopSettings settings = default_settings<StopTable>();
   Sweep sweep;
   sweep.open(settings);
   sweep.set_motion(arc(settings, 1.0, 0.0), kReaction_s);
@@ -96,7 +97,7 @@ TEST(StopSweep, StraightAheadTheSpeedIsThatOfTheBrakingDistance) {
 }
 
 TEST(StopSweep, OnTheSpotTheTailCounts) {
-  const StopSettings settings = default_stop_settings();
+  const StopSettings settings = default_settings<StopTable>();
   Sweep sweep;
   sweep.open(settings);
   sweep.set_motion(arc(settings, 0.0, 1.0), kReaction_s);
@@ -111,7 +112,7 @@ TEST(StopSweep, NothingSlipsThroughBetweenSlicesAndLittleIsGivenAway) {
   Draw draw(11);
   std::uint32_t limited = 0, tight = 0;
   for (int k = 0; k < 4000; ++k) {
-    StopSettings settings = default_stop_settings();
+    StopSettings settings = default_settings<StopTable>();
     pose_wall::planar::set_rectangle(&settings, draw.within(-2.5, -0.5), draw.within(0.5, 2.5), draw.within(-1.0, -0.3),
                                      draw.within(0.3, 1.0));
     Sweep sweep;
@@ -132,7 +133,7 @@ TEST(StopSweep, NothingSlipsThroughBetweenSlicesAndLittleIsGivenAway) {
 }
 
 TEST(StopSweep, WhatMayWalkNeedsRoomForItsWay) {
-  const StopSettings settings = default_stop_settings();
+  const StopSettings settings = default_settings<StopTable>();
   Sweep sweep;
   sweep.open(settings);
   sweep.set_motion(arc(settings, 1.0, 0.0), kReaction_s);
@@ -142,7 +143,7 @@ TEST(StopSweep, WhatMayWalkNeedsRoomForItsWay) {
 }
 
 TEST(StopSweep, WithoutAKnownMotionEveryDirectionCounts) {
-  const StopSettings settings = default_stop_settings();
+  const StopSettings settings = default_settings<StopTable>();
   Sweep sweep;
   sweep.open(settings);
   SweepMotion motion;
@@ -155,7 +156,7 @@ TEST(StopSweep, WithoutAKnownMotionEveryDirectionCounts) {
 }
 
 TEST(StopSweep, ANumberThatIsNoneIsNotClear) {
-  const StopSettings settings = default_stop_settings();
+  const StopSettings settings = default_settings<StopTable>();
   Sweep sweep;
   sweep.open(settings);
   sweep.set_motion(arc(settings, 1.0, 0.1), kReaction_s);

@@ -7,17 +7,21 @@
 
 #include <cstdint>
 
+#include "part/settings.hpp"
 #include "pose_wall_planar_stop.h"
 
 namespace pose_wall::planar {
 
 using StopSettings = pose_wall_planar_stop_settings;
 
-StopSettings default_stop_settings();
-void set_rectangle(StopSettings* settings, double x_min_m, double x_max_m, double y_min_m, double y_max_m);
+struct StopTable : SettingsTable<StopSettings> {
+  using SettingsTable::SettingsTable;
+  static SettingRows rows();
+  void set_others();
+  SettingFault broken_rule() const;
+};
 
-// POSE_WALL_OK, POSE_WALL_E_STRUCT_SIZE or POSE_WALL_E_VALUE_RANGE with its fault (may be NULL).
-std::int32_t check_stop_settings(const StopSettings& settings, pose_wall_planar_fault* fault);
+void set_rectangle(StopSettings* settings, double x_min_m, double x_max_m, double y_min_m, double y_max_m);
 
 // From the stamp to the first effect of the brakes.
 inline double reaction_s(const StopSettings& s) {

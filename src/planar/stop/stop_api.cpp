@@ -16,6 +16,7 @@
 namespace {
 
 using pose_wall::planar::Stop;
+using pose_wall::planar::StopTable;
 using Mine = pose_wall::Held<Stop, 0x706F74735F6E6C70ULL>;
 
 constexpr const char* kStates[] = {"stop", "slow", "go"};
@@ -55,9 +56,7 @@ std::int32_t check_size(std::uint32_t size) {
 extern "C" {
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_init(pose_wall_planar_stop_settings* settings) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = pose_wall::planar::default_stop_settings();
-  return POSE_WALL_OK;
+  return pose_wall::init_settings<StopTable>(settings);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_settings* settings, double x_min_m,
@@ -70,8 +69,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_s
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_check(const pose_wall_planar_stop_settings* settings,
                                                               pose_wall_planar_fault* fault) {
-  return settings != nullptr ? pose_wall::planar::check_stop_settings(*settings, fault)
-                             : std::int32_t{POSE_WALL_E_NULL};
+  return pose_wall::check_settings<StopTable>(settings, fault);
 }
 
 POSE_WALL_EXPORT const char* pose_wall_planar_stop_state_name(uint32_t state) {
@@ -94,14 +92,12 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_open(const pose_wall_config* conf
                                                     const pose_wall_planar_stop_settings* settings, void* block,
                                                     uint64_t block_bytes, pose_wall_planar_stop** stop) {
   if (config == nullptr || block == nullptr || stop == nullptr) return POSE_WALL_E_NULL;
-  std::int32_t status = pose_wall_config_check(config, nullptr);
-  if (status == POSE_WALL_OK && settings != nullptr) status = pose_wall_planar_stop_settings_check(settings, nullptr);
-  if (status != POSE_WALL_OK) return status;
+  pose_wall_planar_stop_settings given;
   Mine* opened = nullptr;
-  status = Mine::place(block, block_bytes, &opened);
+  std::int32_t status = pose_wall_config_check(config, nullptr);
+  if (status == POSE_WALL_OK) status = pose_wall::choose_settings<StopTable>(settings, &given);
+  if (status == POSE_WALL_OK) status = Mine::place(block, block_bytes, &opened);
   if (status != POSE_WALL_OK) return status;
-  const pose_wall_planar_stop_settings given =
-      settings != nullptr ? *settings : pose_wall::planar::default_stop_settings();
   opened->body().open(given, pose_wall::mount_of(*config), pose_wall::planar::settings_crc(*config, given));
   *stop = reinterpret_cast<pose_wall_planar_stop*>(opened);
   return POSE_WALL_OK;
@@ -156,7 +152,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_crc(const pose_wall_conf
   const std::int32_t status = pose_wall_config_crc(config, &config_crc);
   if (status != POSE_WALL_OK) return status;
   *crc = pose_wall::planar::settings_crc(*config,
-                                         settings != nullptr ? *settings : pose_wall::planar::default_stop_settings());
+                                         settings != nullptr ? *settings : pose_wall::default_settings<StopTable>());
   return POSE_WALL_OK;
 }
 
