@@ -45,13 +45,10 @@ typedef struct pose_wall_planar_slam pose_wall_planar_slam;
 /* ---------------------------------------------------------------------------------------------- settings */
 
 typedef struct pose_wall_planar_slam_settings {
-  uint32_t struct_size;    /* sizeof(pose_wall_planar_slam_settings) */
-  uint32_t keyframes_most; /* 4096: the trail holds so many, of 360 surface points in the mean; 16 to 65536. A
-                              kilometre of road takes some 3300 */
-  double keyframe_m;       /* 0.3: travel between two keyframes; 0.05 to 2 */
-  double keyframe_rad;     /* 0.25: turn between two keyframes; 0.02 to 1 */
-  double odometry_m;       /* 0.1: standard deviation of odometry's way, by the way; 0 to 1 */
-  double odometry_rad;     /* 0.3: standard deviation of odometry's turn, by the turn; 0 to 1 */
+  uint32_t struct_size; /* sizeof(pose_wall_planar_slam_settings) */
+  /* A member for each row of the table, which has its default, range, unit and meaning. */
+#define POSE_WALL_SETTING(type, name, standard, least, most, unit, help) type name;
+#include "pose_wall_planar_slam_settings.def"
 } pose_wall_planar_slam_settings;
 
 /* The defaults. Fails iff: NULL. */

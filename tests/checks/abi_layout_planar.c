@@ -145,11 +145,8 @@ static int planar_match_layout(void) {
 static int planar_slam_layout(void) {
   int padded = 0;
   MEMBER(pose_wall_planar_slam_settings, struct_size);
-  MEMBER(pose_wall_planar_slam_settings, keyframes_most);
-  MEMBER(pose_wall_planar_slam_settings, keyframe_m);
-  MEMBER(pose_wall_planar_slam_settings, keyframe_rad);
-  MEMBER(pose_wall_planar_slam_settings, odometry_m);
-  MEMBER(pose_wall_planar_slam_settings, odometry_rad);
+#define POSE_WALL_SETTING(type, name, ...) MEMBER(pose_wall_planar_slam_settings, name);
+#include "pose_wall_planar_slam_settings.def"
   padded += struct_end("pose_wall_planar_slam_settings", sizeof(pose_wall_planar_slam_settings));
   MEMBER(pose_wall_planar_slam_result, struct_size);
   MEMBER(pose_wall_planar_slam_result, state);

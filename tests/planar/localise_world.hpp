@@ -486,6 +486,7 @@ class World {
     run_settings.sensor = sensor_;
     const sim::NetworkRun run = sim::drive(network_, route, run_settings, random_seed_);
     SlamSettings slam_settings;
+    EXPECT_EQ(pose_wall_planar_slam_settings_init(&slam_settings), POSE_WALL_OK);
     slam_settings.keyframes_most = 8192;
     Slam slam;
     Arena measure(nullptr);

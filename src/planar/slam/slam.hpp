@@ -9,14 +9,11 @@
 
 #include "planar/match/scan_follower.hpp"
 #include "planar/slam/loops.hpp"
+#include "pose_wall_planar_slam.h"
 
 namespace pose_wall::planar {
 
-struct SlamSettings {
-  std::uint32_t keyframes_most = 4096;
-  double keyframe_m = 0.3, keyframe_rad = 0.25;
-  double odometry_m = 0.1, odometry_rad = 0.3;  // standard deviation of a step by its length and turn
-};
+using SlamSettings = pose_wall_planar_slam_settings;
 
 struct SlamStep {
   Pose2 pose;
@@ -59,7 +56,7 @@ class Slam {
   void improve();
   void draw_near();
 
-  SlamSettings settings_;
+  SlamSettings settings_{};
   Matcher matcher_;
   PoseGraph graph_;
   Trail trail_;

@@ -5,6 +5,7 @@
 
 #include "part/export.hpp"
 #include "part/held.hpp"
+#include "part/settings.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/slam/slam.hpp"
 #include "planar/slam/trail_image.hpp"
@@ -15,7 +16,6 @@ namespace {
 using pose_wall::planar::check_scan;
 using pose_wall::planar::Edge;
 using pose_wall::planar::is_pose;
-using pose_wall::planar::is_within;
 using pose_wall::planar::Keyframe;
 using pose_wall::planar::Pose2;
 using pose_wall::planar::pose_for_caller;
@@ -44,37 +44,15 @@ const Opened* opened(const pose_wall_planar_slam* slam) {
   return reinterpret_cast<const Opened*>(slam);
 }
 
-pose_wall_planar_slam_settings defaults() {
-  const SlamSettings own;
-  pose_wall_planar_slam_settings out{};
-  out.struct_size = sizeof(out);
-  out.keyframes_most = own.keyframes_most;
-  out.keyframe_m = own.keyframe_m;
-  out.keyframe_rad = own.keyframe_rad;
-  out.odometry_m = own.odometry_m;
-  out.odometry_rad = own.odometry_rad;
-  return out;
-}
+constexpr pose_wall::SettingRow kRows[] = {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_slam_settings, __VA_ARGS__)
+#include "pose_wall_planar_slam_settings.def"
+};
 
-SlamSettings settings_of(const pose_wall_planar_slam_settings& from) {
-  SlamSettings out;
-  out.keyframes_most = from.keyframes_most;
-  out.keyframe_m = from.keyframe_m;
-  out.keyframe_rad = from.keyframe_rad;
-  out.odometry_m = from.odometry_m;
-  out.odometry_rad = from.odometry_rad;
-  return out;
-}
-
-// The caller's settings, or the defaults. Fails as pose_wall_planar_slam_settings_check does.
-std::int32_t take_settings(const pose_wall_planar_slam_settings* from, SlamSettings* out) {
-  if (from != nullptr) {
-    const std::int32_t status = pose_wall_planar_slam_settings_check(from, nullptr);
-    if (status != POSE_WALL_OK) return status;
-  }
-  *out = settings_of(from != nullptr ? *from : defaults());
-  return POSE_WALL_OK;
-}
+struct SlamTable : pose_wall::SettingsTable<SlamSettings> {
+  using SettingsTable::SettingsTable;
+  static pose_wall::SettingRows rows() { return pose_wall::rows_of(kRows); }
+};
 
 std::uint32_t state_of(const SlamStep& step, bool is_first) {
   if (is_first) return POSE_WALL_PLANAR_SLAM_FIRST;
@@ -99,37 +77,19 @@ POSE_WALL_EXPORT const char* pose_wall_planar_slam_state_name(uint32_t state) {
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settings_init(pose_wall_planar_slam_settings* settings) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = defaults();
-  return POSE_WALL_OK;
+  return pose_wall::init_settings<SlamTable>(settings);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settings_check(const pose_wall_planar_slam_settings* settings,
                                                               pose_wall_planar_fault* fault) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
-  const struct {
-    double value, least, most;
-    const char *member, *rule;
-  } rows[] = {{static_cast<double>(settings->keyframes_most), 16, 65536, "keyframes_most",
-               "keyframes_most must be from 16 to 65536"},
-              {settings->keyframe_m, 0.05, 2, "keyframe_m", "keyframe_m must be from 0.05 to 2"},
-              {settings->keyframe_rad, 0.02, 1, "keyframe_rad", "keyframe_rad must be from 0.02 to 1"},
-              {settings->odometry_m, 0, 1, "odometry_m", "odometry_m must be from 0 to 1"},
-              {settings->odometry_rad, 0, 1, "odometry_rad", "odometry_rad must be from 0 to 1"}};
-  for (const auto& row : rows) {
-    if (is_within(row.value, row.least, row.most)) continue;
-    if (fault != nullptr) *fault = {row.member, row.rule};
-    return POSE_WALL_E_VALUE_RANGE;
-  }
-  return POSE_WALL_OK;
+  return pose_wall::check_settings<SlamTable>(settings, fault);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_memory_needed(const pose_wall_planar_slam_settings* settings,
                                                              uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
   SlamSettings own;
-  const std::int32_t status = take_settings(settings, &own);
+  const std::int32_t status = pose_wall::choose_settings<SlamTable>(settings, &own);
   if (status == POSE_WALL_OK) *bytes = Opened::bytes(own);
   return status;
 }
@@ -138,7 +98,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_open(const pose_wall_planar_slam_
                                                     uint64_t block_bytes, pose_wall_planar_slam** slam) {
   if (block == nullptr || slam == nullptr) return POSE_WALL_E_NULL;
   SlamSettings own;
-  std::int32_t status = take_settings(settings, &own);
+  std::int32_t status = pose_wall::choose_settings<SlamTable>(settings, &own);
   Opened* placed = nullptr;
   if (status == POSE_WALL_OK) status = Opened::place(block, block_bytes, &placed, own);
   if (status != POSE_WALL_OK) return status;
