@@ -42,32 +42,13 @@ extern "C" {
 typedef struct pose_wall_planar_planner pose_wall_planar_planner;
 
 typedef struct pose_wall_planar_plan_settings {
-  uint32_t struct_size;    /* sizeof(pose_wall_planar_plan_settings) */
-  uint32_t width_max;      /* cells of a grid along x, 8 to 8192; 2048 */
-  uint32_t height_max;     /* and along y, 8 to 8192; 2048 */
-  uint32_t places_max;     /* places that a search may enter, 1000 to 1000000; 60000. One takes 356 bytes */
-  uint32_t open_max;       /* entries of the open list, 1000 to 10000000; 400000 */
-  uint32_t expansions_max; /* of both searches together, 1 to 100000000; 2000000 */
-  uint32_t hurry_after;    /* expansions after which the weight grows by a tenth, again and again, up to 3; 0: never,
-                              to 100000000; 25000 */
-  uint32_t occupied_from;  /* per cent from which on a cell is occupied, 1 to 100; 50 */
-  double resolution_m;     /* of every grid, 0.01 to 1; 0.05 */
-  double front_m;          /* the rectangle's edges from the turning centre, 0.1 to 20; 2.25 */
-  double rear_m;           /* likewise; 2.25 */
-  double left_m;           /* likewise; 0.6 */
-  double right_m;          /* likewise; 0.6 */
-  double margin_m;         /* round the rectangle, 0 to 2; 0.1 */
-  double lattice_m;        /* between places, 2 to 50 cells, at most an eighth of the length; 0.25 */
-  double turn_cost_m_rad;  /* 0.01 to 100; 0.5 */
-  double reverse_cost;     /* 1 to 100; 1.2 */
-  double cusp_cost_m;      /* 0 to 100; 0.5 */
-  double weight;           /* of the distance ahead, 1 to 10; 1.1. Larger is faster and dearer */
-  double radius_min_m;     /* of curves in place of corners, 0.1 to 100; 1. A corner with room for less stays one */
-  double radius_max_m;     /* radius_min_m to 1000; 8 */
-  double pose_step_m;      /* between poses of the result, 0.05 to 10; 0.25 */
+  uint32_t struct_size; /* sizeof(pose_wall_planar_plan_settings) */
+  /* A member for each row of the table, which has its default, range, unit and meaning. */
+#define POSE_WALL_SETTING(type, name, standard, least, most, unit, help) type name;
+#include "pose_wall_planar_plan_settings.def"
 } pose_wall_planar_plan_settings;
 
-/* The defaults above: the roadheader of 4.5 by 1.2 m. Fails iff settings is NULL. */
+/* The table's defaults: the roadheader of 4.5 by 1.2 m. Fails iff settings is NULL. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_plan_settings_init(pose_wall_planar_plan_settings* settings);
 /* POSE_WALL_OK, or POSE_WALL_E_VALUE_RANGE with the member at fault, if `fault` is not NULL. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_plan_settings_check(const pose_wall_planar_plan_settings* settings,

@@ -44,26 +44,10 @@ typedef struct pose_wall_planar_tracker pose_wall_planar_tracker;
 typedef double (*pose_wall_planar_clearance)(void* context, double x_m, double y_m);
 
 typedef struct pose_wall_planar_track_settings {
-  uint32_t struct_size;      /* sizeof(pose_wall_planar_track_settings) */
-  uint32_t path_max;         /* poses of a route, 2 to 1000000; 8192 */
-  double speed_max_m_s;      /* 0.02 to 5; 0.5 */
-  double speed_min_m_s;      /* where it is narrow and before stops, 0.01 to speed_max_m_s; 0.05 */
-  double speed_change_m_s2;  /* of commands, and of stopping at cusps and the end, 0.02 to 5; 0.25 */
-  double turn_max_rad_s;     /* 0.02 to 3; 0.35 */
-  double turn_change_rad_s2; /* of commands, 0.05 to 20; 1 */
-  double track_distance_m;   /* between the middles of both tracks, 0.2 to 10; 0.9 */
-  double settle_m;           /* way within which an error falls to a twentieth, 0.5 to 20; 1.6 */
-  double delay_s;            /* from a command to its effect, 0 to 1; 0.3. What poses are late is told by pose_ns */
-  double lag_s;              /* time constant of the drive behind that, 0 to 1; 0.15 */
-  double half_width_m;       /* of the machine, for clearances, 0 to 20; 0.6 */
-  double slow_below_m;       /* free room beside the machine below which it slows, 0 to 10; 0.5. At 0: speed_min */
-  double stop_within_m;      /* of a stop, 0.005 to 1; 0.03 */
-  double stop_within_rad;    /* of a turn on the spot, 0.002 to 0.5; 0.015 */
-  double off_path_m;         /* cross error that ends tracking, 0.05 to 10; 0.5 */
-  double off_path_rad;       /* heading error that ends tracking, 0.05 to 1.5; 0.7 */
-  double pose_level_max_m;   /* poses with a level (protection level, or what the caller takes) above it are none:
-                                0.001 to 100; 0.5 */
-  double pose_age_max_s;     /* 0.02 to 10; 0.5 */
+  uint32_t struct_size; /* sizeof(pose_wall_planar_track_settings) */
+  /* A member for each row of the table, which has its default, range, unit and meaning. */
+#define POSE_WALL_SETTING(type, name, standard, least, most, unit, help) type name;
+#include "pose_wall_planar_track_settings.def"
 } pose_wall_planar_track_settings;
 
 POSE_WALL_CHECKED int32_t pose_wall_planar_track_settings_init(pose_wall_planar_track_settings* settings);

@@ -280,27 +280,8 @@ static int planar_localise_layout(void) {
 static int planar_plan_layout(void) {
   int padded = 0;
   MEMBER(pose_wall_planar_plan_settings, struct_size);
-  MEMBER(pose_wall_planar_plan_settings, width_max);
-  MEMBER(pose_wall_planar_plan_settings, height_max);
-  MEMBER(pose_wall_planar_plan_settings, places_max);
-  MEMBER(pose_wall_planar_plan_settings, open_max);
-  MEMBER(pose_wall_planar_plan_settings, expansions_max);
-  MEMBER(pose_wall_planar_plan_settings, hurry_after);
-  MEMBER(pose_wall_planar_plan_settings, occupied_from);
-  MEMBER(pose_wall_planar_plan_settings, resolution_m);
-  MEMBER(pose_wall_planar_plan_settings, front_m);
-  MEMBER(pose_wall_planar_plan_settings, rear_m);
-  MEMBER(pose_wall_planar_plan_settings, left_m);
-  MEMBER(pose_wall_planar_plan_settings, right_m);
-  MEMBER(pose_wall_planar_plan_settings, margin_m);
-  MEMBER(pose_wall_planar_plan_settings, lattice_m);
-  MEMBER(pose_wall_planar_plan_settings, turn_cost_m_rad);
-  MEMBER(pose_wall_planar_plan_settings, reverse_cost);
-  MEMBER(pose_wall_planar_plan_settings, cusp_cost_m);
-  MEMBER(pose_wall_planar_plan_settings, weight);
-  MEMBER(pose_wall_planar_plan_settings, radius_min_m);
-  MEMBER(pose_wall_planar_plan_settings, radius_max_m);
-  MEMBER(pose_wall_planar_plan_settings, pose_step_m);
+#define POSE_WALL_SETTING(type, name, ...) MEMBER(pose_wall_planar_plan_settings, name);
+#include "pose_wall_planar_plan_settings.def"
   padded += struct_end("pose_wall_planar_plan_settings", sizeof(pose_wall_planar_plan_settings));
   MEMBER(pose_wall_planar_path_pose, pose);
   MEMBER(pose_wall_planar_path_pose, curvature_1_m);
@@ -330,24 +311,8 @@ static int planar_plan_layout(void) {
 static int planar_track_layout(void) {
   int padded = 0;
   MEMBER(pose_wall_planar_track_settings, struct_size);
-  MEMBER(pose_wall_planar_track_settings, path_max);
-  MEMBER(pose_wall_planar_track_settings, speed_max_m_s);
-  MEMBER(pose_wall_planar_track_settings, speed_min_m_s);
-  MEMBER(pose_wall_planar_track_settings, speed_change_m_s2);
-  MEMBER(pose_wall_planar_track_settings, turn_max_rad_s);
-  MEMBER(pose_wall_planar_track_settings, turn_change_rad_s2);
-  MEMBER(pose_wall_planar_track_settings, track_distance_m);
-  MEMBER(pose_wall_planar_track_settings, settle_m);
-  MEMBER(pose_wall_planar_track_settings, delay_s);
-  MEMBER(pose_wall_planar_track_settings, lag_s);
-  MEMBER(pose_wall_planar_track_settings, half_width_m);
-  MEMBER(pose_wall_planar_track_settings, slow_below_m);
-  MEMBER(pose_wall_planar_track_settings, stop_within_m);
-  MEMBER(pose_wall_planar_track_settings, stop_within_rad);
-  MEMBER(pose_wall_planar_track_settings, off_path_m);
-  MEMBER(pose_wall_planar_track_settings, off_path_rad);
-  MEMBER(pose_wall_planar_track_settings, pose_level_max_m);
-  MEMBER(pose_wall_planar_track_settings, pose_age_max_s);
+#define POSE_WALL_SETTING(type, name, ...) MEMBER(pose_wall_planar_track_settings, name);
+#include "pose_wall_planar_track_settings.def"
   padded += struct_end("pose_wall_planar_track_settings", sizeof(pose_wall_planar_track_settings));
   MEMBER(pose_wall_planar_track_input, struct_size);
   MEMBER(pose_wall_planar_track_input, has_pose);

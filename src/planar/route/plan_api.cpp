@@ -6,6 +6,7 @@
 #include "base/math/finite.hpp"
 #include "part/export.hpp"
 #include "part/held.hpp"
+#include "part/settings.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/route/planner.hpp"
 #include "pose_wall_planar_plan.h"
@@ -27,12 +28,29 @@ pose_wall::planar::Pose2 taken(const pose_wall_planar_pose& pose) {
   return {pose.x_m, pose.y_m, pose_wall::planar::wrapped(pose.yaw_rad)};
 }
 
-// The caller's settings, checked, or the defaults.
-std::int32_t choose(const pose_wall_planar_plan_settings* settings, pose_wall_planar_plan_settings* chosen) {
-  if (settings == nullptr) return pose_wall_planar_plan_settings_init(chosen);
-  const std::int32_t status = pose_wall_planar_plan_settings_check(settings, nullptr);
-  if (status == POSE_WALL_OK) *chosen = *settings;
-  return status;
+constexpr pose_wall::SettingRow kRows[] = {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_plan_settings, __VA_ARGS__)
+#include "pose_wall_planar_plan_settings.def"
+};
+
+struct PlanTable : pose_wall::SettingsTable<pose_wall_planar_plan_settings> {
+  using SettingsTable::SettingsTable;
+  static pose_wall::SettingRows rows() { return pose_wall::rows_of(kRows); }
+  pose_wall::SettingFault broken_rule() const;
+};
+
+pose_wall::SettingFault PlanTable::broken_rule() const {
+  if (!(radius_max_m >= radius_min_m)) return {"radius_max_m", "radius_max_m must be from radius_min_m to 1000"};
+  const double steps = lattice_m / resolution_m;
+  const bool is_lattice = steps >= 2.0 - 1e-9 && steps <= 50.0 && lattice_m <= (front_m + rear_m) / 8.0;
+  if (!is_lattice) {
+    return {"lattice_m", "lattice_m must be from 2 to 50 cells and at most an eighth of the machine's length"};
+  }
+  constexpr double kReachMost_cells = 4000.0;  // rows of a mask: its columns are 16-bit words
+  const double wide_m = left_m + right_m, long_m = front_m + rear_m;
+  const bool is_small = (wide_m + long_m + 4.0 * margin_m) / resolution_m <= kReachMost_cells;
+  if (!is_small) return {"resolution_m", "the machine must be at most 4000 cells long and wide"};
+  return {};
 }
 
 constexpr const char* kOutcomes[][2] = {
@@ -52,47 +70,19 @@ constexpr std::uint32_t kOutcomeCount = sizeof(kOutcomes) / sizeof(kOutcomes[0])
 extern "C" {
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_plan_settings_init(pose_wall_planar_plan_settings* settings) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = {sizeof(*settings),
-               2048,
-               2048,
-               60000,
-               400000,
-               2000000,
-               25000,
-               50,
-               0.05,
-               2.25,
-               2.25,
-               0.6,
-               0.6,
-               0.1,
-               0.25,
-               0.5,
-               1.2,
-               0.5,
-               1.1,
-               1.0,
-               8.0,
-               0.25};
-  return POSE_WALL_OK;
+  return pose_wall::init_settings<PlanTable>(settings);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_plan_settings_check(const pose_wall_planar_plan_settings* settings,
                                                               pose_wall_planar_fault* fault) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
-  const pose_wall_planar_fault* const found = pose_wall::planar::route::fault_of(*settings);
-  if (found == nullptr) return POSE_WALL_OK;
-  if (fault != nullptr) *fault = *found;
-  return POSE_WALL_E_VALUE_RANGE;
+  return pose_wall::check_settings<PlanTable>(settings, fault);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_plan_memory_needed(const pose_wall_planar_plan_settings* settings,
                                                              uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
   pose_wall_planar_plan_settings chosen;
-  const std::int32_t status = choose(settings, &chosen);
+  const std::int32_t status = pose_wall::choose_settings<PlanTable>(settings, &chosen);
   if (status == POSE_WALL_OK) *bytes = HeldPlanner::bytes(chosen);
   return status;
 }
@@ -101,7 +91,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_plan_open(const pose_wall_planar_plan_
                                                     uint64_t block_bytes, pose_wall_planar_planner** planner) {
   if (block == nullptr || planner == nullptr) return POSE_WALL_E_NULL;
   pose_wall_planar_plan_settings chosen;
-  std::int32_t status = choose(settings, &chosen);
+  std::int32_t status = pose_wall::choose_settings<PlanTable>(settings, &chosen);
   HeldPlanner* held = nullptr;
   if (status == POSE_WALL_OK) status = HeldPlanner::place(block, block_bytes, &held, chosen);
   if (status != POSE_WALL_OK) return status;

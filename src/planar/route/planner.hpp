@@ -59,7 +59,4 @@ class Planner {
   bool has_grid_ = false, is_goal_tight_ = false;
 };
 
-// Of a faulty member, or NULL.
-const pose_wall_planar_fault* fault_of(const pose_wall_planar_plan_settings& settings);
-
 }  // namespace pose_wall::planar::route

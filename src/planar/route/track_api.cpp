@@ -6,6 +6,7 @@
 #include "base/math/finite.hpp"
 #include "part/export.hpp"
 #include "part/held.hpp"
+#include "part/settings.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/route/tracker.hpp"
 #include "pose_wall_planar_track.h"
@@ -33,13 +34,19 @@ std::int32_t check_route(const pose_wall_planar_path_pose* poses, std::uint32_t 
   return POSE_WALL_OK;
 }
 
-// The caller's settings, checked, or the defaults.
-std::int32_t choose(const pose_wall_planar_track_settings* settings, pose_wall_planar_track_settings* chosen) {
-  if (settings == nullptr) return pose_wall_planar_track_settings_init(chosen);
-  const std::int32_t status = pose_wall_planar_track_settings_check(settings, nullptr);
-  if (status == POSE_WALL_OK) *chosen = *settings;
-  return status;
-}
+constexpr pose_wall::SettingRow kRows[] = {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_track_settings, __VA_ARGS__)
+#include "pose_wall_planar_track_settings.def"
+};
+
+struct TrackTable : pose_wall::SettingsTable<pose_wall_planar_track_settings> {
+  using SettingsTable::SettingsTable;
+  static pose_wall::SettingRows rows() { return pose_wall::rows_of(kRows); }
+  pose_wall::SettingFault broken_rule() const {
+    if (speed_min_m_s <= speed_max_m_s) return {};
+    return {"speed_min_m_s", "speed_min_m_s must be from 0.01 to speed_max_m_s"};
+  }
+};
 
 constexpr const char* kStates[] = {"idle", "following", "turning", "stopping", "done", "off_path", "no_pose"};
 
@@ -48,44 +55,19 @@ constexpr const char* kStates[] = {"idle", "following", "turning", "stopping", "
 extern "C" {
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_init(pose_wall_planar_track_settings* settings) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = {sizeof(*settings),
-               8192,
-               0.5,
-               0.05,
-               0.25,
-               0.35,
-               1.0,
-               0.9,
-               1.6,
-               0.3,
-               0.15,
-               0.6,
-               0.5,
-               0.03,
-               0.015,
-               0.5,
-               0.7,
-               0.5,
-               0.5};
-  return POSE_WALL_OK;
+  return pose_wall::init_settings<TrackTable>(settings);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_check(const pose_wall_planar_track_settings* settings,
                                                                pose_wall_planar_fault* fault) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
-  const pose_wall_planar_fault* const found = pose_wall::planar::route::fault_of(*settings);
-  if (found == nullptr) return POSE_WALL_OK;
-  if (fault != nullptr) *fault = *found;
-  return POSE_WALL_E_VALUE_RANGE;
+  return pose_wall::check_settings<TrackTable>(settings, fault);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_memory_needed(const pose_wall_planar_track_settings* settings,
                                                               uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
   pose_wall_planar_track_settings chosen;
-  const std::int32_t status = choose(settings, &chosen);
+  const std::int32_t status = pose_wall::choose_settings<TrackTable>(settings, &chosen);
   if (status == POSE_WALL_OK) *bytes = HeldTracker::bytes(chosen);
   return status;
 }
@@ -94,7 +76,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_track_open(const pose_wall_planar_trac
                                                      uint64_t block_bytes, pose_wall_planar_tracker** tracker) {
   if (block == nullptr || tracker == nullptr) return POSE_WALL_E_NULL;
   pose_wall_planar_track_settings chosen;
-  std::int32_t status = choose(settings, &chosen);
+  std::int32_t status = pose_wall::choose_settings<TrackTable>(settings, &chosen);
   HeldTracker* held = nullptr;
   if (status == POSE_WALL_OK) status = HeldTracker::place(block, block_bytes, &held, chosen);
   if (status != POSE_WALL_OK) return status;

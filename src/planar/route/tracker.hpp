@@ -58,6 +58,4 @@ class Tracker {
   void* context_ = nullptr;
 };
 
-const pose_wall_planar_fault* fault_of(const pose_wall_planar_track_settings& settings);
-
 }  // namespace pose_wall::planar::route
