@@ -96,31 +96,9 @@ enum pose_wall_planar_alone {
 
 typedef struct pose_wall_planar_scanner_settings {
   uint32_t struct_size; /* set by pose_wall_planar_scanner_settings_init */
-  uint32_t alone;       /* pose_wall_planar_alone; 0 */
-
-  /* the machine */
-  double ground_clearance_m; /* h_vb: from the floor to the lowest part of its body; 0.25; 0 to 5 */
-  double machine_height_m;   /* h_v_max: its highest point above the floor; 1.8; up to 20 */
-  double margin_m;           /* h_th: widens the band at both ends; 0.1; 0 to 2 */
-
-  /* what is told apart */
-  double floor_tolerance_m; /* returns lower than this are the floor; 0.06; 0.01 to the band's lower edge */
-  double overhead_m;        /* reported as overhead; 0.3; 0 to 10 */
-  double thing_m;           /* the smallest thing of the guarantee; 0.2; above floor_tolerance_m, to 2 */
-  double clear_reach_m; /* the guarantee goes no further, which a sector of thing_m / 2 this wide costs; 10; 1 to 50 */
-
-  /* the scan, as in pointcloud_to_laserscan */
-  double angle_min_rad;  /* -pi; -pi to pi */
-  double angle_max_rad;  /* pi; above angle_min_rad, by a turn at most */
-  double angle_step_rad; /* angle_increment; 0.001; as many as POSE_WALL_PLANAR_BEAMS_MAX, to 0.1 */
-  double range_min_m;    /* 0.3; 0 to 10 */
-  double range_max_m;    /* 30; above range_min_m, to 200 */
-  double fill_rad;       /* 0.0065; 0 to 0.05 */
-
-  /* the floor */
-  double hold_max_s;         /* 0.5; 0 to 10 */
-  double tilt_level_max_rad; /* 0.0175; 0.001 to 0.2 */
-  double bend_rad;           /* 0.02; 0 to 0.2 */
+  /* A member for each row of the table, which has its default, range, unit and meaning. */
+#define POSE_WALL_SETTING(type, name, standard, least, most, unit, help) type name;
+#include "pose_wall_planar_scanner_settings.def"
 } pose_wall_planar_scanner_settings;
 
 /* Fails iff: NULL. */

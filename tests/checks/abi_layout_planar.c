@@ -57,23 +57,8 @@ static int planar_scan_layout(void) {
   MEMBER(pose_wall_planar_floor, reach_m);
   padded += struct_end("pose_wall_planar_floor", sizeof(pose_wall_planar_floor));
   MEMBER(pose_wall_planar_scanner_settings, struct_size);
-  MEMBER(pose_wall_planar_scanner_settings, alone);
-  MEMBER(pose_wall_planar_scanner_settings, ground_clearance_m);
-  MEMBER(pose_wall_planar_scanner_settings, machine_height_m);
-  MEMBER(pose_wall_planar_scanner_settings, margin_m);
-  MEMBER(pose_wall_planar_scanner_settings, floor_tolerance_m);
-  MEMBER(pose_wall_planar_scanner_settings, overhead_m);
-  MEMBER(pose_wall_planar_scanner_settings, thing_m);
-  MEMBER(pose_wall_planar_scanner_settings, clear_reach_m);
-  MEMBER(pose_wall_planar_scanner_settings, angle_min_rad);
-  MEMBER(pose_wall_planar_scanner_settings, angle_max_rad);
-  MEMBER(pose_wall_planar_scanner_settings, angle_step_rad);
-  MEMBER(pose_wall_planar_scanner_settings, range_min_m);
-  MEMBER(pose_wall_planar_scanner_settings, range_max_m);
-  MEMBER(pose_wall_planar_scanner_settings, fill_rad);
-  MEMBER(pose_wall_planar_scanner_settings, hold_max_s);
-  MEMBER(pose_wall_planar_scanner_settings, tilt_level_max_rad);
-  MEMBER(pose_wall_planar_scanner_settings, bend_rad);
+#define POSE_WALL_SETTING(type, name, ...) MEMBER(pose_wall_planar_scanner_settings, name);
+#include "pose_wall_planar_scanner_settings.def"
   padded += struct_end("pose_wall_planar_scanner_settings", sizeof(pose_wall_planar_scanner_settings));
   MEMBER(pose_wall_planar_scan_view, struct_size);
   MEMBER(pose_wall_planar_scan_view, floor_state);

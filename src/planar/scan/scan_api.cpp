@@ -15,6 +15,7 @@ namespace {
 
 using pose_wall::StructSizes;
 using pose_wall::planar::Scanner;
+using pose_wall::planar::ScannerTable;
 using pose_wall::planar::ScanSettings;
 using HeldScanner = pose_wall::Held<Scanner, 0x6E6163732D6C7070ULL>;
 
@@ -67,25 +68,21 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_floor_of(const pose_wall_result* resul
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_settings_init(pose_wall_planar_scanner_settings* settings) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = pose_wall::planar::default_scan_settings();
-  return POSE_WALL_OK;
+  return pose_wall::init_settings<ScannerTable>(settings);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_settings_check(const pose_wall_planar_scanner_settings* settings,
                                                                  pose_wall_planar_fault* fault) {
-  return pose_wall::planar::check_scan_settings(settings, fault);
+  return pose_wall::check_settings<ScannerTable>(settings, fault);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_memory_needed(const pose_wall_planar_scanner_settings* settings,
                                                                 uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall_planar_scanner_settings standard = pose_wall::planar::default_scan_settings();
-  const pose_wall_planar_scanner_settings& chosen = settings != nullptr ? *settings : standard;
-  const std::int32_t status = pose_wall::planar::check_scan_settings(&chosen, nullptr);
-  if (status != POSE_WALL_OK) return status;
-  *bytes = HeldScanner::bytes(pose_wall::planar::scan_settings_of(chosen));
-  return POSE_WALL_OK;
+  pose_wall_planar_scanner_settings chosen;
+  const std::int32_t status = pose_wall::choose_settings<ScannerTable>(settings, &chosen);
+  if (status == POSE_WALL_OK) *bytes = HeldScanner::bytes(pose_wall::planar::scan_settings_of(chosen));
+  return status;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_open(const pose_wall_config* config,
@@ -93,9 +90,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_open(const pose_wall_config* c
                                                        uint64_t block_bytes, pose_wall_planar_scanner** scanner) {
   if (config == nullptr || block == nullptr || scanner == nullptr) return POSE_WALL_E_NULL;
   std::int32_t status = pose_wall_config_check(config, nullptr);
-  const pose_wall_planar_scanner_settings standard = pose_wall::planar::default_scan_settings();
-  const pose_wall_planar_scanner_settings& chosen = settings != nullptr ? *settings : standard;
-  if (status == POSE_WALL_OK) status = pose_wall::planar::check_scan_settings(&chosen, nullptr);
+  pose_wall_planar_scanner_settings chosen;
+  if (status == POSE_WALL_OK) status = pose_wall::choose_settings<ScannerTable>(settings, &chosen);
   if (status != POSE_WALL_OK) return status;
   ScanSettings read = pose_wall::planar::scan_settings_of(chosen);
   pose_wall::planar::read_sensor(*config, &read);

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "lidar/mount.hpp"
+#include "part/settings.hpp"
 #include "pose_wall_planar_scan.h"
 
 namespace pose_wall::planar {
@@ -38,10 +39,11 @@ struct ScanSettings {
   double hold_max_s = 0.0, hold_rate_rad_s = 0.0, tilt_level_max_rad = 0.0, bend_rad = 0.0;
 };
 
-// POSE_WALL_OK, POSE_WALL_E_NULL, the codes of a struct_size or POSE_WALL_E_VALUE_RANGE.
-std::int32_t check_scan_settings(const pose_wall_planar_scanner_settings* settings, pose_wall_planar_fault* fault);
-
-pose_wall_planar_scanner_settings default_scan_settings();
+struct ScannerTable : SettingsTable<pose_wall_planar_scanner_settings> {
+  using SettingsTable::SettingsTable;
+  static SettingRows rows();
+  SettingFault broken_rule() const;
+};
 
 // Of checked settings.
 std::uint32_t beams_of(const pose_wall_planar_scanner_settings& settings);
