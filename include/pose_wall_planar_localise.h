@@ -53,11 +53,9 @@ typedef struct pose_wall_planar_localise pose_wall_planar_localise;
 
 typedef struct pose_wall_planar_localise_settings {
   uint32_t struct_size; /* sizeof(pose_wall_planar_localise_settings) */
-  uint32_t tiles_most; /* 1024: tiles of 6.4 m that the map may have; 16 to 16384. A kilometre of road takes some 300 */
-  uint32_t work;       /* 40000: steps of search in a call; 1000 to 1000000000 */
-  uint32_t map_is_whole; /* 0; 1: the machine can only be where the map is, so smooth walls can be unique, too */
-  double odometry_m;     /* 0.1: standard deviation of odometry's way, by the way; 0 to 1. Of a step 0.3 m at most */
-  double odometry_rad;   /* 0.3: standard deviation of odometry's turn, by the turn; 0 to 1 */
+  /* A member for each row of the table, which has its default, range, unit and meaning. */
+#define POSE_WALL_SETTING(type, name, standard, least, most, unit, help) type name;
+#include "pose_wall_planar_localise_settings.def"
 } pose_wall_planar_localise_settings;
 
 /* The defaults. Fails iff: NULL. */

@@ -53,19 +53,10 @@ enum pose_wall_planar_eviction {
 };
 
 typedef struct pose_wall_planar_map_settings {
-  uint32_t struct_size;        /* sizeof(pose_wall_planar_map_settings) */
-  uint32_t tiles;              /* 1024: at most so many are held; 1 to 65536 */
-  uint32_t eviction;           /* pose_wall_planar_eviction */
-  uint32_t renewals;           /* 64: tiles whose distances one insert renews at most; 0 to 65536 */
-  double cell_m;               /* 0.05: side of a cell; 0.02 to 0.5 */
-  double distance_cap_m;       /* 2: distances end here; 0: none are kept; else 1 to 120 cells */
-  double beam_max_m;           /* 30: nothing further off than this enters the map; 1 to 200 */
-  double hit_probability;      /* 0.7: of a thing where a beam ends; 0.55 to 0.95 */
-  double miss_probability;     /* 0.4: of a thing where a beam went through; 0.05 to 0.48 */
-  double least_probability;    /* 0.12: a cell goes no lower; 0.03 to 0.3 */
-  double most_probability;     /* 0.97: a cell goes no higher; 0.7 to 0.98 */
-  double occupied_probability; /* 0.65: from here on a cell is a thing; 0.55 to 0.95, at most most_probability */
-  double free_probability;     /* 0.35: up to here a cell is free; 0.05 to 0.48, at least least_probability */
+  uint32_t struct_size; /* sizeof(pose_wall_planar_map_settings) */
+  /* A member for each row of the table, which has its default, range, unit and meaning. */
+#define POSE_WALL_SETTING(type, name, standard, least, most, unit, help) type name;
+#include "pose_wall_planar_map_settings.def"
 } pose_wall_planar_map_settings;
 
 /* The defaults. Fails iff: NULL. */

@@ -168,18 +168,8 @@ static int planar_slam_layout(void) {
 static int planar_map_layout(void) {
   int padded = 0;
   MEMBER(pose_wall_planar_map_settings, struct_size);
-  MEMBER(pose_wall_planar_map_settings, tiles);
-  MEMBER(pose_wall_planar_map_settings, eviction);
-  MEMBER(pose_wall_planar_map_settings, renewals);
-  MEMBER(pose_wall_planar_map_settings, cell_m);
-  MEMBER(pose_wall_planar_map_settings, distance_cap_m);
-  MEMBER(pose_wall_planar_map_settings, beam_max_m);
-  MEMBER(pose_wall_planar_map_settings, hit_probability);
-  MEMBER(pose_wall_planar_map_settings, miss_probability);
-  MEMBER(pose_wall_planar_map_settings, least_probability);
-  MEMBER(pose_wall_planar_map_settings, most_probability);
-  MEMBER(pose_wall_planar_map_settings, occupied_probability);
-  MEMBER(pose_wall_planar_map_settings, free_probability);
+#define POSE_WALL_SETTING(type, name, ...) MEMBER(pose_wall_planar_map_settings, name);
+#include "pose_wall_planar_map_settings.def"
   padded += struct_end("pose_wall_planar_map_settings", sizeof(pose_wall_planar_map_settings));
   MEMBER(pose_wall_planar_tile, struct_size);
   MEMBER(pose_wall_planar_tile, crc32);
@@ -227,11 +217,8 @@ static int planar_map_layout(void) {
 static int planar_localise_layout(void) {
   int padded = 0;
   MEMBER(pose_wall_planar_localise_settings, struct_size);
-  MEMBER(pose_wall_planar_localise_settings, tiles_most);
-  MEMBER(pose_wall_planar_localise_settings, work);
-  MEMBER(pose_wall_planar_localise_settings, map_is_whole);
-  MEMBER(pose_wall_planar_localise_settings, odometry_m);
-  MEMBER(pose_wall_planar_localise_settings, odometry_rad);
+#define POSE_WALL_SETTING(type, name, ...) MEMBER(pose_wall_planar_localise_settings, name);
+#include "pose_wall_planar_localise_settings.def"
   padded += struct_end("pose_wall_planar_localise_settings", sizeof(pose_wall_planar_localise_settings));
   MEMBER(pose_wall_planar_localise_result, struct_size);
   MEMBER(pose_wall_planar_localise_result, state);

@@ -9,6 +9,7 @@
 
 #include "part/export.hpp"
 #include "part/held.hpp"
+#include "part/settings.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/localise/localiser.hpp"
 
@@ -42,29 +43,22 @@ using Opened = pose_wall::Held<Body, 0x65736C6163636F6CULL>;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-pose_wall_planar_localise_settings defaults() {
-  const LocaliseSettings own;
-  pose_wall_planar_localise_settings out{};
-  out.struct_size = sizeof(out);
-  out.tiles_most = own.tiles_most;
-  out.work = own.work;
-  out.map_is_whole = own.map_is_whole ? 1 : 0;
-  out.odometry_m = own.odometry_m;
-  out.odometry_rad = own.odometry_rad;
-  return out;
-}
+constexpr pose_wall::SettingRow kRows[] = {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_localise_settings, __VA_ARGS__)
+#include "pose_wall_planar_localise_settings.def"
+};
+
+struct LocaliseTable : pose_wall::SettingsTable<pose_wall_planar_localise_settings> {
+  using SettingsTable::SettingsTable;
+  static pose_wall::SettingRows rows() { return pose_wall::rows_of(kRows); }
+};
 
 // The caller's settings, or the defaults. Fails as pose_wall_planar_localise_settings_check does.
 std::int32_t take_settings(const pose_wall_planar_localise_settings* from, LocaliseSettings* out) {
-  if (from != nullptr) {
-    const std::int32_t status = pose_wall_planar_localise_settings_check(from, nullptr);
-    if (status != POSE_WALL_OK) return status;
-    out->tiles_most = from->tiles_most;
-    out->work = from->work;
-    out->map_is_whole = from->map_is_whole == 1;
-    out->odometry_m = from->odometry_m;
-    out->odometry_rad = from->odometry_rad;
-  }
+  pose_wall_planar_localise_settings chosen;
+  const std::int32_t status = pose_wall::choose_settings<LocaliseTable>(from, &chosen);
+  if (status != POSE_WALL_OK) return status;
+  *out = {chosen.tiles_most, chosen.work, chosen.map_is_whole == 1, chosen.odometry_m, chosen.odometry_rad};
   return POSE_WALL_OK;
 }
 
@@ -177,30 +171,12 @@ POSE_WALL_EXPORT const char* pose_wall_planar_localise_reason_name(uint32_t reas
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_init(pose_wall_planar_localise_settings* settings) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = defaults();
-  return POSE_WALL_OK;
+  return pose_wall::init_settings<LocaliseTable>(settings);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_check(const pose_wall_planar_localise_settings* settings,
                                                                   pose_wall_planar_fault* fault) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
-  const struct {
-    double value, least, most;
-    const char *member, *rule;
-  } rows[] = {
-      {static_cast<double>(settings->tiles_most), 16, 16384, "tiles_most", "tiles_most must be from 16 to 16384"},
-      {static_cast<double>(settings->work), 1000, 1e9, "work", "work must be from 1000 to 1000000000"},
-      {static_cast<double>(settings->map_is_whole), 0, 1, "map_is_whole", "map_is_whole must be 0 or 1"},
-      {settings->odometry_m, 0, 1, "odometry_m", "odometry_m must be from 0 to 1"},
-      {settings->odometry_rad, 0, 1, "odometry_rad", "odometry_rad must be from 0 to 1"}};
-  for (const auto& row : rows) {
-    if (is_within(row.value, row.least, row.most)) continue;
-    if (fault != nullptr) *fault = {row.member, row.rule};
-    return POSE_WALL_E_VALUE_RANGE;
-  }
-  return POSE_WALL_OK;
+  return pose_wall::check_settings<LocaliseTable>(settings, fault);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_memory_needed(const pose_wall_planar_localise_settings* settings,

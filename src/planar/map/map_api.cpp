@@ -5,6 +5,7 @@
 
 #include "part/export.hpp"
 #include "part/held.hpp"
+#include "part/settings.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/map/grid_map.hpp"
 #include "planar/map/map_queries.hpp"
@@ -38,63 +39,29 @@ bool is_angle(double angle_rad) {
   return is_within(angle_rad, -kMost_rad, kMost_rad);
 }
 
-std::int32_t refused(pose_wall_planar_fault* fault, const char* member, const char* rule) {
-  if (fault != nullptr) {
-    fault->member = member;
-    fault->rule = rule;
+constexpr pose_wall::SettingRow kRows[] = {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_map_settings, __VA_ARGS__)
+#include "pose_wall_planar_map_settings.def"
+};
+
+struct MapTable : pose_wall::SettingsTable<pose_wall_planar_map_settings> {
+  using SettingsTable::SettingsTable;
+  static pose_wall::SettingRows rows() { return pose_wall::rows_of(kRows); }
+  pose_wall::SettingFault broken_rule() const;
+};
+
+pose_wall::SettingFault MapTable::broken_rule() const {
+  const double cap_cells = distance_cap_m / cell_m;
+  if (distance_cap_m != 0.0 && !is_within(cap_cells, 1.0 - 1e-9, 120.0 + 1e-9)) {
+    return {"distance_cap_m", "distance_cap_m must be 0 or from 1 to 120 cells"};
   }
-  return POSE_WALL_E_VALUE_RANGE;
-}
-
-// Of what stands by itself.
-std::int32_t check_numbers(const pose_wall_planar_map_settings& s, pose_wall_planar_fault* fault) {
-  const struct {
-    double value, least, most;
-    const char *member, *rule;
-  } rows[] = {
-      {static_cast<double>(s.tiles), 1, 65536, "tiles", "tiles must be from 1 to 65536"},
-      {static_cast<double>(s.eviction), 0, 1, "eviction", "eviction must be 0 (oldest) or 1 (farthest)"},
-      {static_cast<double>(s.renewals), 0, 65536, "renewals", "renewals must be from 0 to 65536"},
-      {s.cell_m, 0.02, 0.5, "cell_m", "cell_m must be from 0.02 to 0.5"},
-      {s.distance_cap_m, 0, 60, "distance_cap_m", "distance_cap_m must be 0 or from 1 to 120 cells"},
-      {s.beam_max_m, 1, 200, "beam_max_m", "beam_max_m must be from 1 to 200"},
-      {s.hit_probability, 0.55, 0.95, "hit_probability", "hit_probability must be from 0.55 to 0.95"},
-      {s.miss_probability, 0.05, 0.48, "miss_probability", "miss_probability must be from 0.05 to 0.48"},
-      {s.least_probability, 0.03, 0.3, "least_probability", "least_probability must be from 0.03 to 0.3"},
-      {s.most_probability, 0.7, 0.98, "most_probability", "most_probability must be from 0.7 to 0.98"},
-      {s.occupied_probability, 0.55, 0.95, "occupied_probability", "occupied_probability must be from 0.55 to 0.95"},
-      {s.free_probability, 0.05, 0.48, "free_probability", "free_probability must be from 0.05 to 0.48"}};
-  for (const auto& row : rows) {
-    if (!is_within(row.value, row.least, row.most)) return refused(fault, row.member, row.rule);
+  if (occupied_probability > most_probability) {
+    return {"occupied_probability", "occupied_probability must be at most most_probability"};
   }
-  return POSE_WALL_OK;
-}
-
-pose_wall_planar_map_settings defaults() {
-  pose_wall_planar_map_settings settings{};
-  settings.struct_size = sizeof(settings);
-  settings.tiles = 1024;
-  settings.eviction = POSE_WALL_PLANAR_OLDEST;
-  settings.renewals = 64;
-  settings.cell_m = 0.05;
-  settings.distance_cap_m = 2.0;
-  settings.beam_max_m = 30.0;
-  settings.hit_probability = 0.7;
-  settings.miss_probability = 0.4;
-  settings.least_probability = 0.12;
-  settings.most_probability = 0.97;
-  settings.occupied_probability = 0.65;
-  settings.free_probability = 0.35;
-  return settings;
-}
-
-// Those given, or the defaults for NULL.
-std::int32_t chosen_settings(const pose_wall_planar_map_settings* given, pose_wall_planar_map_settings* chosen) {
-  *chosen = defaults();
-  if (given == nullptr) return POSE_WALL_OK;
-  const std::int32_t status = pose_wall_planar_map_settings_check(given, nullptr);
-  if (status == POSE_WALL_OK) *chosen = *given;
-  return status;
+  if (free_probability < least_probability) {
+    return {"free_probability", "free_probability must be at least least_probability"};
+  }
+  return {};
 }
 
 }  // namespace
@@ -102,35 +69,19 @@ std::int32_t chosen_settings(const pose_wall_planar_map_settings* given, pose_wa
 extern "C" {
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_map_settings_init(pose_wall_planar_map_settings* settings) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = defaults();
-  return POSE_WALL_OK;
+  return pose_wall::init_settings<MapTable>(settings);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_map_settings_check(const pose_wall_planar_map_settings* settings,
                                                              pose_wall_planar_fault* fault) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
-  const std::int32_t status = check_numbers(*settings, fault);
-  if (status != POSE_WALL_OK) return status;
-  const double cap_cells = settings->distance_cap_m / settings->cell_m;
-  if (settings->distance_cap_m != 0.0 && !is_within(cap_cells, 1.0 - 1e-9, 120.0 + 1e-9)) {
-    return refused(fault, "distance_cap_m", "distance_cap_m must be 0 or from 1 to 120 cells");
-  }
-  if (settings->occupied_probability > settings->most_probability) {
-    return refused(fault, "occupied_probability", "occupied_probability must be at most most_probability");
-  }
-  if (settings->free_probability < settings->least_probability) {
-    return refused(fault, "free_probability", "free_probability must be at least least_probability");
-  }
-  return POSE_WALL_OK;
+  return pose_wall::check_settings<MapTable>(settings, fault);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_map_memory_needed(const pose_wall_planar_map_settings* settings,
                                                             uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
   pose_wall_planar_map_settings chosen;
-  const std::int32_t status = chosen_settings(settings, &chosen);
+  const std::int32_t status = pose_wall::choose_settings<MapTable>(settings, &chosen);
   if (status == POSE_WALL_OK) *bytes = Map::bytes(chosen);
   return status;
 }
@@ -139,7 +90,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_open(const pose_wall_planar_map_se
                                                    uint64_t block_bytes, pose_wall_planar_map** map) {
   if (block == nullptr || map == nullptr) return POSE_WALL_E_NULL;
   pose_wall_planar_map_settings chosen;
-  std::int32_t status = chosen_settings(settings, &chosen);
+  std::int32_t status = pose_wall::choose_settings<MapTable>(settings, &chosen);
   Map* opened = nullptr;
   if (status == POSE_WALL_OK) status = Map::place(block, block_bytes, &opened, chosen);
   if (status != POSE_WALL_OK) return status;
