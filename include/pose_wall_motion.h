@@ -67,13 +67,11 @@ uint32_t pose_wall_motion_abi_version(void);
  * (in degrees there), _range_max and _keyframe. The command reads these; pose_wall_config_set does not know them.
  * Extrinsic, forward_axis, range_min, body boxes and integrity_risk come from the engine's config. */
 typedef struct pose_wall_motion_settings {
-  uint32_t struct_size;  /* set by pose_wall_motion_settings_init */
-  uint32_t reserved;     /* 0 */
-  double speed_max_m_s;  /* 0.01 to 30: top speed of the machine: reach of the search, and growth of the level along the
-                            road while travel is unobservable */
-  double turn_max_rad_s; /* 0.01 to 10: fastest turn of the machine */
-  double range_max_m;    /* 3 to 100: returns further away are not used */
-  double keyframe_m;     /* 0.05 to 1: travel between two scans of the map */
+  uint32_t struct_size; /* set by pose_wall_motion_settings_init */
+  uint32_t reserved;    /* 0 */
+  /* A member for each row of the table, which has its default, range, unit and meaning. */
+#define POSE_WALL_SETTING(type, name, standard, least, most, unit, help) type name;
+#include "pose_wall_motion_settings.def"
 } pose_wall_motion_settings;
 
 /* 2 m/s, a quarter turn a second, 30 m, 0.2 m. Fails iff: NULL. */

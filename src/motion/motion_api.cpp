@@ -12,6 +12,7 @@
 #include "motion/odometry.hpp"
 #include "part/export.hpp"
 #include "part/held.hpp"
+#include "part/settings.hpp"
 #include "part/struct_sizes.hpp"
 #include "part/struct_versions.hpp"
 #include "pose_wall_motion.h"
@@ -23,7 +24,6 @@ using pose_wall::StructSizes;
 using pose_wall::motion::MotionSettings;
 using pose_wall::motion::Odometry;
 
-constexpr StructSizes kSettingsSizes = {0, sizeof(pose_wall_motion_settings), sizeof(pose_wall_motion_settings)};
 constexpr StructSizes kMotionResultSizes = {0, offsetof(pose_wall_motion_result, run), sizeof(pose_wall_motion_result)};
 constexpr std::uint32_t kMark = 0x4E544F4DU;  // the letters 'MOTN'
 
@@ -44,6 +44,21 @@ constexpr const char* kReasons[POSE_WALL_MOTION_REASON_COUNT][2] = {
     {"prior", "The machine's own inputs contradict what was measured, and were not used."},
     {"map_full", "The oldest part of the map gave way to the newest."},
     {"repeated", "Points that came before came again, so sensor or driver hang, and the frame is not used."}};
+
+constexpr double pi = pose_wall::kPi;  // as the table writes it
+constexpr pose_wall::SettingRow kRows[] = {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_motion_settings, __VA_ARGS__)
+#include "pose_wall_motion_settings.def"
+};
+
+struct MotionTable : pose_wall::SettingsTable<pose_wall_motion_settings> {
+  using SettingsTable::SettingsTable;
+  static pose_wall::SettingRows rows() { return pose_wall::rows_of(kRows); }
+  pose_wall::SettingFault broken_rule() const {
+    if (reserved == 0) return {};
+    return {"reserved", "reserved must be 0"};
+  }
+};
 
 // What a motion's block holds.
 struct Body {
@@ -98,36 +113,12 @@ POSE_WALL_EXPORT uint32_t pose_wall_motion_abi_version(void) {
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_settings_init(pose_wall_motion_settings* settings) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  *settings = {sizeof(*settings), 0, 2.0, 0.5 * pose_wall::kPi, 30.0, 0.2};
-  return POSE_WALL_OK;
+  return pose_wall::init_settings<MotionTable>(settings);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_settings_check(const pose_wall_motion_settings* settings,
                                                          pose_wall_motion_fault* fault) {
-  if (settings == nullptr) return POSE_WALL_E_NULL;
-  const std::int32_t status = pose_wall::check_struct_size(settings->struct_size, kSettingsSizes);
-  if (status != POSE_WALL_OK) return status;
-  const struct {
-    double value, least, most;
-    pose_wall_motion_fault fault;
-  } rows[] = {{settings->speed_max_m_s, 0.01, 30.0, {"speed_max_m_s", "speed_max_m_s must be from 0.01 to 30"}},
-              {settings->turn_max_rad_s, 0.01, 10.0, {"turn_max_rad_s", "turn_max_rad_s must be from 0.01 to 10"}},
-              {settings->range_max_m, 3.0, 100.0, {"range_max_m", "range_max_m must be from 3 to 100"}},
-              {settings->keyframe_m, 0.05, 1.0, {"keyframe_m", "keyframe_m must be from 0.05 to 1"}}};
-  if (settings->reserved != 0) {
-    if (fault != nullptr) {  // member by member: on ARMv7 GCC keeps a pair in memory that could be written to
-      fault->member = "reserved";
-      fault->rule = "reserved must be 0";
-    }
-    return POSE_WALL_E_VALUE_RANGE;
-  }
-  for (const auto& row : rows) {
-    if (row.value >= row.least && row.value <= row.most) continue;
-    if (fault != nullptr) *fault = row.fault;
-    return POSE_WALL_E_VALUE_RANGE;
-  }
-  return POSE_WALL_OK;
+  return pose_wall::check_settings<MotionTable>(settings, fault);
 }
 
 POSE_WALL_EXPORT const char* pose_wall_motion_along_state_name(uint32_t state) {
@@ -153,10 +144,8 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_open(const pose_wall_config* config,
   if (config == nullptr || block == nullptr || motion == nullptr) return POSE_WALL_E_NULL;
   pose_wall_motion_settings chosen;
   std::int32_t status = pose_wall_config_check(config, nullptr);
-  if (status == POSE_WALL_OK) status = pose_wall_motion_settings_init(&chosen);
-  if (status == POSE_WALL_OK && settings != nullptr) status = pose_wall_motion_settings_check(settings, nullptr);
+  if (status == POSE_WALL_OK) status = pose_wall::choose_settings<MotionTable>(settings, &chosen);
   if (status != POSE_WALL_OK) return status;
-  if (settings != nullptr) chosen = *settings;
   Held* held = nullptr;
   status = Held::place(block, block_bytes, &held);
   if (status != POSE_WALL_OK) return status;

@@ -327,10 +327,8 @@ static int motion_layout(void) {
   int padded = 0;
   MEMBER(pose_wall_motion_settings, struct_size);
   MEMBER(pose_wall_motion_settings, reserved);
-  MEMBER(pose_wall_motion_settings, speed_max_m_s);
-  MEMBER(pose_wall_motion_settings, turn_max_rad_s);
-  MEMBER(pose_wall_motion_settings, range_max_m);
-  MEMBER(pose_wall_motion_settings, keyframe_m);
+#define POSE_WALL_SETTING(type, name, ...) MEMBER(pose_wall_motion_settings, name);
+#include "pose_wall_motion_settings.def"
   padded += struct_end("pose_wall_motion_settings", sizeof(pose_wall_motion_settings));
   MEMBER(pose_wall_motion_fault, member);
   MEMBER(pose_wall_motion_fault, rule);

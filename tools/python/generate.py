@@ -54,6 +54,17 @@ def without_comments(text):
     return re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
 
 
+def header_text(path):
+    """A header, with the rows of its tables of settings as the members that they are."""
+    def members(table):
+        rows = (path.parent / table[1]).read_text(encoding="utf-8")
+        found = re.findall(r"^POSE_WALL_SETTING\((\w+), +(\w+),", rows, re.M)
+        return "\n".join(f"{kind} {name};" for kind, name in found)
+
+    return re.sub(r'^#define POSE_WALL_SETTING\(.*\n#include "(\w+\.def)"$', members, path.read_text(encoding="utf-8"),
+                  flags=re.M)
+
+
 def value_of(expression, known):
     try:
         return int(eval(expression, {"__builtins__": {}}, known))  # pylint: disable=eval-used  # our own header
@@ -227,7 +238,7 @@ def main():
     check = sys.argv[1] == "--check"
     root = pathlib.Path(sys.argv[-1])
     try:
-        text = python_of(Abi([(root / header).read_text(encoding="utf-8") for header in HEADERS]))
+        text = python_of(Abi([header_text(root / header) for header in HEADERS]))
     except HeaderError as error:
         sys.exit(f"{', '.join(HEADERS)}: {error}")
     output = root / OUTPUT
