@@ -15,6 +15,7 @@
 
 #include "base/containers/arena.hpp"
 #include "part/door.hpp"
+#include "part/status.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall {

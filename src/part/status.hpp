@@ -9,9 +9,11 @@
 
 namespace pose_wall {
 
+constexpr std::int32_t kOk = POSE_WALL_OK;  // a lambda's return has one type
+
 // The statuses are of several enums; all are int32_t to the outside.
 constexpr std::int32_t ok_if(bool good, std::int32_t otherwise) {
-  return good ? std::int32_t{POSE_WALL_OK} : otherwise;
+  return good ? kOk : otherwise;
 }
 
 }  // namespace pose_wall

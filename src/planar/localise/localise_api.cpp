@@ -8,8 +8,7 @@
 #include <limits>
 
 #include "part/export.hpp"
-#include "part/held.hpp"
-#include "part/settings.hpp"
+#include "part/shell.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/localise/localiser.hpp"
 
@@ -60,14 +59,6 @@ std::int32_t take_settings(const pose_wall_planar_localise_settings* from, Local
   if (status != POSE_WALL_OK) return status;
   *out = {chosen.tiles_most, chosen.work, chosen.map_is_whole == 1, chosen.odometry_m, chosen.odometry_rad};
   return POSE_WALL_OK;
-}
-
-// Bodies of calls about an opened localisation. call(body) gives the status.
-template <typename Call>
-std::int32_t inside(const pose_wall_planar_localise* localise, Call call) {
-  if (localise == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<Opened> held(reinterpret_cast<const Opened*>(localise));
-  return held.status() == POSE_WALL_OK ? call(held->body()) : held.status();
 }
 
 bool are_points(const float* xy_m, std::uint32_t points) {
@@ -203,9 +194,9 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_open(const pose_wall_planar_l
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_clear(pose_wall_planar_localise* localise) {
-  return inside(localise, [](Body& body) {
+  return pose_wall::with_part<Opened>(localise, [](Body& body) {
     body.localiser.open(body.settings);
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -215,7 +206,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add(pose_wall_planar_localise
   if (pose == nullptr || xy_m == nullptr) return POSE_WALL_E_NULL;
   if (!is_pose(*pose)) return POSE_WALL_PLANAR_E_POSE;
   if (points > POSE_WALL_PLANAR_BEAMS_MAX || !are_points(xy_m, points)) return POSE_WALL_PLANAR_E_SCAN;
-  return inside(localise, [&](Body& body) {
+  return pose_wall::with_part<Opened>(localise, [&](Body& body) {
     PlaceMap& map = body.localiser.map();
     if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     return add_points(&map, pose_of(*pose), xy_m, points) ? std::int32_t{POSE_WALL_OK}
@@ -229,7 +220,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_loc
   if (const std::int32_t size = pose_wall::check_struct(*grid); size != POSE_WALL_OK) return size;
   if (grid->cells == nullptr) return POSE_WALL_E_NULL;
   if (!is_grid(*grid)) return POSE_WALL_PLANAR_E_GRID;
-  return inside(localise, [&](Body& body) {
+  return pose_wall::with_part<Opened>(localise, [&](Body& body) {
     PlaceMap& map = body.localiser.map();
     if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     return add_cells(&map, *grid) ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_BLOCK_SMALL};
@@ -237,11 +228,11 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_loc
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_finish(pose_wall_planar_localise* localise) {
-  return inside(localise, [](Body& body) {
+  return pose_wall::with_part<Opened>(localise, [](Body& body) {
     PlaceMap& map = body.localiser.map();
     if (map.is_finished() || map.is_empty()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     map.finish();
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -254,13 +245,13 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_loca
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
   if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
-  return inside(localise, [&](Body& body) {
+  return pose_wall::with_part<Opened>(localise, [&](Body& body) {
     Localiser& own = body.localiser;
     if (!own.map().is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     const Pose2 given = odometry != nullptr ? pose_of(*odometry) : Pose2();
     const Where where = own.process(read_beams(*scan, own.beams()), odometry != nullptr ? &given : nullptr);
     write_result(own, where, scan->stamp_ns, result);
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -268,7 +259,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_pla
                                                              pose_wall_planar_candidate* candidate) {
   if (candidate == nullptr) return POSE_WALL_E_NULL;
   if (const std::int32_t size = pose_wall::check_struct(*candidate); size != POSE_WALL_OK) return size;
-  return inside(localise, [&](const Body& body) {
+  return pose_wall::with_part<Opened>(localise, [&](const Body& body) {
     const Localiser& own = body.localiser;
     if (own.is_tracking() || number >= own.verdict().count) return std::int32_t{POSE_WALL_E_INDEX};
     const CandidatePlace& place = own.verdict().candidates[number];
@@ -280,7 +271,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_pla
     out.fits = place.fits;
     out.spread_m = place.spread_m;
     *candidate = out;
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -290,16 +281,16 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_place(pose_wall_planar_locali
   if (base == nullptr) return POSE_WALL_E_NULL;
   if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(sigma_m, 0.001, 1.0) || !is_within(sigma_rad, 0.001, 0.5)) return POSE_WALL_E_VALUE_RANGE;
-  return inside(localise, [&](Body& body) {
+  return pose_wall::with_part<Opened>(localise, [&](Body& body) {
     body.localiser.place(pose_of(*base), sigma_m, sigma_rad);
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_forget(pose_wall_planar_localise* localise) {
-  return inside(localise, [](Body& body) {
+  return pose_wall::with_part<Opened>(localise, [](Body& body) {
     body.localiser.forget();
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 

@@ -4,8 +4,7 @@
 // The only extern "C" file of the map: checks arguments, translates, calls.
 
 #include "part/export.hpp"
-#include "part/held.hpp"
-#include "part/settings.hpp"
+#include "part/shell.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/map/grid_map.hpp"
 #include "planar/map/map_queries.hpp"
@@ -79,24 +78,13 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_map_settings_check(const pose_wall_pla
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_map_memory_needed(const pose_wall_planar_map_settings* settings,
                                                             uint64_t* bytes) {
-  if (bytes == nullptr) return POSE_WALL_E_NULL;
-  pose_wall_planar_map_settings chosen;
-  const std::int32_t status = pose_wall::choose_settings<MapTable>(settings, &chosen);
-  if (status == POSE_WALL_OK) *bytes = Map::bytes(chosen);
-  return status;
+  return pose_wall::part_memory_needed<Map, MapTable>(settings, bytes);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_map_open(const pose_wall_planar_map_settings* settings, void* block,
                                                    uint64_t block_bytes, pose_wall_planar_map** map) {
-  if (block == nullptr || map == nullptr) return POSE_WALL_E_NULL;
-  pose_wall_planar_map_settings chosen;
-  std::int32_t status = pose_wall::choose_settings<MapTable>(settings, &chosen);
-  Map* opened = nullptr;
-  if (status == POSE_WALL_OK) status = Map::place(block, block_bytes, &opened, chosen);
-  if (status != POSE_WALL_OK) return status;
-  opened->body().open(chosen);
-  *map = reinterpret_cast<pose_wall_planar_map*>(opened);
-  return POSE_WALL_OK;
+  return pose_wall::open_part<Map, MapTable>(settings, block, block_bytes, map,
+                                             [](auto& body, const auto& chosen) { body.open(chosen); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_map_clear(pose_wall_planar_map* map) {

@@ -8,7 +8,7 @@
 
 #include "base/math/finite.hpp"
 #include "part/export.hpp"
-#include "part/held.hpp"
+#include "part/shell.hpp"
 #include "part/struct_sizes.hpp"
 #include "place/slide.hpp"
 #include "planar/match/matcher.hpp"
@@ -59,14 +59,6 @@ struct Body {
 };
 
 using Opened = pose_wall::Held<Body, 0x6863746D6E616C70ULL>;
-
-// Bodies of calls about an opened matcher. call(body) gives the status.
-template <typename Call>
-std::int32_t inside(const pose_wall_planar_matcher* matcher, Call call) {
-  if (matcher == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<Opened> held(reinterpret_cast<const Opened*>(matcher));
-  return held.status() == POSE_WALL_OK ? call(held->body()) : held.status();
-}
 
 // Symmetric and positive. Its scale may be anything that an inverse can hold.
 bool is_covariance(const double (&c)[9]) {
@@ -183,11 +175,11 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_open(void* block, uint64_t block
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_match_begin(pose_wall_planar_matcher* matcher, double x_m, double y_m) {
   if (!is_place(x_m, y_m)) return POSE_WALL_PLANAR_E_POSE;
-  return inside(matcher, [&](Body& body) {
+  return pose_wall::with_part<Opened>(matcher, [&](Body& body) {
     body.map.begin({x_m, y_m});
     body.has_begun = true;
     body.is_finished = false;
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -198,10 +190,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_add(pose_wall_planar_matcher* ma
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
   if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
-  return inside(matcher, [&](Body& body) {
+  return pose_wall::with_part<Opened>(matcher, [&](Body& body) {
     if (!body.has_begun || body.is_finished) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     body.map.add(even_points(read_beams(*scan, body.beams), kMatchSpacing_m, body.points), pose_of(*base), true);
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -223,12 +215,12 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_scan(pose_wall_planar_matcher* m
   std::int32_t status = check_scan(scan);
   if (status == POSE_WALL_OK) status = check_input(input);
   if (status != POSE_WALL_OK) return status;
-  return inside(matcher, [&](Body& body) {
+  return pose_wall::with_part<Opened>(matcher, [&](Body& body) {
     if (!body.has_begun) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     if (!body.is_finished) body.map.finish();
     body.is_finished = true;
     *result = match(body, read_beams(*scan, body.beams), *input);
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 

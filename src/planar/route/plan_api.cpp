@@ -5,8 +5,7 @@
 
 #include "base/math/finite.hpp"
 #include "part/export.hpp"
-#include "part/held.hpp"
-#include "part/settings.hpp"
+#include "part/shell.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/route/planner.hpp"
 #include "pose_wall_planar_plan.h"
@@ -80,24 +79,13 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_plan_settings_check(const pose_wall_pl
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_plan_memory_needed(const pose_wall_planar_plan_settings* settings,
                                                              uint64_t* bytes) {
-  if (bytes == nullptr) return POSE_WALL_E_NULL;
-  pose_wall_planar_plan_settings chosen;
-  const std::int32_t status = pose_wall::choose_settings<PlanTable>(settings, &chosen);
-  if (status == POSE_WALL_OK) *bytes = HeldPlanner::bytes(chosen);
-  return status;
+  return pose_wall::part_memory_needed<HeldPlanner, PlanTable>(settings, bytes);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_plan_open(const pose_wall_planar_plan_settings* settings, void* block,
                                                     uint64_t block_bytes, pose_wall_planar_planner** planner) {
-  if (block == nullptr || planner == nullptr) return POSE_WALL_E_NULL;
-  pose_wall_planar_plan_settings chosen;
-  std::int32_t status = pose_wall::choose_settings<PlanTable>(settings, &chosen);
-  HeldPlanner* held = nullptr;
-  if (status == POSE_WALL_OK) status = HeldPlanner::place(block, block_bytes, &held, chosen);
-  if (status != POSE_WALL_OK) return status;
-  held->body().open();
-  *planner = reinterpret_cast<pose_wall_planar_planner*>(held);
-  return POSE_WALL_OK;
+  return pose_wall::open_part<HeldPlanner, PlanTable>(settings, block, block_bytes, planner,
+                                                      [](auto& body, const auto&) { body.open(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_plan(pose_wall_planar_planner* planner, const pose_wall_planar_grid* grid,

@@ -5,8 +5,7 @@
 
 #include "base/math/finite.hpp"
 #include "part/export.hpp"
-#include "part/held.hpp"
-#include "part/settings.hpp"
+#include "part/shell.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/route/tracker.hpp"
 #include "pose_wall_planar_track.h"
@@ -65,24 +64,13 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_check(const pose_wall_p
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_memory_needed(const pose_wall_planar_track_settings* settings,
                                                               uint64_t* bytes) {
-  if (bytes == nullptr) return POSE_WALL_E_NULL;
-  pose_wall_planar_track_settings chosen;
-  const std::int32_t status = pose_wall::choose_settings<TrackTable>(settings, &chosen);
-  if (status == POSE_WALL_OK) *bytes = HeldTracker::bytes(chosen);
-  return status;
+  return pose_wall::part_memory_needed<HeldTracker, TrackTable>(settings, bytes);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_open(const pose_wall_planar_track_settings* settings, void* block,
                                                      uint64_t block_bytes, pose_wall_planar_tracker** tracker) {
-  if (block == nullptr || tracker == nullptr) return POSE_WALL_E_NULL;
-  pose_wall_planar_track_settings chosen;
-  std::int32_t status = pose_wall::choose_settings<TrackTable>(settings, &chosen);
-  HeldTracker* held = nullptr;
-  if (status == POSE_WALL_OK) status = HeldTracker::place(block, block_bytes, &held, chosen);
-  if (status != POSE_WALL_OK) return status;
-  held->body().open();
-  *tracker = reinterpret_cast<pose_wall_planar_tracker*>(held);
-  return POSE_WALL_OK;
+  return pose_wall::open_part<HeldTracker, TrackTable>(settings, block, block_bytes, tracker,
+                                                       [](auto& body, const auto&) { body.open(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_route(pose_wall_planar_tracker* tracker,

@@ -4,8 +4,7 @@
 // The only extern "C" file of SLAM: checks arguments, translates, calls.
 
 #include "part/export.hpp"
-#include "part/held.hpp"
-#include "part/settings.hpp"
+#include "part/shell.hpp"
 #include "part/struct_sizes.hpp"
 #include "planar/slam/slam.hpp"
 #include "planar/slam/trail_image.hpp"
@@ -40,10 +39,6 @@ struct Body {
 
 using Opened = pose_wall::Held<Body, 0x6D616C736C6E616CULL>;
 
-const Opened* opened(const pose_wall_planar_slam* slam) {
-  return reinterpret_cast<const Opened*>(slam);
-}
-
 constexpr pose_wall::SettingRow kRows[] = {
 #define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_slam_settings, __VA_ARGS__)
 #include "pose_wall_planar_slam_settings.def"
@@ -58,14 +53,6 @@ std::uint32_t state_of(const SlamStep& step, bool is_first) {
   if (is_first) return POSE_WALL_PLANAR_SLAM_FIRST;
   if (!step.is_valid) return POSE_WALL_PLANAR_SLAM_BLIND;
   return step.is_trusted ? std::uint32_t{POSE_WALL_PLANAR_SLAM_TRACKED} : std::uint32_t{POSE_WALL_PLANAR_SLAM_DOUBTFUL};
-}
-
-// Bodies of calls about an opened SLAM. call(body) gives the status.
-template <typename Call>
-std::int32_t inside(const pose_wall_planar_slam* slam, Call call) {
-  if (slam == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<Opened> held(opened(slam));
-  return held.status() == POSE_WALL_OK ? call(held->body()) : held.status();
 }
 
 }  // namespace
@@ -87,31 +74,22 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settings_check(const pose_wall_pl
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_memory_needed(const pose_wall_planar_slam_settings* settings,
                                                              uint64_t* bytes) {
-  if (bytes == nullptr) return POSE_WALL_E_NULL;
-  SlamSettings own;
-  const std::int32_t status = pose_wall::choose_settings<SlamTable>(settings, &own);
-  if (status == POSE_WALL_OK) *bytes = Opened::bytes(own);
-  return status;
+  return pose_wall::part_memory_needed<Opened, SlamTable>(settings, bytes);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_open(const pose_wall_planar_slam_settings* settings, void* block,
                                                     uint64_t block_bytes, pose_wall_planar_slam** slam) {
-  if (block == nullptr || slam == nullptr) return POSE_WALL_E_NULL;
-  SlamSettings own;
-  std::int32_t status = pose_wall::choose_settings<SlamTable>(settings, &own);
-  Opened* placed = nullptr;
-  if (status == POSE_WALL_OK) status = Opened::place(block, block_bytes, &placed, own);
-  if (status != POSE_WALL_OK) return status;
-  placed->body().settings = own;
-  placed->body().slam.open(own);
-  *slam = reinterpret_cast<pose_wall_planar_slam*>(placed);
-  return POSE_WALL_OK;
+  return pose_wall::open_part<Opened, SlamTable>(settings, block, block_bytes, slam,
+                                                 [](Body& body, const SlamSettings& chosen) {
+                                                   body.settings = chosen;
+                                                   body.slam.open(chosen);
+                                                 });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_clear(pose_wall_planar_slam* slam) {
-  return inside(slam, [](Body& body) {
+  return pose_wall::with_part<Opened>(slam, [](Body& body) {
     body.slam.open(body.settings);
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -123,7 +101,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_process(pose_wall_planar_slam* sl
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
   if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
-  return inside(slam, [&](Body& body) {
+  return pose_wall::with_part<Opened>(slam, [&](Body& body) {
     Slam& own = body.slam;
     const bool is_first = own.trail().size() == 0;
     const Pose2 given = odometry != nullptr ? pose_of(*odometry) : Pose2();
@@ -145,14 +123,14 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_process(pose_wall_planar_slam* sl
     out.solution = own.solution();
     out.is_settled = own.is_settled() ? 1 : 0;
     *result = out;
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settle(pose_wall_planar_slam* slam) {
-  return inside(slam, [](Body& body) {
+  return pose_wall::with_part<Opened>(slam, [](Body& body) {
     body.slam.settle();
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -160,19 +138,19 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_keyframe(const pose_wall_planar_s
                                                         pose_wall_planar_keyframe* keyframe) {
   if (keyframe == nullptr) return POSE_WALL_E_NULL;
   if (const std::int32_t size = pose_wall::check_struct(*keyframe); size != POSE_WALL_OK) return size;
-  return inside(slam, [&](const Body& body) {
+  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
     const Trail& trail = body.slam.trail();
     if (number >= trail.size()) return std::int32_t{POSE_WALL_E_INDEX};
     const Keyframe& own = trail[number];
     *keyframe = {sizeof(*keyframe), own.count, own.stamp_ns, pose_for_caller(trail.pose(number)), own.travel_m};
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_points(const pose_wall_planar_slam* slam, uint32_t number, float* xy_m,
                                                       uint32_t capacity) {
   if (xy_m == nullptr) return POSE_WALL_E_NULL;
-  return inside(slam, [&](const Body& body) {
+  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
     const Trail& trail = body.slam.trail();
     if (number >= trail.size()) return std::int32_t{POSE_WALL_E_INDEX};
     if (capacity < trail[number].count) return std::int32_t{POSE_WALL_E_BUFFER_SMALL};
@@ -181,7 +159,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_points(const pose_wall_planar_sla
       *to++ = point.x_m;
       *to++ = point.y_m;
     }
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -189,7 +167,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_edge(const pose_wall_planar_slam*
                                                     pose_wall_planar_edge* edge) {
   if (edge == nullptr) return POSE_WALL_E_NULL;
   if (const std::int32_t size = pose_wall::check_struct(*edge); size != POSE_WALL_OK) return size;
-  return inside(slam, [&](const Body& body) {
+  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
     const Trail& trail = body.slam.trail();
     if (number >= trail.edges().size()) return std::int32_t{POSE_WALL_E_INDEX};
     const Edge& own = trail.edges()[number];
@@ -201,27 +179,27 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_edge(const pose_wall_planar_slam*
     out.step = pose_for_caller(own.step);
     for (int k = 0; k < 9; ++k) out.information[k] = own.information(k / 3, k % 3);
     *edge = out;
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_save_bytes(const pose_wall_planar_slam* slam, uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
-  return inside(slam, [&](const Body& body) {
+  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
     *bytes = TrailImage::bytes(body.slam.trail());
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_save(const pose_wall_planar_slam* slam, void* buffer,
                                                     uint64_t buffer_bytes, uint64_t* bytes) {
   if (buffer == nullptr || bytes == nullptr) return POSE_WALL_E_NULL;
-  return inside(slam, [&](const Body& body) {
+  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
     const std::uint64_t needed = TrailImage::bytes(body.slam.trail());
     if (buffer_bytes < needed) return std::int32_t{POSE_WALL_E_BUFFER_SMALL};
     TrailImage::write(body.slam.trail(), static_cast<unsigned char*>(buffer));
     *bytes = needed;
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
@@ -229,13 +207,13 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_load(pose_wall_planar_slam* slam,
                                                     const pose_wall_planar_pose* base) {
   if (saved == nullptr) return POSE_WALL_E_NULL;
   if (base != nullptr && !is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
-  return inside(slam, [&](Body& body) {
+  return pose_wall::with_part<Opened>(slam, [&](Body& body) {
     Trail& trail = body.slam.trail();
     const std::int32_t status = TrailImage::read(static_cast<const unsigned char*>(saved), bytes, &trail);
     if (status != POSE_WALL_OK) return status;
     const Pose2 end = trail.size() > 0 ? trail.pose(trail.size() - 1) : Pose2();
     body.slam.resume(base != nullptr ? pose_of(*base) : end);
-    return std::int32_t{POSE_WALL_OK};
+    return pose_wall::kOk;
   });
 }
 
