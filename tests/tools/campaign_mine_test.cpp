@@ -14,7 +14,6 @@
 #include "campaign/card_files.hpp"
 #include "campaign/card_sections.hpp"
 #include "campaign/gate.hpp"
-#include "campaign/motion_runs.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
 #include "campaign_records.hpp"
@@ -146,7 +145,7 @@ Counts counts_in(const std::string& scene, const std::string& sensor, std::uint6
   MovingEngine engine;
   EXPECT_EQ(engine.open(loaded.config, loaded.motion), POSE_WALL_OK);
   const sim::Frame rendered = simulator.render(0);
-  Frame frame = motion_frame(rendered, false);
+  Frame frame = rendered_frame(rendered, false);
   frame.cloud.stamp_ns = rendered.stamp_ns;
   pose_wall_result result = api::make_result();
   EXPECT_EQ(engine.process(frame.cloud, result), POSE_WALL_OK);

@@ -16,7 +16,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "campaign/motion_plan.hpp"
+#include "campaign/plan.hpp"
 #include "csv/csv_table.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"

@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "campaign/motion_runs.hpp"
 #include "campaign/runner.hpp"
 #include "motion/moving_engine.hpp"
 #include "sim/parameters.hpp"
@@ -41,7 +40,7 @@ std::vector<Seen> seen_in(const std::string& scene, std::uint32_t frames, std::i
   std::vector<Seen> all;
   for (std::uint32_t i = 0; i < frames; ++i) {
     const sim::Frame rendered = simulator.render(i);
-    Frame frame = campaign::motion_frame(rendered, setup.sequence.scan_s > 0.0);
+    Frame frame = campaign::rendered_frame(rendered, setup.sequence.scan_s > 0.0);
     frame.cloud.stamp_ns = rendered.stamp_ns;
     Seen seen{api::make_result(), {}};
     EXPECT_EQ(engine.process(frame.cloud, seen.result), POSE_WALL_OK);

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "campaign/motion_classes.hpp"
-#include "campaign/motion_plan.hpp"
-#include "campaign/motion_runs.hpp"
+#include "campaign/plan.hpp"
+#include "campaign/runner.hpp"
 #include "ran_command.hpp"
 #include "sim/simulator.hpp"
 #include "test_files.hpp"
@@ -81,7 +81,7 @@ TEST(MotionCampaign, AFrameIsAsTheSimulatorWritesIt) {
   const campaign::MotionClass& distorted = *campaign::find_motion_class("distorted");
   const sim::Simulator simulator(campaign::make_motion_setup(distorted, "vlp16", 3), 3);
   const sim::Frame rendered = simulator.render(1);
-  const Frame timed = campaign::motion_frame(rendered, true), plain = campaign::motion_frame(rendered, false);
+  const Frame timed = campaign::rendered_frame(rendered, true), plain = campaign::rendered_frame(rendered, false);
   EXPECT_EQ(timed.cloud.width * timed.cloud.height, rendered.count());
   EXPECT_NE(timed.cloud.time.type, 0U);
   EXPECT_NE(timed.cloud.ring.type, 0U);

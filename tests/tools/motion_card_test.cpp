@@ -13,8 +13,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "campaign/motion_card_files.hpp"
-#include "campaign/motion_gate.hpp"
+#include "campaign/card_files.hpp"
+#include "campaign/gate.hpp"
+#include "campaign/worst_events.hpp"
 #include "campaign_records.hpp"
 #include "motion_tables.hpp"
 #include "test_files.hpp"
@@ -105,12 +106,12 @@ MotionCard motion_card_of(const std::vector<MotionRecord>& records) {
   card.manifest.runs = records.size();
   card.manifest.plan.motion = true;
   for (const MotionRecord& record : records) card.add(record);
-  card.keep_events(5);
+  keep_worst(5, &card.events);
   return card;
 }
 
 std::string broken(const char* name, const Change& change = nullptr) {
-  return joined(motion_gate_faults(motion_card_of({drive(name, change)})));
+  return joined(gate_faults(motion_card_of({drive(name, change)})));
 }
 
 void call_all(const std::string& state, HandRow& row) {
@@ -151,13 +152,13 @@ TEST(MotionCard, OneMisleadingStepIsTooMany) {
   const MotionCard card = motion_card_of({drive("rough", [](int i, HandRow& row) {
     if (i == 40) row.step_x += 0.02;  // twice its level
   })});
-  const std::string faults = joined(motion_gate_faults(card));
+  const std::string faults = joined(gate_faults(card));
   EXPECT_TRUE(contains(faults, "misleading steps: 1 of 100")) << faults;
   EXPECT_FALSE(contains(faults, "misleading poses")) << faults;
   ASSERT_EQ(card.events.size(), 1U);
   EXPECT_EQ(card.events[0].frame, 40U);
   EXPECT_NEAR(card.events[0].excess, 2.0, 1e-6);
-  EXPECT_TRUE(contains(motion_card_page(card),
+  EXPECT_TRUE(contains(card_page(card),
                        "pose_wall campaign --motion --seed 1 --scenes rough --sensors os1-64 --first-draw 0 --draws 1 "
                        "--frames 41 --output DIR"));
 }
@@ -190,7 +191,7 @@ TEST(MotionCard, AlongIsJudgedByTheWayThatWasDriven) {
   };
   EXPECT_EQ(broken("rough", short_by(0.0049)), "");
   const MotionCard card = motion_card_of({drive("rough", short_by(0.02))});
-  const std::string faults = joined(motion_gate_faults(card));
+  const std::string faults = joined(gate_faults(card));
   EXPECT_EQ(faults, "rough os1-64: error along is 4 times the allowed one\n");
   EXPECT_NEAR(card.classes[0].along_share.at(0), 0.02, 1e-9);
   EXPECT_NEAR(card.classes[0].along_m.at(0), 0.2, 1e-9);
@@ -278,8 +279,8 @@ TEST(MotionCard, PeriodicSetsAreMeasuredOrAmbiguous) {
 TEST(MotionCard, AnUnfinishedCampaignAndAnEmptyOneFail) {
   MotionCard card = motion_card_of({drive("rough")});
   card.manifest.runs = 2;
-  EXPECT_EQ(joined(motion_gate_faults(card)), "the campaign is not finished: runs done 1 of 2\n");
-  EXPECT_EQ(joined(motion_gate_faults(motion_card_of({}))), "no frame was judged\n");
+  EXPECT_EQ(joined(gate_faults(card)), "the campaign is not finished: runs done 1 of 2\n");
+  EXPECT_EQ(joined(gate_faults(motion_card_of({}))), "no frame was judged\n");
 }
 
 // Errors of the step by turns ahead and back by so many sigma; the accumulated one likewise.
@@ -291,19 +292,19 @@ TEST(MotionCard, SigmaMustBeTrueOnRoughRockFromFortyRunsOn) {
     });
     return motion_card_of(std::vector<MotionRecord>(count, one));
   };
-  EXPECT_EQ(joined(motion_gate_faults(runs_of(40, 1.0))), "");
-  EXPECT_EQ(joined(motion_gate_faults(runs_of(39, 0.5))), "");
-  const std::string wide = joined(motion_gate_faults(runs_of(40, 0.5)));
+  EXPECT_EQ(joined(gate_faults(runs_of(40, 1.0))), "");
+  EXPECT_EQ(joined(gate_faults(runs_of(39, 0.5))), "");
+  const std::string wide = joined(gate_faults(runs_of(40, 0.5)));
   EXPECT_EQ(wide,
             "rough rock: mean z² along of the step is 0.25; it must be within 0.5 and 1.3\n"
             "rough rock: mean z² along of the pose is 0.25; it must be within 0.5 and 1.3\n");
-  const std::string narrow = joined(motion_gate_faults(runs_of(40, 2.0)));
+  const std::string narrow = joined(gate_faults(runs_of(40, 2.0)));
   EXPECT_TRUE(contains(narrow, "mean z² along of the step is 4.00")) << narrow;
 }
 
 TEST(MotionCard, JsonSaysWhatThePageSays) {
   const MotionCard card = motion_card_of({drive("rough", nullptr, 0), drive("rough", nullptr, 1), drive("smooth")});
-  const auto page = nlohmann::json::parse(motion_card_json(card));
+  const auto page = nlohmann::json::parse(card_json(card));
   ASSERT_EQ(page["classes"].size(), 2U);
   EXPECT_EQ(page["classes"][0]["runs"], 2);
   EXPECT_EQ(page["classes"][0]["frames"], 2 * kFrames);
@@ -312,7 +313,7 @@ TEST(MotionCard, JsonSaysWhatThePageSays) {
   EXPECT_EQ(page["classes"][0]["ms_mean"], 2.0);
   EXPECT_EQ(page["classes"][1]["broken"].size(), 1U);
   EXPECT_EQ(page["gate_faults"].size(), 1U);
-  EXPECT_TRUE(contains(motion_card_page(card), "Gate not passed: 1 requirement fails"));
+  EXPECT_TRUE(contains(card_page(card), "Gate not passed: 1 requirement fails"));
 }
 
 TEST(MotionCard, RefusesRowsOfAClassThatDoesNotExist) {

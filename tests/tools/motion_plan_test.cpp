@@ -4,7 +4,8 @@
 // Proves: the classes of motion give the roads and the ways of moving that they name, for every sensor and many seeds;
 // plans are the same each time, and long enough. Does not prove: that the classes suffice.
 
-#include "campaign/motion_plan.hpp"
+#include "campaign/motion_classes.hpp"
+#include "campaign/plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -133,8 +134,8 @@ PlanRequest motion_request(const std::string& size) {
 }
 
 TEST(MotionPlan, HasEveryClassAndIsTheSameEachTime) {
-  const auto once = make_motion_plan(motion_request("small"));
-  const auto again = make_motion_plan(motion_request("small"));
+  const auto once = make_plan(motion_request("small"));
+  const auto again = make_plan(motion_request("small"));
   std::set<std::string> classes;
   ASSERT_EQ(once.size(), again.size());
   for (std::size_t i = 0; i < once.size(); ++i) {
@@ -147,7 +148,7 @@ TEST(MotionPlan, HasEveryClassAndIsTheSameEachTime) {
 }
 
 TEST(MotionPlan, LargeIsWhatTheIssueAsks) {
-  const auto runs = make_motion_plan(motion_request("large"));
+  const auto runs = make_plan(motion_request("large"));
   EXPECT_GE(frames_of(runs), 30000U);
   std::set<std::string> sensors;
   std::size_t rough = 0;
@@ -167,9 +168,9 @@ TEST(MotionPlan, TheSizeDoesNotChangeWhatIsDrawn) {
   PlanRequest request = motion_request("small");
   request.sensors = {"vlp16"};
   request.scenes = {"dust"};
-  const auto small = make_motion_plan(request).at(0);
+  const auto small = make_plan(request).at(0);
   request.size = "large";
-  const auto large = make_motion_plan(request).at(0);
+  const auto large = make_plan(request).at(0);
   EXPECT_EQ(small.seed, large.seed);
   EXPECT_LT(small.frames, large.frames);
 }
@@ -177,7 +178,7 @@ TEST(MotionPlan, TheSizeDoesNotChangeWhatIsDrawn) {
 TEST(MotionPlan, MistypedNamesAreAnsweredWithTheNearest) {
   const auto refusal_of = [](PlanRequest request) -> std::string {
     try {
-      make_motion_plan(request);
+      make_plan(request);
       return "";
     } catch (const std::invalid_argument& error) {
       return error.what();

@@ -53,6 +53,12 @@ std::vector<std::pair<const sim::SceneChoice*, Totals>> by_scene(const Card& car
   return scenes;
 }
 
+template <typename AnyCard>
+void write_texts(const std::filesystem::path& folder, const AnyCard& card) {
+  write_whole_file(folder / "card.md", card_page(card));
+  write_whole_file(folder / "card.json", card_json(card));
+}
+
 }  // namespace
 
 std::string card_summary(const Card& card) {
@@ -70,13 +76,16 @@ std::string card_summary(const Card& card) {
 }
 
 void write_card(const std::filesystem::path& folder, const Card& card) {
-  write_whole_file(folder / "card.md", card_page(card));
-  write_whole_file(folder / "card.json", card_json(card));
+  write_texts(folder, card);
   write_whole_file(folder / "level_curve.csv", curve_csv(card));
   write_whole_file(folder / "stanford_angles.svg",
                    picture::stanford_diagram(card.angles, title(card, "Roll, pitch, yaw")));
   write_whole_file(folder / "stanford_distances.svg",
                    picture::stanford_diagram(card.distances, title(card, "Distances")));
+}
+
+void write_card(const std::filesystem::path& folder, const MotionCard& card) {
+  write_texts(folder, card);
 }
 
 }  // namespace pose_wall::tools::campaign

@@ -9,16 +9,24 @@
 #include <string>
 
 #include "campaign/card.hpp"
+#include "campaign/motion_card.hpp"
 
 namespace pose_wall::tools::campaign {
 
 std::string card_page(const Card& card);
+std::string card_page(const MotionCard& card);
 std::string card_json(const Card& card);
-// Totals and what is remarkable.
+std::string card_json(const MotionCard& card);
+// Totals and what is remarkable; of motion a row a class, and what it breaks.
 std::string card_summary(const Card& card);
+std::string card_summary(const MotionCard& card);
 
-// card.md, card.json, level_curve.csv, stanford_angles.svg, stanford_distances.svg. Throws std::runtime_error that
-// names the file.
+// The classes, what is right in each and what is allowed there, as `campaign --motion --list` prints them.
+std::string motion_class_list();
+
+// card.md, card.json, and of the engine level_curve.csv, stanford_angles.svg, stanford_distances.svg. Both throw
+// std::runtime_error that names the file.
 void write_card(const std::filesystem::path& folder, const Card& card);
+void write_card(const std::filesystem::path& folder, const MotionCard& card);
 
 }  // namespace pose_wall::tools::campaign

@@ -130,35 +130,107 @@ Json class_page(const ClassCard& card) {
           {"quantities", seven(card.quantities)}};
 }
 
+void tell_place(const char* scene, const Run& run, std::uint64_t frame, Json* page) {
+  page->update({{scene, run.scene}, {"sensor", run.sensor}, {"draw", run.draw}, {"seed", run.seed}, {"frame", frame}});
+}
+
 Json event_page(const WorstEvent& e, const Manifest& manifest) {
-  return {{"breach", breach_name(e.breach)},
-          {"scene", e.run.scene},
-          {"sensor", e.run.sensor},
-          {"draw", e.run.draw},
-          {"seed", e.run.seed},
-          {"frame", e.frame},
-          {"quantity", pose_wall_quantity_name(e.quantity)},
-          {"error", e.error},
-          {"sigma", e.measured.sigma},
-          {"protection_level", e.measured.protection_level},
-          {"state", pose_wall_state_name(e.measured.state)},
-          {"reasons", reason_names(e.reasons)},
-          {"command", recipe(e, manifest)}};
+  Json page;
+  page["breach"] = breach_name(e.breach);
+  tell_place("scene", e.run, e.frame, &page);
+  page.update({{"quantity", pose_wall_quantity_name(e.quantity)},
+               {"error", e.error},
+               {"sigma", e.measured.sigma},
+               {"protection_level", e.measured.protection_level},
+               {"state", pose_wall_state_name(e.measured.state)},
+               {"reasons", reason_names(e.reasons)},
+               {"command", recipe(e, manifest)}});
+  return page;
+}
+
+Json event_page(const MotionEvent& e, const Manifest& manifest) {
+  Json page;
+  page["what"] = e.what;
+  tell_place("class", e.run, e.frame, &page);
+  page.update({{"excess", e.excess}, {"command", recipe(e, manifest)}});
+  return page;
+}
+
+void tell_identity(const Manifest& manifest, Json* page) {
+  for (const auto& [name, value] : manifest.identity) (*page)["identity"][name] = value;
+}
+
+template <typename AnyCard>
+void tell_runs(const AnyCard& card, Json* page) {
+  page->update({{"runs_planned", card.manifest.runs}, {"runs", card.runs}, {"gate_faults", gate_faults(card)}});
+}
+
+Json spread_page(const std::vector<double>& numbers) {
+  const Spread s = spread_of(numbers);
+  return {{"share_05", s.low}, {"median", s.middle}, {"share_95", s.high}};
+}
+
+Json state_page(const MotionClassCard& one) {
+  Json page;
+  for (std::uint32_t state = POSE_WALL_ALONG_LOST; state <= POSE_WALL_ALONG_MEASURED; ++state) {
+    page[pose_wall_motion_along_state_name(state)] = one.share(state);
+  }
+  return page;
+}
+
+Json direction_page(const DirectionTotals& directions) {
+  Json page;
+  for (std::uint32_t d = 0; d < directions.size(); ++d) {
+    page[pose_wall_motion_direction_name(d)] = {{"values", directions[d].count()},
+                                                {"rmse", directions[d].rmse()},
+                                                {"largest", directions[d].largest()},
+                                                {"beyond", directions[d].beyond()},
+                                                {"mean_z2", directions[d].mean_z2()}};
+  }
+  return page;
+}
+
+Json misleading_page(const Misleading& misleading) {
+  return {{"measured", misleading.measured},
+          {"misleading", misleading.misleading},
+          {"worst_excess", misleading.worst_excess}};
+}
+
+Json class_page(const MotionClassCard& one) {
+  return {{"class", one.kind->name},
+          {"sensor", one.sensor},
+          {"right", one.kind->expected},
+          {"runs", one.runs},
+          {"frames", one.frames},
+          {"states", state_page(one)},
+          {"along_error_m", one.along_m},
+          {"along_error_share", one.along_share},
+          {"along_error_over_allowed", one.along_excess},
+          {"across_m", one.across_m},
+          {"up_m", one.up_m},
+          {"turn_rad", one.turn_rad},
+          {"misleading_steps", misleading_page(one.steps)},
+          {"misleading_poses", misleading_page(one.poses)},
+          {"step", direction_page(one.step)},
+          {"pose", direction_page(one.pose)},
+          {"contrast", spread_page(one.contrast)},
+          {"patches", spread_page(one.patches)},
+          {"ms_mean", one.ms_sum / static_cast<double>(one.frames)},
+          {"ms_worst", one.ms_worst},
+          {"broken", class_faults(one)}};
 }
 
 }  // namespace
 
 std::string card_json(const Card& card) {
   Json page;
-  for (const auto& [name, value] : card.manifest.identity) page["identity"][name] = value;
+  tell_identity(card.manifest, &page);
   page["motion"] = card.manifest.motion_is_on ? "on" : "off";
   page["scans"] = scans_name(card.manifest.plan.scans);
   page["command"] = card.manifest.command();
   page["alert_limit_angle_rad"] = card.manifest.limits.angle_rad;
   page["alert_limit_distance_m"] = card.manifest.limits.distance_m;
-  page["runs_planned"] = card.manifest.runs;
-  page["runs"] = card.runs;
-  page["gate_faults"] = gate_faults(card);
+  tell_runs(card, &page);
   page["totals"] = {{"mine", totals(card.mine)},
                     {"nominal", totals(card.nominal)},
                     {"adversarial", totals(card.adversarial)},
@@ -176,6 +248,21 @@ std::string card_json(const Card& card) {
   for (const ClassCard& one : card.classes) page["classes"].push_back(class_page(one));
   page["worst_events"] = Json::array();
   for (const WorstEvent& event : card.events) page["worst_events"].push_back(event_page(event, card.manifest));
+  return json_text(page, 1) + "\n";
+}
+
+std::string card_json(const MotionCard& card) {
+  Json page;
+  tell_identity(card.manifest, &page);
+  page["command"] = card.manifest.command();
+  tell_runs(card, &page);
+  const RoughTotals rough = rough_totals(card);
+  page["rough"] = {
+      {"runs", rough.runs}, {"mean_z2_step", rough.along_step.mean_z2()}, {"mean_z2_pose", rough.along_pose.mean_z2()}};
+  page["classes"] = Json::array();
+  for (const MotionClassCard& one : card.classes) page["classes"].push_back(class_page(one));
+  page["worst"] = Json::array();
+  for (const MotionEvent& event : card.events) page["worst"].push_back(event_page(event, card.manifest));
   return json_text(page, 1) + "\n";
 }
 

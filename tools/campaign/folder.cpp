@@ -9,7 +9,8 @@
 #include <fstream>
 #include <tuple>
 
-#include "csv/csv_table.hpp"
+#include "campaign/motion_classes.hpp"
+#include "campaign/record_file.hpp"
 #include "sim/scenes.hpp"
 #include "sim/sensors.hpp"
 
@@ -20,14 +21,19 @@ std::filesystem::path records_in(const std::filesystem::path& folder) {
   return folder / "records";
 }
 
-std::size_t scene_rank(const std::string& name) {
-  const auto& all = sim::scenes();
-  return static_cast<std::size_t>(
-      std::find_if(all.begin(), all.end(), [&](const auto& scene) { return scene.name == name; }) - all.begin());
+// Those that are not in the table come last.
+template <typename Table>
+std::ptrdiff_t place_in(const Table& table, const std::string& name) {
+  return std::find_if(table.begin(), table.end(), [&](const auto& one) { return one.name == name; }) - table.begin();
 }
 
-auto rank(const RunRecord& record) {
-  return std::tuple(scene_rank(record.run.scene), sensor_rank(record.run.sensor), record.run.draw);
+// Of a file as record_file names it. A draw of more than six digits has a longer name.
+auto rank_of(const std::filesystem::path& file, bool of_motion) {
+  static const std::vector<std::string> sensors = sim::sensor_names();
+  const std::filesystem::path sensor = file.parent_path();
+  const std::string scene = sensor.parent_path().filename().string(), draw = file.filename().string();
+  return std::tuple(of_motion ? place_in(motion_classes(), scene) : place_in(sim::scenes(), scene),
+                    std::find(sensors.begin(), sensors.end(), sensor.filename()) - sensors.begin(), draw.size(), draw);
 }
 
 }  // namespace
@@ -69,11 +75,6 @@ std::vector<Run> pending_runs(const std::filesystem::path& folder, const std::ve
   return pending;
 }
 
-std::size_t sensor_rank(const std::string& name) {
-  static const std::vector<std::string> all = sim::sensor_names();
-  return static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin());
-}
-
 bool has_records(const std::filesystem::path& folder) {
   return std::filesystem::exists(records_in(folder));
 }
@@ -87,13 +88,21 @@ std::vector<std::filesystem::path> record_files(const std::filesystem::path& fol
   return files;
 }
 
+void for_each_record(const std::filesystem::path& folder, const Manifest& manifest,
+                     const std::function<void(const CsvTable&)>& take) {
+  std::vector<std::filesystem::path> files = record_files(folder);
+  const bool of_motion = manifest.plan.motion;
+  std::sort(files.begin(), files.end(),
+            [of_motion](const auto& a, const auto& b) { return rank_of(a, of_motion) < rank_of(b, of_motion); });
+  for (const std::filesystem::path& file : files) read_record_file(file, manifest.fingerprint(), take);
+}
+
 std::vector<RunRecord> read_records(const std::filesystem::path& folder, const Manifest& manifest) {
   std::vector<RunRecord> records;
-  for (const std::filesystem::path& file : record_files(folder)) {
-    records.push_back(read_record(file, manifest.fingerprint()));
+  for_each_record(folder, manifest, [&](const CsvTable& table) {
+    records.push_back(record_of(table));
     records.back().run.drive_in_m = manifest.plan.drive_in_m;  // it has no column of its own
-  }
-  std::sort(records.begin(), records.end(), [](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  });
   return records;
 }
 

@@ -6,11 +6,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
 #include "campaign/manifest.hpp"
 #include "campaign/record.hpp"
+#include "csv/csv_table.hpp"
 
 namespace pose_wall::tools::campaign {
 
@@ -34,11 +36,12 @@ bool has_records(const std::filesystem::path& folder);
 // The files of all finished runs, in no order. Throws std::runtime_error where there is none.
 std::vector<std::filesystem::path> record_files(const std::filesystem::path& folder);
 
-// All there are, by scene (in the order of the table), sensor and draw.
+// Hands over the tables of all records there are, by scene or class (in the order of their table), sensor and draw; one
+// at a time, for those of a large campaign fill a memory. Throws std::runtime_error that names the file.
+void for_each_record(const std::filesystem::path& folder, const Manifest& manifest,
+                     const std::function<void(const CsvTable&)>& take);
+// Of the engine, all in that order.
 std::vector<RunRecord> read_records(const std::filesystem::path& folder, const Manifest& manifest);
-
-// The sensor's place in the simulator's table.
-std::size_t sensor_rank(const std::string& name);
 
 // frames.csv: the rows of all records under one head.
 void write_frames(const std::filesystem::path& folder, const std::vector<RunRecord>& records);

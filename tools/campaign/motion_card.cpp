@@ -3,13 +3,9 @@
 
 #include "campaign/motion_card.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <stdexcept>
 
 #include "quantile.hpp"
 
@@ -17,9 +13,6 @@ namespace pose_wall::tools::campaign {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kMisleadingStep = "misleading step";
-constexpr const char* kMisleadingPose = "misleading pose";
-constexpr const char* kAlongError = "error along";
 
 // The last one, or a new one: records come class by class.
 MotionClassCard& motion_class_of(MotionCard& card, const MotionRecord& record) {
@@ -27,12 +20,9 @@ MotionClassCard& motion_class_of(MotionCard& card, const MotionRecord& record) {
     MotionClassCard& last = card.classes.back();
     if (last.kind->name == record.run.scene && last.sensor == record.run.sensor) return last;
   }
-  const MotionClass* const kind = find_motion_class(record.run.scene);
-  if (kind == nullptr) {
-    throw std::runtime_error(fmt::format("a record of the class '{}', which does not exist", record.run.scene));
-  }
+  const MotionClass& kind = motion_class_of_record(record.run.scene);
   MotionClassCard& one = card.classes.emplace_back();
-  one.kind = kind;
+  one.kind = &kind;
   one.sensor = record.run.sensor;
   return one;
 }
@@ -63,12 +53,12 @@ void add_along(const MotionComparison& c, const Run& run, MotionClassCard* one, 
   const double excess = error_m / allowed_along_m(*one, c.way_m);
   if (!std::isfinite(excess)) return;
   one->along_excess = std::max(one->along_excess, excess);
-  if (excess > 1.0) events->push_back({kAlongError, excess, run, c.last_frame});
+  if (excess > 1.0) events->push_back({"error along", excess, run, c.last_frame, false});
 }
 
 void add_misleading(const char* what, const Misleading& misleading, const Run& run, std::vector<MotionEvent>* events) {
   if (misleading.misleading > 0) {
-    events->push_back({what, misleading.worst_excess, run, misleading.worst_frame});
+    events->push_back({what, misleading.worst_excess, run, misleading.worst_frame, true});
   }
 }
 
@@ -79,8 +69,8 @@ void add_comparison(const MotionComparison& c, const Run& run, MotionClassCard* 
   one->turn_rad = std::max(one->turn_rad, c.turn.largest);
   one->poses.merge(c.misleading_poses);
   one->steps.merge(c.misleading_steps);
-  add_misleading(kMisleadingPose, c.misleading_poses, run, events);
-  add_misleading(kMisleadingStep, c.misleading_steps, run, events);
+  add_misleading("misleading pose", c.misleading_poses, run, events);
+  add_misleading("misleading step", c.misleading_steps, run, events);
   for (std::size_t d = 0; d < c.pose.size(); ++d) {
     one->pose[d].merge(c.pose[d]);
     one->step[d].merge(c.step[d]);
@@ -112,14 +102,6 @@ void MotionCard::add(const MotionRecord& record) {
   } else {
     ++one.runs_without_pose;
   }
-}
-
-void MotionCard::keep_events(std::size_t events_max) {
-  std::stable_sort(events.begin(), events.end(), [](const MotionEvent& a, const MotionEvent& b) {
-    const bool a_misleads = a.what != kAlongError, b_misleads = b.what != kAlongError;
-    return a_misleads != b_misleads ? a_misleads : a.excess > b.excess;
-  });
-  if (events.size() > events_max) events.resize(events_max);
 }
 
 double allowed_along_m(const MotionClassCard& one, double way_m) {

@@ -50,18 +50,19 @@ struct MotionEvent {
   double excess;  // over what was allowed
   Run run;
   std::uint64_t frame;
+  bool is_misleading;
+
+  bool misleads() const { return is_misleading; }
 };
 
 struct MotionCard {
   Manifest manifest;
   std::size_t runs = 0;  // with a record
   std::vector<MotionClassCard> classes;
-  std::vector<MotionEvent> events;  // misleading ones first, then the largest
+  std::vector<MotionEvent> events;  // by keep_worst
 
-  // In the order of for_each_motion_record. Throws std::runtime_error for a class that does not exist.
+  // In the order of for_each_record. Throws std::runtime_error for a class that does not exist.
   void add(const MotionRecord& record);
-  // At the end: sorts the events and keeps so many.
-  void keep_events(std::size_t events_max);
 };
 
 // Error along the road that is allowed at the end of a run; NaN: any.

@@ -3,8 +3,11 @@
 
 #include "campaign/motion_classes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "sim/parameters.hpp"
 
@@ -413,6 +416,11 @@ const MotionClass* find_motion_class(std::string_view name) {
     if (one.name == name) return &one;
   }
   return nullptr;
+}
+
+const MotionClass& motion_class_of_record(std::string_view name) {
+  if (const MotionClass* const one = find_motion_class(name)) return *one;
+  throw std::runtime_error(fmt::format("a record of the class '{}', which does not exist", name));
 }
 
 sim::Setup make_motion_setup(const MotionClass& one, std::string_view sensor, std::uint64_t seed) {

@@ -56,6 +56,8 @@ struct MotionClass {
 const std::vector<MotionClass>& motion_classes();
 // nullptr if there is none of this name.
 const MotionClass* find_motion_class(std::string_view name);
+// Throws std::runtime_error if there is none.
+const MotionClass& motion_class_of_record(std::string_view name);
 
 // Sizes drawn by the seed; rock that never comes again. Throws std::invalid_argument for an unknown sensor.
 sim::Setup make_motion_setup(const MotionClass& one, std::string_view sensor, std::uint64_t seed);

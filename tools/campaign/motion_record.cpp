@@ -9,7 +9,6 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-const std::vector<std::string> kRunColumns = {"scene", "sensor", "draw", "seed"};
 // Base in the road, and the road's direction there.
 const std::vector<std::string> kTruthColumns = {"true_x",  "true_y",  "true_z",      "true_qx",    "true_qy",
                                                 "true_qz", "true_qw", "true_road_x", "true_road_y"};
@@ -26,14 +25,10 @@ void add_truth(const CsvTable& table, std::size_t row, PoseTruth* truth) {
   truth->along_world.emplace_back(number(7), number(8), 0.0);
 }
 
-const std::string& run_cell(const CsvTable& table, std::size_t which) {
-  return table.cell(0, demanded_column(table, "record", kRunColumns[which]));
-}
-
 }  // namespace
 
 std::vector<std::string> motion_record_head() {
-  std::vector<std::string> head = kRunColumns;
+  std::vector<std::string> head = run_head();
   for (const std::vector<std::string>& part : {motion_head(), kTruthColumns}) {
     head.insert(head.end(), part.begin(), part.end());
   }
@@ -42,7 +37,7 @@ std::vector<std::string> motion_record_head() {
 
 std::vector<std::string> motion_record_cells(const Run& run, const MotionOutcome& outcome,
                                              const sim::Simulator& simulator, std::uint32_t frame) {
-  std::vector<std::string> cells = {run.scene, run.sensor, std::to_string(run.draw), std::to_string(run.seed)};
+  std::vector<std::string> cells = run_cells(run);
   const std::vector<std::string> measured = motion_cells(outcome);
   cells.insert(cells.end(), measured.begin(), measured.end());
   const sim::MachinePose pose = simulator.pose(frame);
@@ -57,11 +52,10 @@ std::vector<std::string> motion_record_cells(const Run& run, const MotionOutcome
 }
 
 MotionRecord motion_record_of(const CsvTable& table) {
-  if (table.rows() == 0) throw CsvError("no frame in it");
   MotionRecord record;
+  record.run = run_of(table);
+  record.run.frames = static_cast<std::uint32_t>(table.rows());
   record.table = read_motion_table(table);
-  record.run = {run_cell(table, 0), run_cell(table, 1), whole_number<std::uint32_t>(run_cell(table, 2)),
-                whole_number<std::uint64_t>(run_cell(table, 3)), static_cast<std::uint32_t>(table.rows())};
   record.truth.world_is_road = true;
   record.truth.keys = record.table.keys;
   const std::size_t contrast = demanded_column(table, "record", "contrast");

@@ -7,11 +7,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "campaign/event.hpp"
 #include "campaign/fingerprint.hpp"
+#include "campaign/motion_classes.hpp"
 #include "campaign/surfaces.hpp"
 #include "sim/parameters.hpp"
 #include "sim/pose.hpp"
@@ -31,14 +33,21 @@ struct Size {
   std::uint32_t frames;               // of each of both
   std::uint32_t sequence_draws;       // of scenes in which something happens
   std::uint32_t sequence_frames_max;  // cuts long ones
+  struct Motion {                     // of the motion library's classes
+    std::uint32_t draws;
+    std::uint32_t long_draws;  // of classes that go on for minutes
+    double way_m;
+    double seconds;
+    std::uint32_t frames;
+  } motion;
 };
 
 const std::vector<Size>& sizes() {
   static const std::vector<std::string> all = {"os1-64", "os0-128", "vlp16", "mid360"};
   static const std::vector<Size> table = {
-      {"small", {"os1-64"}, 1, 1, 3, 1, 60},
-      {"medium", all, 6, 6, 4, 2, 120},
-      {"large", all, 60, 24, 5, 6, kWhole},
+      {"small", {"os1-64"}, 1, 1, 3, 1, 60, {1, 1, 6.0, 6.0, 70}},
+      {"medium", all, 6, 6, 4, 2, 120, {4, 2, 30.0, 60.0, 120}},
+      {"large", all, 60, 24, 5, 6, kWhole, {20, 4, 50.0, 600.0, 240}},
   };
   return table;
 }
@@ -114,6 +123,79 @@ std::uint32_t draws_of(const PlanRequest& request, const Size& size, const std::
   return is_ordinary ? size.nominal_draws : size.draws;
 }
 
+std::vector<Run> plan_of_scenes(const PlanRequest& request) {
+  const Size& size = size_named(request.size);
+  std::vector<Run> runs;
+  for (const std::string& scene : scenes_of(request)) {
+    for (const std::string& sensor : sensors_of(request)) {
+      const std::uint32_t draws = draws_of(request, size, scene, sensor);
+      for (std::uint32_t i = 0; i < draws; ++i) {
+        runs.push_back(make_run(request, size, scene, sensor, request.first_draw + i));
+      }
+    }
+  }
+  for (const std::string& sensor : sensors_of(request)) {
+    std::uint32_t draw = 0;
+    for (const std::string& file : request.surfaces) runs.push_back(surveyed_run(request, file, sensor, draw++));
+  }
+  return runs;
+}
+
+const MotionClass& class_named(const std::string& name) {
+  if (const MotionClass* const one = find_motion_class(name)) return *one;
+  std::vector<std::string> names;
+  for (const MotionClass& one : motion_classes()) names.emplace_back(one.name);
+  throw std::invalid_argument(
+      fmt::format("unknown class of motion '{}'{}; `pose_wall campaign --motion --list` shows "
+                  "them all",
+                  name, did_you_mean(name, names)));
+}
+
+bool is_long(const MotionClass& one) {
+  constexpr double kFiveMinutes_s = 300.0;
+  return one.length == MotionLength::kTime && one.seconds_max > kFiveMinutes_s;
+}
+
+// The first frame stands at the start, the last at the end.
+std::uint32_t frames_of_run(const MotionClass& one, const Size::Motion& size, const sim::Setup& setup) {
+  if (one.length == MotionLength::kFrames) return size.frames;
+  const double seconds = one.length == MotionLength::kWay ? size.way_m / std::abs(setup.machine.speed_mps)
+                                                          : std::min(size.seconds, one.seconds_max);
+  return 1 + static_cast<std::uint32_t>(std::ceil(seconds * setup.sequence.rate_hz));
+}
+
+std::vector<const MotionClass*> classes_of_request(const PlanRequest& request) {
+  std::vector<const MotionClass*> classes;
+  for (const std::string& name : request.scenes) classes.push_back(&class_named(name));
+  if (!classes.empty()) return classes;
+  for (const MotionClass& one : motion_classes()) classes.push_back(&one);
+  return classes;
+}
+
+Run motion_run(const PlanRequest& request, const Size::Motion& size, const MotionClass& one, const std::string& sensor,
+               std::uint32_t draw) {
+  const std::uint64_t seed = run_seed(request.seed, std::string("motion ") + one.name, sensor, draw);
+  const sim::Setup setup = make_motion_setup(one, sensor, seed);
+  return {one.name, sensor, draw, seed, request.frames.value_or(frames_of_run(one, size, setup))};
+}
+
+// What was interrupted has runs of every class.
+std::vector<Run> plan_of_classes(const PlanRequest& request) {
+  const std::vector<std::string>& sensors = sensors_of(request);
+  const Size::Motion& size = size_named(request.size).motion;
+  const std::vector<const MotionClass*> classes = classes_of_request(request);
+  std::vector<Run> runs;
+  for (std::uint32_t i = 0; i < request.draws.value_or(size.draws); ++i) {
+    for (const MotionClass* const one : classes) {
+      if (!request.draws && is_long(*one) && i >= size.long_draws) continue;
+      for (const std::string& sensor : sensors) {
+        runs.push_back(motion_run(request, size, *one, sensor, request.first_draw + i));
+      }
+    }
+  }
+  return runs;
+}
+
 }  // namespace
 
 const sim::SceneChoice* scene_of(const std::string& name) {
@@ -150,21 +232,7 @@ std::uint64_t run_seed(std::uint64_t campaign_seed, const std::string& scene, co
 }
 
 std::vector<Run> make_plan(const PlanRequest& request) {
-  const Size& size = size_named(request.size);
-  std::vector<Run> runs;
-  for (const std::string& scene : scenes_of(request)) {
-    for (const std::string& sensor : sensors_of(request)) {
-      const std::uint32_t draws = draws_of(request, size, scene, sensor);
-      for (std::uint32_t i = 0; i < draws; ++i) {
-        runs.push_back(make_run(request, size, scene, sensor, request.first_draw + i));
-      }
-    }
-  }
-  for (const std::string& sensor : sensors_of(request)) {
-    std::uint32_t draw = 0;
-    for (const std::string& file : request.surfaces) runs.push_back(surveyed_run(request, file, sensor, draw++));
-  }
-  return runs;
+  return request.motion ? plan_of_classes(request) : plan_of_scenes(request);
 }
 
 std::uint32_t frames_of(const Run& run) {

@@ -36,7 +36,7 @@ const sim::SceneChoice* scene_of(const std::string& name);
 sim::Setup setup_of(const Run& run);
 
 struct PlanRequest {
-  bool motion = false;                // of the motion library, its classes for scenes: see motion_plan
+  bool motion = false;                // of the motion library, its classes for scenes: see motion_classes
   std::vector<std::string> scenes;    // empty: all
   std::vector<std::string> sensors;   // empty: those of the size
   std::vector<std::string> surfaces;  // files of real roads, besides the scenes
@@ -54,8 +54,9 @@ std::vector<std::string> size_names();
 // Those of the request, else those of its size. Throws std::invalid_argument for a size that does not exist.
 const std::vector<std::string>& sensors_of(const PlanRequest& request);
 
-// Scene by scene, sensor by sensor, draw by draw. The same request gives the same runs. Throws std::invalid_argument
-// for names that do not exist, with the nearest one.
+// Scene by scene, sensor by sensor, draw by draw; of motion draw by draw, class by class, sensor by sensor. The same
+// request gives the same runs. Of motion the drawn sizes do not depend on the size, only how long a run is. Throws
+// std::invalid_argument for names that do not exist, with the nearest one.
 std::vector<Run> make_plan(const PlanRequest& request);
 
 // Short enough to be typed again, and another one for every run of a campaign.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "campaign/manifest.hpp"
+#include "campaign/motion_card.hpp"
 #include "campaign/worst_events.hpp"
 
 namespace pose_wall::tools::campaign {
@@ -16,7 +17,7 @@ namespace pose_wall::tools::campaign {
 // the campaign's stamps and settings from them, else by the run itself as a campaign of its own.
 std::string recipe(const WorstEvent& event, const Manifest& manifest);
 
-// Of the run itself, so many frames of it.
-std::string run_recipe(const Run& run, std::uint32_t frames, const Manifest& manifest);
+// Of motion always by the run itself.
+std::string recipe(const MotionEvent& event, const Manifest& manifest);
 
 }  // namespace pose_wall::tools::campaign

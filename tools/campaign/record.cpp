@@ -76,20 +76,6 @@ FrameRecord frame_of(const CsvTable& table, std::size_t row) {
   return frame;
 }
 
-RunRecord record_of(const CsvTable& table) {
-  if (table.head() != record_head()) throw CsvError("not the columns of a record");
-  if (table.rows() == 0) throw CsvError("no frame in it");
-  RunRecord record;
-  record.run = {table.cell(0, 0), table.cell(0, 1), whole_number<std::uint32_t>(table.cell(0, 2)),
-                whole_number<std::uint64_t>(table.cell(0, 3))};
-  record.run.settings = parts_of(table.cell(0, 4));
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    record.frames.push_back(frame_of(table, row));
-    ++(record.frames.back().phase == Phase::kDriveIn ? record.run.drive_in_frames : record.run.frames);
-  }
-  return record;
-}
-
 }  // namespace
 
 double QuantityRecord::judged_truth(double alert_limit) const {
@@ -129,8 +115,8 @@ Judged judge(const FrameRecord& frame, std::size_t quantity, const AlertLimits& 
 }
 
 std::vector<std::string> record_head() {
-  std::vector<std::string> head = {"scene", "sensor",   "draw",  "seed",        "set",
-                                   "frame", "stamp_ns", "phase", "frame_reason"};
+  std::vector<std::string> head = run_head();
+  head.insert(head.end(), {"set", "frame", "stamp_ns", "phase", "frame_reason"});
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const std::string name = pose_wall_quantity_name(q);
     head.insert(head.end(), {name + "_truth", name + "_surveyed", name, name + "_raw", name + "_sigma", name + "_pl",
@@ -142,15 +128,10 @@ std::vector<std::string> record_head() {
 std::string record_lines(const RunRecord& record) {
   std::string lines;
   for (const FrameRecord& frame : record.frames) {
-    std::vector<std::string> cells = {record.run.scene,
-                                      record.run.sensor,
-                                      std::to_string(record.run.draw),
-                                      std::to_string(record.run.seed),
-                                      fmt::format("{}", fmt::join(record.run.settings, "|")),
-                                      std::to_string(frame.frame),
-                                      std::to_string(frame.stamp_ns),
-                                      kPhases[static_cast<std::size_t>(frame.phase)],
-                                      reason_names(frame.reasons)};
+    std::vector<std::string> cells = run_cells(record.run);
+    cells.insert(cells.end(), {fmt::format("{}", fmt::join(record.run.settings, "|")), std::to_string(frame.frame),
+                               std::to_string(frame.stamp_ns), kPhases[static_cast<std::size_t>(frame.phase)],
+                               reason_names(frame.reasons)});
     for (const QuantityRecord& q : frame.quantity) {
       for (const double number :
            {q.truth, q.surveyed, q.measured.value, q.measured.raw, q.measured.sigma, q.measured.protection_level}) {
@@ -163,8 +144,24 @@ std::string record_lines(const RunRecord& record) {
   return lines;
 }
 
+std::string record_table(const RunRecord& record) {
+  return csv_line(record_head()) + record_lines(record);
+}
+
 void write_record(const std::filesystem::path& file, const RunRecord& record, const std::string& campaign) {
-  write_record_file(file, csv_line(record_head()) + record_lines(record), campaign);
+  write_record_file(file, record_table(record), campaign);
+}
+
+RunRecord record_of(const CsvTable& table) {
+  if (table.head() != record_head()) throw CsvError("not the columns of a record");
+  RunRecord record;
+  record.run = run_of(table);
+  record.run.settings = parts_of(table.cell(0, 4));
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    record.frames.push_back(frame_of(table, row));
+    ++(record.frames.back().phase == Phase::kDriveIn ? record.run.drive_in_frames : record.run.frames);
+  }
+  return record;
 }
 
 RunRecord read_record(const std::filesystem::path& file, const std::string& campaign) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "campaign/plan.hpp"
+#include "csv/csv_table.hpp"
 #include "pose_wall.h"
 #include "truth/alert_limits.hpp"
 #include "truth/error_statistics.hpp"
@@ -61,11 +62,15 @@ struct RunRecord {
 std::vector<std::string> record_head();
 // The rows without the head, as they stand in a file.
 std::string record_lines(const RunRecord& record);
+// With it.
+std::string record_table(const RunRecord& record);
 
 // A record belongs to the campaign whose fingerprint its first line bears. The file appears whole or not at all.
 // Throws std::runtime_error that names the file.
 void write_record(const std::filesystem::path& file, const RunRecord& record, const std::string& campaign);
 
+// Throws CsvError.
+RunRecord record_of(const CsvTable& table);
 // Throws std::runtime_error that names the file, for a record of another campaign too.
 RunRecord read_record(const std::filesystem::path& file, const std::string& campaign);
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "frames/whole_file.hpp"
+#include "motion/motion_table.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -34,6 +35,21 @@ void read_record_file(const std::filesystem::path& file, const std::string& camp
     throw std::runtime_error(
         fmt::format("{}: {}; without this file the same command measures it again", file.string(), error.what()));
   }
+}
+
+std::vector<std::string> run_head() {
+  return {"scene", "sensor", "draw", "seed"};
+}
+
+std::vector<std::string> run_cells(const Run& run) {
+  return {run.scene, run.sensor, std::to_string(run.draw), std::to_string(run.seed)};
+}
+
+Run run_of(const CsvTable& table) {
+  if (table.rows() == 0) throw CsvError("no frame in it");
+  const auto cell = [&table](const char* name) { return table.cell(0, demanded_column(table, "record", name)); };
+  return {cell("scene"), cell("sensor"), whole_number<std::uint32_t>(cell("draw")),
+          whole_number<std::uint64_t>(cell("seed"))};
 }
 
 }  // namespace pose_wall::tools::campaign

@@ -11,7 +11,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "campaign/plan.hpp"
 #include "csv/csv_table.hpp"
 #include "frames/text_cursor.hpp"
 
@@ -24,6 +26,12 @@ void write_record_file(const std::filesystem::path& file, const std::string& tab
 // the CsvError that `take` throws.
 void read_record_file(const std::filesystem::path& file, const std::string& campaign,
                       const std::function<void(const CsvTable&)>& take);
+
+// The columns in front, which say whose run it is.
+std::vector<std::string> run_head();
+std::vector<std::string> run_cells(const Run& run);
+// By the first row; without its frames. Throws CsvError, for a table without rows, too.
+Run run_of(const CsvTable& table);
 
 // Stamps and seeds need all their digits: not by way of a double. Throws CsvError.
 template <typename Integer>

@@ -5,13 +5,17 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "campaign/event.hpp"
 #include "campaign/folder.hpp"
-#include "campaign/motion_runs.hpp"
+#include "campaign/motion_classes.hpp"
+#include "campaign/motion_record.hpp"
+#include "campaign/record_file.hpp"
 #include "campaign/surfaces.hpp"
 #include "config_file/key_table.hpp"
 #include "motion/moving_engine.hpp"
@@ -49,12 +53,72 @@ FrameRecord record_of(const pose_wall_result& result, const TruthRow& truth, con
   return record;
 }
 
+void copy_point(const sim::Frame& rendered, std::size_t i, bool scan_takes_time, std::byte* to) {
+  std::memcpy(to, &rendered.xyz_intensity[4 * i], 4 * sizeof(float));
+  if (!scan_takes_time) return;
+  std::memcpy(to + 16, &rendered.time_ns[i], sizeof(std::uint32_t));
+  std::memcpy(to + 20, &rendered.ring[i], sizeof(std::uint16_t));
+}
+
 sim::Simulator simulator_of(const Run& run) {
   if (run.surface.empty()) return {setup_of(run), run.seed};
   return {setup_of(run), run.seed, survey_of(run.surface)};
 }
 
+// One run as the table in its file.
+using Measure = std::function<std::string(const Run&, const EngineChoice&, const std::function<void()>& on_frame)>;
+
+std::string measure_motion(const Run& run, const EngineChoice& choice, const std::function<void()>& on_frame) {
+  const sim::Simulator simulator(make_motion_setup(motion_class_of_record(run.scene), run.sensor, run.seed), run.seed);
+  const sim::Sequence& sequence = simulator.setup().sequence;
+  const LoadedConfig loaded = config_for(simulator.setup(), choice);
+  MotionRunner runner(loaded.config, loaded.motion, sequence.rate_hz);
+  std::string table = csv_line(motion_record_head());
+  for (std::uint32_t i = 0; i < run.frames; ++i) {
+    const sim::Frame rendered = simulator.render(i);
+    SourcedFrame sourced;
+    sourced.name = fmt::format("{}/{}/{}#{}", run.scene, run.sensor, run.draw, i);
+    sourced.stamp_ns = rendered.stamp_ns;
+    sourced.frame = rendered_frame(rendered, sequence.scan_s > 0.0);
+    const MotionOutcome outcome = runner.run(std::move(sourced));
+    if (!outcome.result) throw std::runtime_error(fmt::format("{}: motion: {}", outcome.source, outcome.error));
+    table += csv_line(motion_record_cells(run, outcome, simulator, i));
+    on_frame();
+  }
+  return table;
+}
+
+Measure engine_measure() {
+  const auto engine = std::make_shared<MovingEngine>();
+  const Instrument instrument = {
+      [engine](const LoadedConfig& loaded) { return engine->open(loaded.config, loaded.motion); },
+      [engine](const pose_wall_cloud& cloud, pose_wall_result& result) { return engine->process(cloud, result); }};
+  return [instrument](const Run& run, const EngineChoice& choice, const std::function<void()>& on_frame) {
+    return record_table(measure(run, choice, instrument, on_frame));
+  };
+}
+
 }  // namespace
+
+Frame rendered_frame(const sim::Frame& rendered, bool scan_takes_time) {
+  PointLayout layout;
+  layout.count = static_cast<std::uint32_t>(rendered.count());
+  layout.point_step = scan_takes_time ? 22 : 16;
+  layout.big_endian = host_is_big_endian();
+  layout.fields = {{"x", {0, POSE_WALL_FIELD_FLOAT32}},
+                   {"y", {4, POSE_WALL_FIELD_FLOAT32}},
+                   {"z", {8, POSE_WALL_FIELD_FLOAT32}},
+                   {"intensity", {12, POSE_WALL_FIELD_FLOAT32}}};
+  if (scan_takes_time) {
+    layout.fields.push_back({"t", {16, POSE_WALL_FIELD_UINT32}});
+    layout.fields.push_back({"ring", {20, POSE_WALL_FIELD_UINT16}});
+  }
+  Bytes bytes(rendered.count() * layout.point_step);
+  for (std::size_t i = 0; i < rendered.count(); ++i) {
+    copy_point(rendered, i, scan_takes_time, bytes.data() + i * layout.point_step);
+  }
+  return describe_frame(std::move(bytes), layout);
+}
 
 LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice) {
   std::vector<std::string> settings;
@@ -77,7 +141,7 @@ RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& 
   RunRecord record{run, {}};
   for (std::uint32_t i = 0; i < frames_of(run); ++i) {
     const sim::Frame rendered = simulator.render(i);
-    Frame frame = motion_frame(rendered, simulator.setup().sequence.scan_s > 0.0);
+    Frame frame = rendered_frame(rendered, simulator.setup().sequence.scan_s > 0.0);
     frame.cloud.stamp_ns = rendered.stamp_ns;
     pose_wall_result result = api::make_result();
     demand_ok(instrument.process(frame.cloud, result), run);
@@ -92,12 +156,9 @@ RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& 
 
 void run_all(const std::vector<Run>& runs, const Work& work) {
   work_on(runs, work.crew, [&work]() -> RunWork {
-    const auto engine = std::make_shared<MovingEngine>();
-    const Instrument instrument = {
-        [engine](const LoadedConfig& loaded) { return engine->open(loaded.config, loaded.motion); },
-        [engine](const pose_wall_cloud& cloud, pose_wall_result& result) { return engine->process(cloud, result); }};
-    return [&work, instrument](const Run& run, const std::function<void()>& on_frame) {
-      write_record(record_file(work.folder, run), measure(run, work.choice, instrument, on_frame), work.campaign);
+    const Measure table_of = work.motion ? Measure(measure_motion) : engine_measure();
+    return [&work, table_of](const Run& run, const std::function<void()>& on_frame) {
+      write_record_file(record_file(work.folder, run), table_of(run, work.choice, on_frame), work.campaign);
     };
   });
 }

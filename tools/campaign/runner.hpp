@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Puts the frames of a campaign's runs through the engine.
+// Puts the frames of a campaign's runs through the engine, or through the motion library.
 
 #pragma once
 
@@ -15,8 +15,10 @@
 #include "campaign/record.hpp"
 #include "campaign/workers.hpp"
 #include "config_file/load_config.hpp"
+#include "frames/frame.hpp"
 #include "pose_wall.h"
 #include "sim/setup.hpp"
+#include "sim/simulator.hpp"
 
 namespace pose_wall::tools::campaign {
 
@@ -33,7 +35,12 @@ struct Instrument {
 RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& instrument,
                   const std::function<void()>& on_frame);
 
+// A frame of the simulator as `pose_wall sim` writes it and `pose_wall motion` reads it: with the fields t and ring
+// where the scan takes time.
+Frame rendered_frame(const sim::Frame& rendered, bool scan_takes_time);
+
 struct Work {
+  bool motion = false;  // the motion library is measured, not the engine
   std::filesystem::path folder;
   EngineChoice choice;
   std::string campaign;  // fingerprint of the manifest

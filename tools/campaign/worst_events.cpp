@@ -75,12 +75,7 @@ std::vector<WorstEvent> worst_events(const std::vector<const RunRecord*>& record
       worst.append_to(events);
     }
   }
-  std::stable_sort(events.begin(), events.end(), [](const WorstEvent& a, const WorstEvent& b) {
-    const bool a_misleads = a.breach == Breach::kMisleading;
-    const bool b_misleads = b.breach == Breach::kMisleading;
-    return a_misleads != b_misleads ? a_misleads : a.excess > b.excess;
-  });
-  if (events.size() > events_max) events.resize(events_max);
+  keep_worst(events_max, &events);
   return events;
 }
 

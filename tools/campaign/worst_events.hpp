@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -27,7 +28,18 @@ struct WorstEvent {
   Measured measured;
   std::uint32_t reasons;
   bool stamps_are_steady;  // up to this frame as `pose_wall run` gives them to files: 0.1 s apart
+
+  bool misleads() const { return breach == Breach::kMisleading; }
 };
+
+// Sorts them, misleading ones first, then by excess, and keeps so many.
+template <typename Event>
+void keep_worst(std::size_t events_max, std::vector<Event>* events) {
+  std::stable_sort(events->begin(), events->end(), [](const Event& a, const Event& b) {
+    return a.misleads() != b.misleads() ? a.misleads() : a.excess > b.excess;
+  });
+  if (events->size() > events_max) events->resize(events_max);
+}
 
 // Misleading ones first, then by excess. Of one run and quantity only the worst frame of its gravest breach.
 std::vector<WorstEvent> worst_events(const std::vector<const RunRecord*>& records, const AlertLimits& limits,

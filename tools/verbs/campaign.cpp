@@ -23,16 +23,15 @@
 #include "campaign/gate.hpp"
 #include "campaign/manifest.hpp"
 #include "campaign/merge.hpp"
-#include "campaign/motion_card_files.hpp"
-#include "campaign/motion_gate.hpp"
-#include "campaign/motion_plan.hpp"
-#include "campaign/motion_runs.hpp"
+#include "campaign/motion_card.hpp"
+#include "campaign/motion_record.hpp"
 #include "campaign/part.hpp"
 #include "campaign/plan.hpp"
 #include "campaign/runner.hpp"
 #include "campaign/sweep.hpp"
 #include "config_file/config_place.hpp"
 #include "config_file/load_config.hpp"
+#include "csv/csv_table.hpp"
 #include "options/one_of.hpp"
 #include "options/output_folder.hpp"
 #include "terminal/counted.hpp"
@@ -81,18 +80,15 @@ void check_settings(const campaign::EngineChoice& engine, bool quiet) {
   tell_notes(load_config(engine.config_file, engine.settings), quiet);
 }
 
-std::vector<campaign::Run> plan_of(const campaign::PlanRequest& request) {
-  return request.motion ? campaign::make_motion_plan(request) : campaign::make_plan(request);
-}
-
 // Those of the plan, or of the part.
 std::vector<campaign::Run> runs_of(const CampaignOptions& options) {
-  const std::vector<campaign::Run> runs = plan_of(options.plan);
+  const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
   return options.part.empty() ? runs : campaign::runs_of_part(runs, campaign::parse_part(options.part));
 }
 
 campaign::Manifest manifest_of(const CampaignOptions& options, const std::vector<campaign::Run>& runs) {
-  campaign::Manifest manifest = campaign::make_manifest(options.plan, plan_of(options.plan), options.engine);
+  campaign::Manifest manifest =
+      campaign::make_manifest(options.plan, campaign::make_plan(options.plan), options.engine);
   if (options.part.empty()) return manifest;
   manifest.part = campaign::parse_part(options.part);
   manifest.part_runs = runs.size();
@@ -110,12 +106,9 @@ campaign::Manifest run_campaign(const CampaignOptions& options) {
     fmt::print(stderr, "{}, {}; done already: {}\n", counted(runs.size(), "run"),
                counted(campaign::frames_of(runs), "frame"), counted(runs.size() - pending.size(), "run"));
   }
-  const campaign::Work work{options.output, options.engine, manifest.fingerprint(), {options.jobs, !options.quiet}};
-  if (options.plan.motion) {
-    campaign::run_all_motion(pending, work);
-  } else {
-    campaign::run_all(pending, work);
-  }
+  campaign::run_all(
+      pending,
+      {options.plan.motion, options.output, options.engine, manifest.fingerprint(), {options.jobs, !options.quiet}});
   return manifest;
 }
 
@@ -124,14 +117,19 @@ int pass_gate(const std::vector<std::string>& faults) {
   return faults.empty() ? kExitDone : kExitGate;
 }
 
+template <typename AnyCard>
+int tell_card(const CampaignOptions& options, const AnyCard& card) {
+  campaign::write_card(options.output, card);
+  if (!options.quiet) fmt::print("{}\n{}/card.md\n", campaign::card_summary(card), options.output);
+  return options.gate ? pass_gate(campaign::gate_faults(card)) : kExitDone;
+}
+
 int make_motion_card(const CampaignOptions& options, const campaign::Manifest& manifest) {
   campaign::MotionCard card{manifest, 0, {}, {}};
-  campaign::for_each_motion_record(options.output, manifest,
-                                   [&card](const campaign::MotionRecord& record) { card.add(record); });
-  card.keep_events(options.events);
-  campaign::write_motion_card(options.output, card);
-  if (!options.quiet) fmt::print("{}\n{}/card.md\n", campaign::motion_card_summary(card), options.output);
-  return options.gate ? pass_gate(campaign::motion_gate_faults(card)) : kExitDone;
+  campaign::for_each_record(options.output, manifest,
+                            [&card](const CsvTable& table) { card.add(campaign::motion_record_of(table)); });
+  campaign::keep_worst(options.events, &card.events);
+  return tell_card(options, card);
 }
 
 // A card of a part would look like one of the whole.
@@ -147,10 +145,7 @@ int make_card(const CampaignOptions& options, const campaign::Manifest& manifest
   if (manifest.plan.motion) return make_motion_card(options, manifest);
   const std::vector<campaign::RunRecord> records = campaign::read_records(options.output, manifest);
   campaign::write_frames(options.output, records);
-  const campaign::Card card = campaign::make_card(manifest, records, options.events);
-  campaign::write_card(options.output, card);
-  if (!options.quiet) fmt::print("{}\n{}/card.md\n", campaign::card_summary(card), options.output);
-  return options.gate ? pass_gate(campaign::gate_faults(card)) : kExitDone;
+  return tell_card(options, campaign::make_card(manifest, records, options.events));
 }
 
 int tell_interrupted(const CampaignOptions& options) {
