@@ -4,9 +4,9 @@
 """Every text that the tools mark for translation has its Chinese, and every Chinese text its use.
 
 usage: check_translations.py ROOT     exit status 1 and one line per text that
-  - is marked in tools/ (say("..."), tr("..."), translatable("...")), or stands in a table of the engine that tools
-    print (in src/engine: keys' help in config_keys.def; states, parts, senses, reasons and statuses of values in
-    names.def; rules over two keys in config.cpp), and is in no tools/language/zh/*.po
+  - is marked in tools/ (say("..."), tr("..."), translatable("...")), or stands in a table that tools print, and is in
+    no tools/language/zh/*.po. Tables are, in src/engine, keys' help in config_keys.def; states, parts, senses, reasons and statuses of
+    values in names.def; rules over two keys in config.cpp; and those of include/ whose rows a verb takes as settings
   - stands in a catalogue and is marked nowhere, or stands there twice
   - fills in other arguments than the English one or gives one another type ({:d} for {:.2f}), or holds no Chinese"""
 
@@ -17,11 +17,12 @@ import sys
 
 LITERAL = r'"((?:[^"\\\n]|\\.)*)"'
 MARKED = re.compile(rf'\b(?:say|tr|translatable)\(\s*((?:{LITERAL}\s*)+)')
-KEY_HELP = re.compile(rf'^POSE_WALL_[A-Z]+ *\(.*, {LITERAL}\)$', re.M)
+KEY_HELP = re.compile(rf'^POSE_WALL_[A-Z]+ *\(.*, *{LITERAL}\)$', re.M)
 NAME = re.compile(rf'^(?:STATE|PART|SENSE) *\(\w+, {LITERAL}\)$', re.M)
 REASON = re.compile(rf'^REASON *\(\w+, "\w+", {LITERAL}\)$', re.M)
 # Of the statuses tools print only why a key refuses its value; the others are for programmers.
 STATUS = re.compile(rf'^STATUS *\(POSE_WALL_E_(?:VALUE|TEXT)_\w+, -\d+, {LITERAL}\)$', re.M)
+PRINTED = re.compile(r'POSE_WALL_SETTING_ROW\(\w+, __VA_ARGS__\)\n#include "(\w+\.def)"')
 RULE = re.compile(rf'\{{"\w+", "\w+", {LITERAL}\}}')
 HAN = re.compile(r"[\u3400-\u9fff]")
 FIELD = re.compile(r"(?<!\{)\{(\w*)(:[^{}]*(?:\{\w*\}[^{}]*)*)?\}(?!\})")
@@ -34,19 +35,20 @@ def unescaped(text):
 
 def marked(root):
     """{text: where it is marked first}"""
-    texts = {}
+    texts, tables = {}, []
     for path in sorted((root / "tools").rglob("*.[ch]pp")):
         source = path.read_text(encoding="utf-8")
+        tables += [(root / "include" / table, KEY_HELP, False) for table in PRINTED.findall(source)]
         for found in MARKED.finditer(source):
             if source[: found.start()].rsplit("\n", 1)[-1].lstrip().startswith("//"):
                 continue  # a comment that shows how
             text = "".join(unescaped(part) for part in re.findall(LITERAL, found.group(1)))
             texts.setdefault(text, f"{path.relative_to(root)}:{source.count(chr(10), 0, found.start()) + 1}")
     # The engine knows no language; tools print its tables, names with spaces for their underscores.
-    for table, rows, spoken in (("config_keys.def", KEY_HELP, False), ("names.def", NAME, True),
-                                ("names.def", REASON, False), ("names.def", STATUS, False),
-                                ("config.cpp", RULE, False)):
-        path = root / "src" / "engine" / table
+    engine = root / "src" / "engine"
+    for path, rows, spoken in (*tables, (engine / "config_keys.def", KEY_HELP, False),
+                               (engine / "names.def", NAME, True), (engine / "names.def", REASON, False),
+                               (engine / "names.def", STATUS, False), (engine / "config.cpp", RULE, False)):
         for found in rows.finditer(path.read_text(encoding="utf-8") if path.exists() else ""):
             text = unescaped(found.group(1))
             texts.setdefault(text.replace("_", " ") if spoken else text, path.relative_to(root))

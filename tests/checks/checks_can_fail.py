@@ -648,6 +648,14 @@ class Translations(BrokenProject):
         self.passes(*self.check('say("the wall {name}");\n', self.WALL + 'msgid "no value"\nmsgstr "没有值"\n\n'
                                 'msgid "a_min too great"\nmsgstr "a_min 过大"\n'))
 
+    def test_settings_that_a_verb_takes(self):
+        self.write("include/x.def", 'POSE_WALL_SETTING(double, far_m, 1, 0, 2, "m",   "how far")\n')
+        takes = '#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(x, __VA_ARGS__)\n#include "x.def"\ntr("far");\n'
+        far = 'msgid "far"\nmsgstr "远"\n\n'
+        self.fails("how far", *self.check(takes, far))
+        self.passes(*self.check(takes, far + 'msgid "how far"\nmsgstr "多远"\n'))
+        self.passes(*self.check(takes.replace("_ROW", "_RANGE"), far))
+
     def test_another_type(self):
         wall = 'msgid "{:.2f} m to the wall"\nmsgstr "距墙 {:d} m"\n'
         self.fails("fills in", *self.check('say("{:.2f} m to the wall");\n', wall))

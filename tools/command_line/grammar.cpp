@@ -144,11 +144,6 @@ std::vector<std::string> config_words() {
   return names;
 }
 
-std::vector<std::string> with_equals(std::vector<std::string> names) {
-  for (std::string& name : names) name += "=";
-  return names;
-}
-
 std::vector<std::string> joined(std::vector<std::string> first, const std::vector<std::string>& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
@@ -192,14 +187,14 @@ std::vector<std::string> value_words(const OptionGrammar& option) {
     case ValueKind::kSimulatorKey:
       return names_of(sim::parameters(), "=");
     case ValueKind::kPlannerKey:
-      return with_equals(plan_setting_names());
+      return names_of(plan_setting_rows(), "=");
     case ValueKind::kScanKey:
-      return joined(config_words(), with_equals(scanner_setting_names()));
+      return joined(config_words(), names_of(scanner_setting_rows(), "="));
     case ValueKind::kMapKey:
-      return joined(joined(config_words(), with_equals(scanner_setting_names())), with_equals(slam_setting_names()));
+      return joined(joined(config_words(), names_of(scanner_setting_rows(), "=")), names_of(slam_setting_rows(), "="));
     case ValueKind::kLocaliseKey:
-      return joined(joined(config_words(), with_equals(scanner_setting_names())),
-                    with_equals(localise_setting_names()));
+      return joined(joined(config_words(), names_of(scanner_setting_rows(), "=")),
+                    names_of(localise_setting_rows(), "="));
     case ValueKind::kGate:
       return names_of(explain::gate_list(), "=");
     case ValueKind::kGateName:

@@ -11,32 +11,11 @@
 
 #include "angles.hpp"
 #include "language/language.hpp"
-#include "planar/setting_words.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 using ScannerSettings = pose_wall_planar_scanner_settings;
-
-constexpr SettingWord<ScannerSettings> kScannerWords[] = {
-    {"ground_clearance_m", &ScannerSettings::ground_clearance_m},
-    {"machine_height_m", &ScannerSettings::machine_height_m},
-    {"margin_m", &ScannerSettings::margin_m},
-    {"floor_tolerance_m", &ScannerSettings::floor_tolerance_m},
-    {"overhead_m", &ScannerSettings::overhead_m},
-    {"thing_m", &ScannerSettings::thing_m},
-    {"clear_reach_m", &ScannerSettings::clear_reach_m},
-    {"angle_min_rad", &ScannerSettings::angle_min_rad},
-    {"angle_max_rad", &ScannerSettings::angle_max_rad},
-    {"angle_step_rad", &ScannerSettings::angle_step_rad},
-    {"range_min_m", &ScannerSettings::range_min_m},
-    {"range_max_m", &ScannerSettings::range_max_m},
-    {"fill_rad", &ScannerSettings::fill_rad},
-    {"hold_max_s", &ScannerSettings::hold_max_s},
-    {"tilt_level_max_rad", &ScannerSettings::tilt_level_max_rad},
-    {"bend_rad", &ScannerSettings::bend_rad},
-    {"alone", nullptr, &ScannerSettings::alone},
-};
 
 std::uint64_t bytes_for(const ScannerSettings& settings) {
   std::uint64_t bytes = 0;
@@ -70,14 +49,18 @@ std::optional<pose_wall_planar_pose> plane_odometry(const pose_wall_motion_resul
   return pose;
 }
 
-std::vector<std::string> scanner_setting_names() {
-  return names_of(kScannerWords);
+const SettingRows& scanner_setting_rows() {
+  static const SettingRows rows = {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_scanner_settings, __VA_ARGS__)
+#include "pose_wall_planar_scanner_settings.def"
+  };
+  return rows;
 }
 
 pose_wall_planar_scanner_settings take_scanner_settings(std::vector<std::string>* words) {
   pose_wall_planar_scanner_settings settings{};
   require_ok(pose_wall_planar_scanner_settings_init(&settings), translatable("the settings of the scan"));
-  take_settings(kScannerWords, pose_wall_planar_scanner_settings_check, words, &settings);
+  take_settings(scanner_setting_rows(), pose_wall_planar_scanner_settings_check, words, &settings);
   return settings;
 }
 

@@ -16,11 +16,12 @@
 #include "options/frame_options.hpp"
 #include "planar/part_block.hpp"
 #include "planar/scan_source.hpp"
+#include "planar/setting_words.hpp"
 #include "pose_wall_planar_scan.h"
 
 namespace pose_wall::tools {
 
-std::vector<std::string> scanner_setting_names();
+const SettingRows& scanner_setting_rows();
 
 // The defaults, with the settings that `words` holds; these are taken out of it. Throws std::invalid_argument.
 pose_wall_planar_scanner_settings take_scanner_settings(std::vector<std::string>* words);

@@ -9,20 +9,12 @@
 
 #include "language/language.hpp"
 #include "planar/plane_pose.hpp"
-#include "planar/setting_words.hpp"
 #include "planar/thread_clock.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 using LocaliseSettings = pose_wall_planar_localise_settings;
-
-constexpr SettingWord<LocaliseSettings> kLocaliseWords[] = {
-    {"map_is_whole", nullptr, &LocaliseSettings::map_is_whole},
-    {"work", nullptr, &LocaliseSettings::work},
-    {"odometry_m", &LocaliseSettings::odometry_m},
-    {"odometry_rad", &LocaliseSettings::odometry_rad},
-};
 
 constexpr std::uint32_t kMapTilesMost = 16384;  // of pose_wall_planar_localise_settings
 
@@ -63,8 +55,12 @@ bool add_cells(const MapFile& cells, pose_wall_planar_localise* localise) {
 
 }  // namespace
 
-std::vector<std::string> localise_setting_names() {
-  return names_of(kLocaliseWords);
+const SettingRows& localise_setting_rows() {
+  static const SettingRows rows = without({"tiles_most"}, {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_localise_settings, __VA_ARGS__)
+#include "pose_wall_planar_localise_settings.def"
+                                                          });
+  return rows;
 }
 
 pose_wall_planar_localise_settings default_localise_settings() {
@@ -75,7 +71,7 @@ pose_wall_planar_localise_settings default_localise_settings() {
 
 pose_wall_planar_localise_settings take_localise_settings(std::vector<std::string>* words) {
   pose_wall_planar_localise_settings settings = default_localise_settings();
-  take_settings(kLocaliseWords, pose_wall_planar_localise_settings_check, words, &settings);
+  take_settings(localise_setting_rows(), pose_wall_planar_localise_settings_check, words, &settings);
   return settings;
 }
 

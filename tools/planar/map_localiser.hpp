@@ -12,12 +12,13 @@
 
 #include "planar/known_map.hpp"
 #include "planar/part_block.hpp"
+#include "planar/setting_words.hpp"
 #include "pose_wall_planar_localise.h"
 
 namespace pose_wall::tools {
 
 // Without tiles_most, which follows from the map.
-std::vector<std::string> localise_setting_names();
+const SettingRows& localise_setting_rows();
 
 // The library's; map_is_whole 0.
 pose_wall_planar_localise_settings default_localise_settings();

@@ -11,37 +11,13 @@
 #include "csv/csv_table.hpp"
 #include "language/language.hpp"
 #include "planar/plane_pose.hpp"
-#include "planar/setting_words.hpp"
 #include "planar/thread_clock.hpp"
 #include "planar_files/map_files.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
-using PlanSettings = pose_wall_planar_plan_settings;
-
 constexpr std::uint32_t kSideLeast = 8, kSideMost = 8192;  // of pose_wall_planar_plan_settings
-
-constexpr SettingWord<PlanSettings> kPlanWords[] = {
-    {"front_m", &PlanSettings::front_m},
-    {"rear_m", &PlanSettings::rear_m},
-    {"left_m", &PlanSettings::left_m},
-    {"right_m", &PlanSettings::right_m},
-    {"margin_m", &PlanSettings::margin_m},
-    {"lattice_m", &PlanSettings::lattice_m},
-    {"turn_cost_m_rad", &PlanSettings::turn_cost_m_rad},
-    {"reverse_cost", &PlanSettings::reverse_cost},
-    {"cusp_cost_m", &PlanSettings::cusp_cost_m},
-    {"weight", &PlanSettings::weight},
-    {"radius_min_m", &PlanSettings::radius_min_m},
-    {"radius_max_m", &PlanSettings::radius_max_m},
-    {"pose_step_m", &PlanSettings::pose_step_m},
-    {"places_max", nullptr, &PlanSettings::places_max},
-    {"open_max", nullptr, &PlanSettings::open_max},
-    {"expansions_max", nullptr, &PlanSettings::expansions_max},
-    {"hurry_after", nullptr, &PlanSettings::hurry_after},
-    {"occupied_from", nullptr, &PlanSettings::occupied_from},
-};
 
 const char* turn_word(std::uint32_t flags) {
   if ((flags & POSE_WALL_PLANAR_PATH_TURN_LEFT) != 0) return "left";
@@ -50,12 +26,16 @@ const char* turn_word(std::uint32_t flags) {
 
 }  // namespace
 
-std::vector<std::string> plan_setting_names() {
-  return names_of(kPlanWords);
+const SettingRows& plan_setting_rows() {
+  static const SettingRows rows = without({"width_max", "height_max", "resolution_m"}, {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_plan_settings, __VA_ARGS__)
+#include "pose_wall_planar_plan_settings.def"
+                                                                                       });
+  return rows;
 }
 
 void require_plan_settings(const std::vector<std::string>& words) {
-  const std::vector<std::string> names = plan_setting_names();
+  const std::vector<std::string> names = names_of(plan_setting_rows());
   std::vector<std::string> faults;
   for (const std::string& word : words) {
     const std::string name = named_value(word).name;
@@ -79,7 +59,7 @@ pose_wall_planar_plan_settings take_plan_settings(const pose_wall_planar_grid& g
   settings.height_max = std::max(grid.height, kSideLeast);
   settings.resolution_m = grid.resolution_m;
   settings.lattice_m = std::max(settings.lattice_m, 2.0 * grid.resolution_m);
-  take_settings(kPlanWords, pose_wall_planar_plan_settings_check, words, &settings);
+  take_settings(plan_setting_rows(), pose_wall_planar_plan_settings_check, words, &settings);
   pose_wall_planar_fault fault{};
   if (pose_wall_planar_plan_settings_check(&settings, &fault) != POSE_WALL_OK) {
     throw std::invalid_argument(fault.rule != nullptr ? fault.rule : tr("the value is refused"));

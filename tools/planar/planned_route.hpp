@@ -12,11 +12,13 @@
 
 #include "planar/map_picture.hpp"
 #include "planar/part_block.hpp"
+#include "planar/setting_words.hpp"
 #include "pose_wall_planar_plan.h"
 
 namespace pose_wall::tools {
 
-std::vector<std::string> plan_setting_names();
+// Without those that follow from the grid.
+const SettingRows& plan_setting_rows();
 // Throws std::invalid_argument that names every word whose name is none of them.
 void require_plan_settings(const std::vector<std::string>& words);
 

@@ -50,7 +50,7 @@ void require_any_there(const std::vector<std::string>& inputs) {
 
 // A name that no table has may be meant for one of the planar library: the config's own answer knows only its keys.
 void compare_settings(const std::vector<std::string>& words, const std::vector<std::string>& verb_settings) {
-  std::vector<std::string> planar = scanner_setting_names();
+  std::vector<std::string> planar = names_of(scanner_setting_rows());
   planar.insert(planar.end(), verb_settings.begin(), verb_settings.end());
   const std::vector<std::string> keys = config_key_names();
   for (const std::string& word : words) {

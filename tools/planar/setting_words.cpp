@@ -13,6 +13,7 @@
 #include "frames/text_cursor.hpp"
 #include "language/language.hpp"
 #include "terminal/did_you_mean.hpp"
+#include "terminal/text_table.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -90,7 +91,38 @@ std::string rule_text(const pose_wall_planar_fault& fault, const std::vector<Set
   return text;
 }
 
+// "0.3 m, 0.05 to 2"
+std::string range_text(const SettingRow& row) {
+  const bool is_switch = row.is_count && row.least == std::string("0") && row.most == std::string("1");
+  const std::string unit = row.unit == std::string("1") ? "" : std::string(" ") + row.unit;
+  return is_switch ? say("{}; 0 or 1", row.standard) : say("{}{}; {} to {}", row.standard, unit, row.least, row.most);
+}
+
 }  // namespace
+
+SettingRows without(const std::vector<std::string>& names, SettingRows rows) {
+  const auto is_named = [&names](const SettingRow& row) {
+    return std::find(names.begin(), names.end(), row.name) != names.end();
+  };
+  rows.erase(std::remove_if(rows.begin(), rows.end(), is_named), rows.end());
+  return rows;
+}
+
+std::vector<std::string> names_of(const SettingRows& rows) {
+  std::vector<std::string> names;
+  for (const SettingRow& row : rows) names.emplace_back(row.name);
+  return names;
+}
+
+std::string settings_help(const SettingRows& rows) {
+  constexpr std::size_t kWidth = 108;  // with the indent as wide as the other lines of the help
+  std::string text = std::string("\n") + tr("Settings of --set, each with its default and range:");
+  for (const SettingRow& row : rows) {
+    const std::string setting = wrapped(say("{} ({}): {}", row.name, range_text(row), tr(row.help)), 4, kWidth);
+    text += "\n" + setting.substr(2, setting.size() - 3);
+  }
+  return text;
+}
 
 NamedValue named_value(const std::string& word) {
   const std::size_t equals = std::min(word.find('='), word.size());

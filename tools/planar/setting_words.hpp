@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Settings of a part of pose_wall_planar as `--set NAME=VALUE` gives them. Names are those of the struct's members.
+// Settings of a part of pose_wall_planar as `--set NAME=VALUE` gives them, by the table of the part's public header.
 
 #pragma once
 
@@ -15,13 +15,26 @@
 
 namespace pose_wall::tools {
 
-// One member: a number, or a count.
-template <typename Settings>
-struct SettingWord {
+// One member: where it lies, whether it is a whole number, and what the table says of it.
+struct SettingRow {
   const char* name;
-  double Settings::*number = nullptr;
-  std::uint32_t Settings::*count = nullptr;
+  std::size_t offset;
+  bool is_count;
+  const char *standard, *least, *most, *unit, *help;
 };
+using SettingRows = std::vector<SettingRow>;
+
+// Rows of a settings struct:
+//     #define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_slam_settings, __VA_ARGS__)
+//     #include "pose_wall_planar_slam_settings.def"
+#define POSE_WALL_SETTING_ROW(Settings, type, name, standard, least, most, unit, help) \
+  {#name, offsetof(Settings, name), sizeof(type) == sizeof(std::uint32_t), #standard, #least, #most, unit, help},
+
+// The others, where a verb knows some values itself.
+SettingRows without(const std::vector<std::string>& names, SettingRows rows);
+std::vector<std::string> names_of(const SettingRows& rows);
+// For the end of a verb's --help: a paragraph of each setting with its default and range.
+std::string settings_help(const SettingRows& rows);
 
 struct NamedValue {
   std::string name, value;
@@ -50,23 +63,17 @@ void refuse_settings(const std::vector<std::string>& faults);
 
 // Sets the members that `words` name and takes these words out. Throws std::invalid_argument that names every refused
 // setting and its range.
-template <typename Settings, std::size_t kWords, typename Check>
-void take_settings(const SettingWord<Settings> (&known)[kWords], Check check, std::vector<std::string>* words,
-                   Settings* settings) {
+template <typename Settings>
+void take_settings(const SettingRows& rows, std::int32_t (*check)(const Settings*, pose_wall_planar_fault*),
+                   std::vector<std::string>* words, Settings* settings) {
   std::vector<SettingPlace> places;
-  for (const SettingWord<Settings>& setting : known) {
-    places.push_back({setting.name, setting.number != nullptr ? &(settings->*setting.number) : nullptr,
-                      setting.count != nullptr ? &(settings->*setting.count) : nullptr});
+  for (const SettingRow& row : rows) {
+    unsigned char* const at = reinterpret_cast<unsigned char*>(settings) + row.offset;
+    places.push_back({row.name, row.is_count ? nullptr : reinterpret_cast<double*>(at),
+                      row.is_count ? reinterpret_cast<std::uint32_t*>(at) : nullptr});
   }
   refuse_settings(set_places(
       places, [&](pose_wall_planar_fault* fault) { return check(settings, fault); }, words));
-}
-
-template <typename Settings, std::size_t kWords>
-std::vector<std::string> names_of(const SettingWord<Settings> (&known)[kWords]) {
-  std::vector<std::string> names;
-  for (const SettingWord<Settings>& setting : known) names.emplace_back(setting.name);
-  return names;
 }
 
 }  // namespace pose_wall::tools

@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "planar/setting_words.hpp"
 #include "pose_wall_planar_slam.h"
 
 namespace pose_wall::tools {
 
-// "keyframe_m" and so on.
-std::vector<std::string> slam_setting_names();
+// Without keyframes_most: the trail takes the room that is there.
+const SettingRows& slam_setting_rows();
 
 // The defaults, with the settings that `words` holds; these are taken out of it, the others stay. Throws
 // std::invalid_argument that names the setting and its range.

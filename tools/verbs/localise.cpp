@@ -286,7 +286,7 @@ int localise_scans(LocaliseOptions options) {
   const pose_wall_planar_localise_settings settings = take_localise_settings(&options.frames.settings);
   std::optional<pose_wall_planar_pose> start;
   if (!options.start.empty()) start = pose_of_word(options.start, "--start");
-  const std::unique_ptr<ScanSource> source = open_scans(options.frames, localise_setting_names());
+  const std::unique_ptr<ScanSource> source = open_scans(options.frames, names_of(localise_setting_rows()));
   const KnownMap map = read_known_map(options.map);
   if (start && !is_inside(map.cells.grid(), start->x_m, start->y_m)) {  // of another map, or in millimetres
     throw std::invalid_argument(
@@ -347,7 +347,7 @@ void add_localise(CLI::App& app, int& exit_code) {
   verb->add_option("--relations", options->relations,
                    tr("File of relations between poses (t1 t2 x y z roll pitch yaw): errors against these"))
       ->check(existing_file());
-  verb->footer(tr(
+  const std::string text = tr(
       "Examples:\n"
       "  pose_wall map -o aces --poses aces.tum aces.clf\n"
       "  pose_wall localise aces aces.clf --restart 60 --truth aces.tum -o found -s map_is_whole=1\n"
@@ -360,11 +360,11 @@ void add_localise(CLI::App& app, int& exit_code) {
       "  Unknown    No place of the map fits.\n"
       "  Searching  The first search since the restart goes on.\n"
       "Smooth walls alone are never unique, for the map may lack a place like this one.\n"
-      "--set map_is_whole=1 says that the machine can only be where the map is. Also --set work (40000, steps of\n"
-      "search in a scan), odometry_m (0.1, by the way) and odometry_rad (0.3, by the turn).\n"
+      "--set map_is_whole=1 says that the machine can only be where the map is.\n"
       "localise.csv holds base's pose; --poses that of the scanner for a log, as `map` does.\n"
       "Exit status: 0 done, 1 map or input unreadable or a file not written, 2 bad usage or config,\n"
-      "3 the place of the last scan is not unique, 130 interrupted by Ctrl-C: files show the scans so far."));
+      "3 the place of the last scan is not unique, 130 interrupted by Ctrl-C: files show the scans so far.");
+  verb->footer(text + settings_help(localise_setting_rows()));
   verb->callback(
       [options, &exit_code] { exit_code = done_or_complaint("localise", [&] { return localise_scans(*options); }); });
 }

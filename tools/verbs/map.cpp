@@ -215,7 +215,7 @@ bool print_end(const MapOptions& options, const MapWork& work, const BuiltMap& b
 
 int map_scans(MapOptions options) {
   const pose_wall_planar_slam_settings settings = take_slam_settings(&options.frames.settings);
-  const std::unique_ptr<ScanSource> source = open_scans(options.frames, slam_setting_names());
+  const std::unique_ptr<ScanSource> source = open_scans(options.frames, names_of(slam_setting_rows()));
   const std::vector<Relation> relations = read_relations_of(options);
   const std::unique_ptr<OutputFile> poses = open_outputs(options, *source);
   print_start(options, *source);
@@ -260,7 +260,7 @@ void add_map(CLI::App& app, int& exit_code) {
   verb->add_option("--cell", options->cell_m, tr("Side of a cell of the map, m"))
       ->capture_default_str()
       ->check(number_within(0.02, 0.5));
-  verb->footer(tr(
+  const std::string text = tr(
       "Examples:\n"
       "  pose_wall map aces.clf.gz -o aces --poses aces.tum --relations aces.relations\n"
       "  pose_wall map -c road/pose_wall.yaml -o map road/frames\n"
@@ -268,11 +268,11 @@ void add_map(CLI::App& app, int& exit_code) {
       "The pose of a log's scan is that of its scanner, as FLASER has it, else that of base.\n"
       "Every scan is matched with the last metres. Where the machine comes back to a place, the closure is believed\n"
       "after several looks agree, and taken back where later looks contradict it.\n"
-      "--set also takes keyframe_m (0.3), keyframe_rad (0.25), and by how much odometry errs: odometry_m (0.1, by\n"
-      "the way), odometry_rad (0.3, by the turn).\n"
+      "Of frames, --set also takes what `scan` takes.\n"
       "The folder of -o is the MAP of `localise` and `plan`, and `report` shows it.\n"
       "Exit status: 0 done, 1 an input could not be read (the others are mapped), a file not written, or no relation\n"
-      "is of these scans, 2 bad usage or config, 130 interrupted by Ctrl-C: files show the scans so far."));
+      "is of these scans, 2 bad usage or config, 130 interrupted by Ctrl-C: files show the scans so far.");
+  verb->footer(text + settings_help(slam_setting_rows()));
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("map", [&] { return map_scans(*options); }); });
 }
 

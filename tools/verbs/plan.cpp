@@ -168,22 +168,20 @@ void add_plan(CLI::App& app, int& exit_code) {
   verb->add_flag("--free-specks", options->free_specks,
                  tr("Count unknown cells in the open as free: people that walked by leave such specks"));
   verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
-  verb->footer(tr(
-      "Examples:\n"
-      "  pose_wall plan map --from 0,0,0 --to 12.5,-3,180 -o route.csv --picture route.svg\n"
-      "  pose_wall plan map/map.yaml --from 0,0,0 --to 20,0,0 -s front_m=1.8 -s rear_m=2.7 -s margin_m=0.2\n"
-      "Places are of the machine's turning centre, midway between its tracks, in the frame of the map. In a map of\n"
-      "`map` 0,0,0 is where base stood at the first scan: x ahead of it, y to its left. Yaw counts from x to y: 90\n"
-      "looks along y. Pictures have x and y at their edges.\n"
-      "The machine is a rectangle from its turning centre to front_m, rear_m (2.25), left_m, right_m (0.6), with\n"
-      "margin_m (0.1) round it.\n"
-      "It drives forwards and backwards, in curves, and turns on the spot. Unknown cells are not driven on.\n"
-      "Further settings: lattice_m (0.25, at most an eighth of the machine's length), turn_cost_m_rad, reverse_cost,\n"
-      "cusp_cost_m, weight, radius_min_m, radius_max_m, pose_step_m, places_max, open_max, expansions_max,\n"
-      "hurry_after, occupied_from.\n"
-      "drive of a pose is 1 forwards, -1 backwards, 0 a turn on the spot that leads to it.\n"
-      "Exit status: 0 done, 1 the map could not be read or a file not written, 2 bad usage, 3 there is no route\n"
-      "(stderr has the reason, the picture the place)."));
+  const std::string text =
+      tr("Examples:\n"
+         "  pose_wall plan map --from 0,0,0 --to 12.5,-3,180 -o route.csv --picture route.svg\n"
+         "  pose_wall plan map/map.yaml --from 0,0,0 --to 20,0,0 -s front_m=1.8 -s rear_m=2.7 -s margin_m=0.2\n"
+         "Places are of the machine's turning centre, midway between its tracks, in the frame of the map. In a map of\n"
+         "`map` 0,0,0 is where base stood at the first scan: x ahead of it, y to its left. Yaw counts from x to y: 90\n"
+         "looks along y. Pictures have x and y at their edges.\n"
+         "The machine is a rectangle from its turning centre to front_m, rear_m, left_m, right_m, with\n"
+         "margin_m round it.\n"
+         "It drives forwards and backwards, in curves, and turns on the spot. Unknown cells are not driven on.\n"
+         "drive of a pose is 1 forwards, -1 backwards, 0 a turn on the spot that leads to it.\n"
+         "Exit status: 0 done, 1 the map could not be read or a file not written, 2 bad usage, 3 there is no route\n"
+         "(stderr has the reason, the picture the place).");
+  verb->footer(text + settings_help(plan_setting_rows()));
   verb->callback(
       [options, &exit_code] { exit_code = done_or_complaint("plan", [&] { return plan_route(*options); }); });
 }

@@ -230,20 +230,19 @@ void add_scan(CLI::App& app, int& exit_code) {
                    tr("Number of that scan among the inputs, from 0; where it cannot be read, the next one"))
       ->capture_default_str()
       ->check(whole_number());
-  verb->footer(
-      tr("Examples:\n"
-         "  pose_wall scan -c road/pose_wall.yaml -o scans.csv --picture scan.svg road/frames\n"
-         "  pose_wall scan -c vlp16 -s machine_height_m=1.6 --format json -o scans.jsonl road.bag\n"
-         "  pose_wall scan --format json -o scans.jsonl aces.clf.gz\n"
-         "Scans of a log stay as they are. Of frames, a beam is the first thing of the machine's height in its\n"
-         "direction. Heights count from the measured floor:\n"
-         "--set ground_clearance_m (0.25) and machine_height_m (1.8), with margin_m (0.1) at both ends. Further\n"
-         "settings: floor_tolerance_m, overhead_m, thing_m, clear_reach_m, angle_min_rad, angle_max_rad,\n"
-         "angle_step_rad, range_min_m, range_max_m, fill_rad, hold_max_s, tilt_level_max_rad, bend_rad, alone.\n"
-         "An empty range_m is unknown, which is not free. free_m: so far a ray passed. low_m, overhead_m: nearest\n"
-         "return below and above the band. clear_from_m to clear_m: nothing of thing_m (0.2) stands there unseen.\n"
-         "Exit status: 0 done, 1 an input could not be read or has no floor (the others are written), 2 bad usage or\n"
-         "config, 130 interrupted by Ctrl-C: whole scans are written."));
+  const std::string text = tr(
+      "Examples:\n"
+      "  pose_wall scan -c road/pose_wall.yaml -o scans.csv --picture scan.svg road/frames\n"
+      "  pose_wall scan -c vlp16 -s machine_height_m=1.6 --format json -o scans.jsonl road.bag\n"
+      "  pose_wall scan --format json -o scans.jsonl aces.clf.gz\n"
+      "Scans of a log stay as they are. Of frames, a beam is the first thing of the machine's height in its\n"
+      "direction. Heights count from the measured floor: from ground_clearance_m to machine_height_m, with margin_m\n"
+      "at both ends.\n"
+      "An empty range_m is unknown, which is not free. free_m: so far a ray passed. low_m, overhead_m: nearest\n"
+      "return below and above the band. clear_from_m to clear_m: nothing of thing_m stands there unseen.\n"
+      "Exit status: 0 done, 1 an input could not be read or has no floor (the others are written), 2 bad usage or\n"
+      "config, 130 interrupted by Ctrl-C: whole scans are written.");
+  verb->footer(text + settings_help(scanner_setting_rows()));
   verb->callback([options, &exit_code] {
     if (options->output == "-") options->output.clear();
     exit_code = done_or_complaint("scan", [&] { return scan_inputs(*options); });
