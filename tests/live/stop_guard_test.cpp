@@ -109,7 +109,7 @@ TEST_F(StopGuardTest, FramesPermitAndSilenceStopsAsSoonAsTheNewestIsStale) {
       first_age_ns = std::min(first_age_ns, age_ns);
     }
   }
-  const auto stale_ns = static_cast<std::int64_t>(loaded_.planar.stale_s * 1e9);
+  const auto stale_ns = static_cast<std::int64_t>(loaded_.planar.stop.stale_s * 1e9);
   EXPECT_LE(last_good_age_ns, stale_ns);
   EXPECT_GT(first_age_ns, stale_ns);
   EXPECT_LT(first_age_ns, stale_ns + kSecond_ns) << "a busy machine is given time";
@@ -286,7 +286,7 @@ TEST_F(MeasuredStopTest, AMachineThatMayStandSetsOffAheadAndOneThatReversesDoesN
   // The wall is believed to stand after settle_s.
   EXPECT_TRUE(becomes_true([&] { return drives_after(0.0, hall, -0.02, 0.03); }))
       << stop_reasons_text(guard_->stop_now().result.reasons);
-  EXPECT_DOUBLE_EQ(guard_->stop_now().result.allowed_speed_m_s, loaded_.planar.speed_max_m_s);
+  EXPECT_DOUBLE_EQ(guard_->stop_now().result.allowed_speed_m_s, loaded_.planar.stop.speed_max_m_s);
   drives_after(0.1, hall, -0.02, 0.01);
   EXPECT_EQ(guard_->stop_now().allowed_mm_s(), 0) << "it reverses for sure";
   EXPECT_LT(guard_->stop_now().result.nearest_m[0], 0.0) << "for what is behind";
@@ -345,7 +345,7 @@ TEST(StopGuardOf, FramesThatComeFasterThanTheyAreAnsweredAreLostAndCounted) {
 
 TEST(StopGuardOf, RefusedSettingsAreNamedWithWhatIsAllowed) {
   LoadedConfig loaded = load_config("", hall_settings());
-  loaded.planar.floor_z_m = 99.0;
+  loaded.planar.stop.floor_z_m = 99.0;
   try {
     const StopGuard guard(loaded, nullptr);
     FAIL() << "floor_z_m is 99";
@@ -368,7 +368,7 @@ TEST(StopGuardOf, MeasuredMotionIsUsedOnlyWhereAskedForAndFresh) {
     ASSERT_TRUE(becomes_true([&] { return fact(guard.health(), "frames answered") == "1"; }));
     const StopNews news = guard.stop_now();
     EXPECT_EQ((news.result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING) == 0, mode == "measured") << mode;
-    EXPECT_NEAR(news.result.rim_speed_m_s, mode == "measured" ? 0.2 : loaded.planar.speed_max_m_s, 1e-6);
+    EXPECT_NEAR(news.result.rim_speed_m_s, mode == "measured" ? 0.2 : loaded.planar.stop.speed_max_m_s, 1e-6);
   }
 }
 

@@ -21,28 +21,32 @@ struct MotionKeyRow {
 
 constexpr const char* kMotion = translatable("Motion along the road");
 
-// The ranges of pose_wall_motion.h; those in degrees lie within them.
+constexpr SettingRange<pose_wall_motion_settings> kMotionRanges[] = {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_RANGE(pose_wall_motion_settings, __VA_ARGS__)
+#include "pose_wall_motion_settings.def"
+};
+
+MotionKeyRow motion_key(const char* name, double pose_wall_motion_settings::*member, const char* help) {
+  return {key_of(kMotionRanges, member, name, kMotion, help), member, 1.0};
+}
+
+// The range in degrees lies within the table's.
 const std::vector<MotionKeyRow>& motion_key_rows() {
   static const std::vector<MotionKeyRow> table = {
-      {{"motion_speed_max", kMotion, OutsideKey::Type::kNumber, "m/s", 0.01, 30, "",
-        translatable("top speed of the machine; decides how far each frame is searched, and how fast the level along "
-                     "the road grows "
-                     "while travel is unobservable")},
-       &pose_wall_motion_settings::speed_max_m_s,
-       1.0},
+      motion_key(
+          "motion_speed_max", &pose_wall_motion_settings::speed_max_m_s,
+          translatable("top speed of the machine; decides how far each frame is searched, and how fast the level along "
+                       "the road grows while travel is unobservable")),
       {{"motion_turn_max_deg", kMotion, OutsideKey::Type::kNumber, "deg/s", 1, 570, "",
         translatable("fastest turn of the machine")},
        &pose_wall_motion_settings::turn_max_rad_s,
        kRadPerDeg},
-      {{"motion_range_max", kMotion, OutsideKey::Type::kNumber, "m", 3, 100, "",
-        translatable("farther returns are not used for motion; range_max does not apply here")},
-       &pose_wall_motion_settings::range_max_m,
-       1.0},
-      {{"motion_keyframe", kMotion, OutsideKey::Type::kNumber, "m", 0.05, 1, "",
-        translatable(
-            "travel between two scans of the map; smaller follows rough rock better and fills the map sooner")},
-       &pose_wall_motion_settings::keyframe_m,
-       1.0},
+      motion_key("motion_range_max", &pose_wall_motion_settings::range_max_m,
+                 translatable("farther returns are not used for motion; range_max does not apply here")),
+      motion_key(
+          "motion_keyframe", &pose_wall_motion_settings::keyframe_m,
+          translatable(
+              "travel between two scans of the map; smaller follows rough rock better and fills the map sooner")),
   };
   return table;
 }

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,26 @@ struct OutsideKey {
   const char* choices;      // of kChoice: "udp, ros1, ros2"
   const char* help;
 };
+
+// What the table of a part's settings says of a member: include/NAME_settings.def, with
+//     #define POSE_WALL_SETTING(...) POSE_WALL_SETTING_RANGE(pose_wall_motion_settings, __VA_ARGS__)
+template <typename Settings>
+struct SettingRange {
+  double Settings::*member;
+  const char* unit;
+  double least, most;
+};
+#define POSE_WALL_SETTING_RANGE(Settings, type, name, standard, least, most, unit, help) \
+  {&Settings::name, unit, least, most},
+
+// A key that is such a member, in the table's unit and range.
+template <typename Settings, std::size_t kRows>
+OutsideKey key_of(const SettingRange<Settings> (&rows)[kRows], double Settings::*member, const char* name,
+                  const char* group, const char* help) {
+  std::size_t row = 0;
+  while (rows[row].member != member) ++row;  // every member has its row
+  return {name, group, OutsideKey::Type::kNumber, rows[row].unit, rows[row].least, rows[row].most, "", help};
+}
 
 // Of kChoice, each for itself.
 std::vector<std::string> choices_of(const OutsideKey& key);

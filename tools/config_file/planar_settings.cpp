@@ -16,7 +16,8 @@
 namespace pose_wall::tools {
 namespace {
 
-using PlanarMember = std::variant<std::string PlanarSettings::*, double PlanarSettings::*>;
+using StopMember = double pose_wall_planar_stop_settings::*;
+using PlanarMember = std::variant<std::string PlanarSettings::*, double PlanarSettings::*, StopMember>;
 
 struct PlanarKeyRow {
   OutsideKey info;
@@ -32,6 +33,15 @@ constexpr double kRounding_s = 1e-9;
 
 constexpr const char* kRoadwayGroup = translatable("Live: map of the roadway");
 constexpr const char* kStopGroup = translatable("Live: obstacle stop, and the machine that it stops");
+
+constexpr SettingRange<pose_wall_planar_stop_settings> kStopRanges[] = {
+#define POSE_WALL_SETTING(...) POSE_WALL_SETTING_RANGE(pose_wall_planar_stop_settings, __VA_ARGS__)
+#include "pose_wall_planar_stop_settings.def"
+};
+
+PlanarKeyRow stop_key(const char* name, StopMember member, const char* help) {
+  return {key_of(kStopRanges, member, name, kStopGroup, help), member};
+}
 
 // The ranges lie within those of pose_wall_planar_stop.h, _scan.h and _map.h, also of what follows from the keys
 // (stop_settings_of): delay_s from 0.1 to 2, slack_s up to 2.
@@ -81,40 +91,37 @@ const std::vector<PlanarKeyRow>& planar_key_rows() {
        &PlanarSettings::y_min_m},
       {{"planar_y_max", kStopGroup, OutsideKey::Type::kNumber, "m", 0.05, 5, "", translatable("likewise: largest y")},
        &PlanarSettings::y_max_m},
-      {{"planar_floor_z", kStopGroup, OutsideKey::Type::kNumber, "m", -10, 10, "",
-        translatable("height of the tracks' contact with the floor, in base")},
-       &PlanarSettings::floor_z_m},
+      stop_key("planar_floor_z", &pose_wall_planar_stop_settings::floor_z_m,
+               translatable("height of the tracks' contact with the floor, in base")),
       {{"planar_height", kStopGroup, OutsideKey::Type::kNumber, "m", 1.4, 6, "",
         translatable("height of the machine above the floor, with clearance; higher things are no obstacle")},
        &PlanarSettings::height_m},
       {{"planar_clearance", kStopGroup, OutsideKey::Type::kNumber, "m", 0.2, 1.2, "",
         translatable("height of the body's lowest part above the floor; lower things are not in the map")},
        &PlanarSettings::clearance_m},
-      {{"planar_speed_max", kStopGroup, OutsideKey::Type::kNumber, "m/s", 0.05, 3, "",
-        translatable("largest speed of any point of the machine that is allowed")},
-       &PlanarSettings::speed_max_m_s},
+      stop_key("planar_speed_max", &pose_wall_planar_stop_settings::speed_max_m_s,
+               translatable("largest speed of any point of the machine that is allowed")),
       {{"planar_turn_max_deg", kStopGroup, OutsideKey::Type::kNumber, "deg/s", 1, 110, "",
         translatable("fastest turn that is allowed")},
        &PlanarSettings::turn_max_deg_s},
-      {{"planar_deceleration", kStopGroup, OutsideKey::Type::kNumber, "m/s2", 0.1, 10, "",
-        translatable("least deceleration by the brakes")},
-       &PlanarSettings::deceleration_m_s2},
-      {{"planar_creep", kStopGroup, OutsideKey::Type::kNumber, "m/s", 0, 0.3, "",
-        translatable("speed at which the machine may pass a thing that stands still, however near; 0: not at all")},
-       &PlanarSettings::creep_m_s},
+      stop_key("planar_deceleration", &pose_wall_planar_stop_settings::deceleration_m_s2,
+               translatable("least deceleration by the brakes")),
+      stop_key(
+          "planar_creep", &pose_wall_planar_stop_settings::creep_m_s,
+          translatable("speed at which the machine may pass a thing that stands still, however near; 0: not at all")),
       {{"planar_latency", kStopGroup, OutsideKey::Type::kNumber, "s", 0, 1.4, "",
         translatable("from the stop's answer to the first effect of the brakes, the controller's cycle included")},
-       &PlanarSettings::latency_s},
+       &pose_wall_planar_stop_settings::latency_s},
       {{"planar_period", kStopGroup, OutsideKey::Type::kNumber, "s", 0.04, 0.5, "",
         translatable("longest time between two frames of the sensor. Much slower ones stop the machine")},
        &PlanarSettings::period_s},
-      {{"planar_stale", kStopGroup, OutsideKey::Type::kNumber, "s", 0.02, 1, "",
-        translatable("age of the newest frame at which the machine is stopped. At least planar_period and 0.05 s, its "
-                     "own delay")},
-       &PlanarSettings::stale_s},
-      {{"planar_scan_time", kStopGroup, OutsideKey::Type::kNumber, "s", 0, 0.5, "",
-        translatable("so long before its stamp a frame began, at most planar_period; 0: all points at the stamp")},
-       &PlanarSettings::scan_time_s},
+      stop_key("planar_stale", &pose_wall_planar_stop_settings::stale_s,
+               translatable(
+                   "age of the newest frame at which the machine is stopped. At least planar_period and 0.05 s, its "
+                   "own delay")),
+      stop_key(
+          "planar_scan_time", &pose_wall_planar_stop_settings::scan_s,
+          translatable("so long before its stamp a frame began, at most planar_period; 0: all points at the stamp")),
   };
   return table;
 }
@@ -135,15 +142,15 @@ bool is_planar_choice(const OutsideKey& key, const std::string& value) {
 // What the stop's times ask of the keys from which they follow.
 std::string broken_time_rule(const PlanarSettings& settings) {
   const double stale_least_s = settings.period_s + kFrameDelay_s;
-  if (settings.stale_s < stale_least_s - kRounding_s) {
+  if (settings.stop.stale_s < stale_least_s - kRounding_s) {
     return say(
         "planar_stale: {:g} s is too short for planar_period {:g} s: each frame would be stale before the next one; "
         "allowed: from {:g} s",
-        settings.stale_s, settings.period_s, stale_least_s);
+        settings.stop.stale_s, settings.period_s, stale_least_s);
   }
-  if (settings.scan_time_s > settings.period_s + kRounding_s) {
+  if (settings.stop.scan_s > settings.period_s + kRounding_s) {
     return say("planar_scan_time: {:g} s is longer than planar_period, {:g} s: a frame lasts no longer than its period",
-               settings.scan_time_s, settings.period_s);
+               settings.stop.scan_s, settings.period_s);
   }
   return "";
 }
@@ -162,7 +169,20 @@ std::string broken_stop_rule(const PlanarSettings& settings) {
              std::hypot(x_m, y_m));
 }
 
+// A row's number in the settings, which are const or not.
+template <typename Settings>
+auto& number_at(Settings* settings, const PlanarMember& member) {
+  const auto of_stop = std::get_if<StopMember>(&member);
+  return of_stop != nullptr ? settings->stop.**of_stop : settings->*std::get<double PlanarSettings::*>(member);
+}
+
 }  // namespace
+
+pose_wall_planar_stop_settings default_stop_settings() {
+  pose_wall_planar_stop_settings stop{};
+  static_cast<void>(pose_wall_planar_stop_settings_init(&stop));
+  return stop;
+}
 
 const std::vector<OutsideKey>& planar_keys() {
   static const std::vector<OutsideKey> keys = [] {
@@ -181,7 +201,7 @@ const OutsideKey* find_planar_key(const std::string& name) {
 std::string planar_value_text(const PlanarSettings& settings, const OutsideKey& key) {
   const PlanarMember member = find_planar_row(key.name)->member;
   if (const auto text = std::get_if<std::string PlanarSettings::*>(&member)) return settings.**text;
-  return fmt::format("{:.9g}", settings.*std::get<double PlanarSettings::*>(member));
+  return fmt::format("{:.9g}", number_at(&settings, member));
 }
 
 bool set_planar_value(PlanarSettings* settings, const OutsideKey& key, const std::string& value) {
@@ -192,26 +212,18 @@ bool set_planar_value(PlanarSettings* settings, const OutsideKey& key, const std
     return true;
   }
   const std::optional<double> read = number_of(key, value);
-  if (read) settings->*std::get<double PlanarSettings::*>(member) = *read;
+  if (read) number_at(settings, member) = *read;
   return read.has_value();
 }
 
 pose_wall_planar_stop_settings stop_settings_of(const PlanarSettings& settings) {
-  pose_wall_planar_stop_settings stop{};
-  static_cast<void>(pose_wall_planar_stop_settings_init(&stop));
+  pose_wall_planar_stop_settings stop = settings.stop;
   static_cast<void>(
       pose_wall_planar_stop_rectangle(&stop, settings.x_min_m, settings.x_max_m, settings.y_min_m, settings.y_max_m));
-  stop.floor_z_m = settings.floor_z_m;
   stop.top_m = settings.height_m;
-  stop.speed_max_m_s = settings.speed_max_m_s;
   stop.turn_max_rad_s = settings.turn_max_deg_s * kRadPerDeg;
-  stop.deceleration_m_s2 = settings.deceleration_m_s2;
-  stop.creep_m_s = settings.creep_m_s;
-  stop.latency_s = settings.latency_s;
-  stop.stale_s = settings.stale_s;
-  stop.scan_s = settings.scan_time_s;
   stop.delay_s = kFramesOfDust * settings.period_s;
-  stop.slack_s = settings.period_s + kFrameDelay_s + settings.latency_s;
+  stop.slack_s = settings.period_s + kFrameDelay_s + stop.latency_s;
   return stop;
 }
 

@@ -14,6 +14,8 @@
 
 namespace pose_wall::tools {
 
+pose_wall_planar_stop_settings default_stop_settings();
+
 struct PlanarSettings {
   std::string mode = "off";  // map: SLAM; localise: in the map of `map`
   std::string map;           // trail.pwt, or map.yaml
@@ -24,9 +26,10 @@ struct PlanarSettings {
   double cell_m = 0.05, map_every_s = 2.0;
   // The machine, in base and above its floor.
   double x_min_m = -2.25, x_max_m = 2.25, y_min_m = -0.6, y_max_m = 0.6;
-  double floor_z_m = 0.0, height_m = 1.8, clearance_m = 0.25;
-  double speed_max_m_s = 1.0, turn_max_deg_s = 23.0, deceleration_m_s2 = 1.0, creep_m_s = 0.1;
-  double latency_s = 0.2, period_s = 0.1, stale_s = 0.25, scan_time_s = 0.1;
+  double height_m = 1.8, clearance_m = 0.25;
+  double turn_max_deg_s = 23.0, period_s = 0.1;
+  // What keys set as it is. stop_settings_of fills in what follows from the others.
+  pose_wall_planar_stop_settings stop = default_stop_settings();
 
   bool is_on() const { return mode != "off"; }
   bool maps() const { return mode == "map"; }

@@ -145,7 +145,7 @@ class RoadwaySink final : public Sink {
   // The stop goes by the key, and the engine measures: who has set it wrong shall read it.
   bool is_floor_elsewhere() const {
     constexpr double kFloorError_m = 0.3;
-    return std::abs(floor_z_m_ - planar_.floor_z_m) > kFloorError_m;
+    return std::abs(floor_z_m_ - planar_.stop.floor_z_m) > kFloorError_m;
   }
 
   void note(const RoadwayNews& news, const std::string& fault, std::int64_t took_ns) {
