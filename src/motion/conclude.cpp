@@ -87,8 +87,8 @@ Concluded conclude(const Road& road, const Frame& frame, const MachinePrior& pri
   step.rad = turn_of(last.pose.R.transpose() * a.pose.R);
   step.is_along_known = measured || prior.has_way();
   step.slip_m = slip_of(settings, frame, prior, placed, along_m);
-  take_rock(last, a, weighed.variance_m2, measured, along_m, &next.of_rock);
-  next.covariance = next.of_rock;
+  take_rock(last, a, weighed.variance_m2, measured, along_m, &next.covariance);
+  next.of_rock = next.covariance.diagonal();
   if (!measured) add_bend(road.map, step.slip_m, &next.covariance);
   step.variance = Travel::variance_of_step(last.of_rock, next.of_rock);
   const double slip_m = measured ? last.slipped_m : step.slip_m;  // the first one found makes up for the others

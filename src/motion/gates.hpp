@@ -15,13 +15,13 @@ namespace pose_wall::motion {
 // A claim: what patches of rock must prefer a place by over all others, and what a motion must show by. On smooth roads
 // of four sensors the best of 17 places reached 4.2 (2026-11, simulated). From 3 to 8 levels of rates stay the same.
 constexpr double kClaim = 5.0;
-// A guess of the place along. With 5 the sweep measured 273 frames and not 348; with 2 its 95th percentile of step
-// errors is 20 mm and not 17.
+// A guess of the place along: a standard normal number passes it once in 4,000. With 5 the sweep measured 273 frames
+// and not 348, for a sparse sensor that starts on the move gets no map.
 constexpr double kGuess = 3.5;
 // By which the patches must prefer the best shift for another one to be excluded.
 constexpr double kExcluded = 3.0;
 // Beyond which an observation is of another surface and does not count. With 2.5 in the steps 27 of the sweep's poses
-// left their level and not 9; with 8 340 frames were measured and not 348.
+// left their level and not 9; with 8 only one did, and as many frames were measured.
 constexpr float kOutlier = 4.0F;
 
 // ---- shares
@@ -40,10 +40,11 @@ constexpr double kContrastLeast = 0.15;
 // which are seen from one side only. They drew steel sets by 30 mm (2026-11, simulated).
 constexpr double kHoldOfRoad = 0.05;
 constexpr double kHoldOfHall = 0.3;  // its own planes give the way
-// Of the best place's misfit after a gap: a place that fits worse is no rival.
+// Of the best place's misfit after a gap: a place that fits worse is no rival. From 1.2 to 2.5 the sweep measured the
+// same frames.
 constexpr double kRivalMisfit = 1.5;
-// Of the range of top speed and turn: a place there is not the edge of the search. From 1 to 2.5 the sweep measured 348
-// to 353 frames.
+// Of the range of top speed and turn: a place there is not the edge of the search. From 1 to 2.5 the sweep measured as
+// many frames.
 constexpr double kReachMargin = 1.5;
 
 // ---- counts
@@ -51,7 +52,8 @@ constexpr double kReachMargin = 1.5;
 // Fewer cannot be placed: 60 are to lie on ground and 80 to match. With 50 and with 400 the sweep measured the same
 // frames.
 constexpr std::uint32_t kObservationsLeast = 150;
-constexpr std::uint32_t kGroundLeast = 60;  // that settle roll, pitch and height
+// Of ground, that settle roll, pitch and height. With 20 and with 200 the sweep measured the same frames.
+constexpr std::uint32_t kGroundLeast = 60;
 // Of walls and roof: fewer are of one thing in sight. With 30 and with 200 the sweep measured the same frames: scans
 // that fit give more.
 constexpr std::uint32_t kMatchedLeast = 80;
@@ -61,8 +63,8 @@ constexpr std::uint32_t kRowsLeast = 100;
 
 // ---- metres and seconds
 
-// Two halves of the rock that differ widen sigma; that far apart, more than two cells, one of them is wrong. With 0.05
-// the sweep measured 341 frames and not 348, with 0.3 349.
+// Two halves of the rock that differ widen sigma; that far apart, more than two cells, one of them is wrong. From
+// 0.05 to 0.3 the sweep measured as many frames.
 constexpr double kHalvesMost_m = 0.12;
 // More, and the map's rock is somewhere else: twice the reach of a curve. With 2 m 30 of the sweep's poses left their
 // level and not 9; with 0.3 m 299 frames were measured and not 348.

@@ -19,8 +19,8 @@ constexpr double kSearchMost_s = 5.0;
 // Of the fine steps; all of a sparse sensor's count. With half as many the yaw rate's level is 30 % wider in the sweep,
 // with twice as many 24 % narrower.
 constexpr std::uint32_t kEquationsMost = 2048;
-// Of coarse steps, which end by themselves where they stand still. One would do on a road (346 of the sweep's frames
-// and not 348); after a gap there is further to go.
+// Of coarse steps, which end by themselves where they stand still. One would do on a road, where the sweep measured
+// as many frames; after a gap there is further to go.
 constexpr int kPassesMost = 4;
 // Of the curve, however little the machine can have slipped. With 0.1 the sweep measured 326 frames and not 348. With
 // 0.4 rock further off is taken for this one: the 95th percentile of step errors is 48 mm and not 17.
@@ -70,7 +70,7 @@ class Placing {
     a->pose = at;
     a->axes = road_.course.axes;
     const Eigen::Vector3d forward = at.R * road_.settings.forward_base;
-    find_axes(scan_, forward, a);
+    a->axes = find_axes(scan_, a->pose, forward, a->axes);
     StepOptions coarse;
     coarse.with_along = a->axes.hold > kHoldOfHall;
     coarse.every = 4;
@@ -79,7 +79,7 @@ class Placing {
       work_.add(observations_.size() / coarse.every, steps::kEquation);
       moves = take_steps(scan_, coarse, &s_.steps, a);
     }
-    find_axes(scan_, forward, a);
+    a->axes = find_axes(scan_, a->pose, forward, a->axes);
   }
 
   // The place along the road and its uncertainty.

@@ -28,14 +28,23 @@ double least_variance(int k) {
   return least * least;
 }
 
+double doubt(int k) {
+  return is_turn(k) ? kTurnDoubt : 1.0;
+}
+
 SixBySix doubted(const SixBySix& C) {
   SixBySix out = C;
   for (int i = 0; i < POSE_WALL_MOTION_DIRECTIONS; ++i) {
-    for (int j = 0; j < POSE_WALL_MOTION_DIRECTIONS; ++j) {
-      out(i, j) *= (is_turn(i) ? kTurnDoubt : 1.0) * (is_turn(j) ? kTurnDoubt : 1.0);
-    }
+    for (int j = 0; j < POSE_WALL_MOTION_DIRECTIONS; ++j) out(i, j) *= doubt(i) * doubt(j);
     out(i, i) += least_variance(i);
   }
+  return out;
+}
+
+Six doubted(const Six& variance) {
+  Six out;
+  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k)
+    out[k] = variance[k] * (doubt(k) * doubt(k)) + least_variance(k);
   return out;
 }
 
@@ -88,7 +97,7 @@ void Travel::slip(double along_m, double unevenness) {
 }
 
 Bounds Travel::bounds(const SixBySix& of_alignment, double slipping_m, double factor) const {
-  const Six variance = (of_map_ + doubted(of_alignment)).diagonal();
+  const Six variance = of_map_.diagonal() + doubted(Six(of_alignment.diagonal()));
   Bounds out;
   for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
     const double lost = is_turn(k) ? lost_rad_ : lost_m_;
@@ -101,13 +110,13 @@ Bounds Travel::bounds(const SixBySix& of_alignment, double slipping_m, double fa
 }
 
 Six Travel::level_of(const SixBySix& of_alignment, double slipping_m, double factor) {
-  Six level = factor * doubted(of_alignment).diagonal().cwiseSqrt();
+  Six level = factor * doubted(Six(of_alignment.diagonal())).cwiseSqrt();
   level[POSE_WALL_MOTION_ALONG] += slipping_m;
   return level;
 }
 
 Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor) {
-  const Six variance = (doubted(before) + doubted(now)).diagonal();
+  const Six variance = variance_of_step(before.diagonal(), now.diagonal());
   Bounds out;
   for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
     const double slip = k == POSE_WALL_MOTION_ALONG ? slip_m : 0.0;
@@ -117,8 +126,8 @@ Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, double slip_
   return out;
 }
 
-Six Travel::variance_of_step(const SixBySix& before, const SixBySix& now) {
-  return (doubted(before) + doubted(now)).diagonal();
+Six Travel::variance_of_step(const Six& before, const Six& now) {
+  return doubted(before) + doubted(now);
 }
 
 }  // namespace pose_wall::motion

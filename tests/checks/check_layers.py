@@ -19,10 +19,10 @@ WALLS = ["wall", "scene", "propose", "choose", "fit", "sample", "doubts", "scrat
 ROWS = [
     ["config", "types", "trace", "gates", "cloud", "region", "floor",
      *[f"walls/{step}" for step in WALLS], "walls", "output", "report", "image", "engine"],
-    ["pose", "gates", "frame_steps", "range_image", "segmentation", "relief_map", "features", "registration",
-     "along_match", "far_match", "start_counts", "wide_start", "machine_prior", "travel", "scan_motion", "frame",
-     "frame_clock", "expect", "look", "keyframes", "place_scan", "conclude", "motion_report", "motion_image",
-     "odometry", "motion_api"],
+    ["pose", "gates", "frame_steps", "range_image", "segmentation", "relief_map", "features", "surface_fit",
+     "road_axes", "registration", "along_match", "far_match", "start_counts", "wide_start", "machine_prior", "travel",
+     "scan_motion", "frame", "frame_clock", "expect", "look", "keyframes", "place_scan", "conclude", "motion_report",
+     "motion_image", "odometry", "motion_api"],
 ]
 MAY_INCLUDE = {room: set(TRUNK[:k]) for k, room in enumerate(TRUNK)}
 for library, row in zip(("engine", "motion"), ROWS):

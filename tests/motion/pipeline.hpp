@@ -46,7 +46,7 @@ class Pipeline {
   Alignment align(const Pose& from, bool with_along, int passes = 6) {
     Alignment a;
     a.pose = from;
-    find_axes(scan(), from.R * Eigen::Vector3d::UnitX(), &a);
+    a.axes = find_axes(scan(), a.pose, from.R * Eigen::Vector3d::UnitX(), a.axes);
     StepOptions options;
     options.with_along = with_along;
     for (int pass = 0; pass < passes; ++pass) {

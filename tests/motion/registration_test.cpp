@@ -97,7 +97,7 @@ TEST_F(Steps, TheRoadsAxisIsWhereSurfacesGiveLeastHold) {
   pipeline_.see(scan_of(room_, Pose{}), Pose{});
   for (const double forward : {1.0, -1.0}) {
     Alignment a;
-    find_axes(pipeline_.scan(), {forward, 0.3, 0.0}, &a);
+    a.axes = find_axes(pipeline_.scan(), a.pose, {forward, 0.3, 0.0}, a.axes);
     EXPECT_LT((a.axes.along - Eigen::Vector3d(forward, 0.0, 0.0)).norm(), 1e-3);
     EXPECT_LT((a.axes.left - Eigen::Vector3d(0.0, forward, 0.0)).norm(), 1e-3);
     EXPECT_LT((a.axes.up - Eigen::Vector3d(0.0, 0.0, 1.0)).norm(), 1e-3);
@@ -117,7 +117,7 @@ TEST_F(Steps, TheRoadsAxisIsNotUpWhereOnlyWallsAreSeen) {
     for (const double forward : {1.0, -1.0}) {
       Alignment a;
       a.pose = at;
-      find_axes(pipeline_.scan(), {forward, 0.2, 0.0}, &a);
+      a.axes = find_axes(pipeline_.scan(), a.pose, {forward, 0.2, 0.0}, a.axes);
       EXPECT_GT(a.axes.along.dot(Eigen::Vector3d(forward, 0.0, 0.0)), 0.9) << pitch_deg << " " << forward;
       EXPECT_LT(std::fabs(a.axes.along.y()), 0.05) << pitch_deg << " " << forward;
       EXPECT_GT(a.axes.up.z(), 0.9) << pitch_deg << " " << forward;
@@ -130,7 +130,7 @@ TEST_F(Steps, AHallHoldsInEveryDirection) {
   map_room();
   pipeline_.see(scan_of(room_, Pose{}), Pose{});
   Alignment a;
-  find_axes(pipeline_.scan(), Eigen::Vector3d::UnitX(), &a);
+  a.axes = find_axes(pipeline_.scan(), a.pose, Eigen::Vector3d::UnitX(), a.axes);
   EXPECT_GT(a.axes.hold, 0.3);
 }
 
