@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// From numbers to the words of a process image, and the sum over them. For the images of the engine and of motion.
+// From numbers to the words of a process image, and the sum over them. For all images.
 
 #pragma once
 

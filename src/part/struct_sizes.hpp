@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 //
 // Structs of callers built against another header. Structs grow at their end only, so struct_size gives the version.
-// Members that an earlier one lacks read as zero and are not written. For the engine and for the runtime.
+// Members that an earlier one lacks read as zero and are not written. For all parts.
 
 #pragma once
 
