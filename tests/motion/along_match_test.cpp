@@ -14,9 +14,6 @@
 namespace pose_wall::motion::test {
 namespace {
 
-constexpr double kReach_m = 0.4;
-constexpr std::uint32_t kShifts = 33;
-
 // Rock that comes again nowhere: heights by chance at corners 40 cm apart, smooth between them.
 double rock(int face, double u, double v) {
   const auto height = [face](int i, int j) {
@@ -88,7 +85,7 @@ class AlongTheRoad : public ::testing::Test {
     pipeline_->see(scan_of(room_, pose_of(ahead_m, 0.0, 0.0, 0.0, 0.0, 0.0), scanner_), Pose{});
     ++scanner_.seed;
     alignment_ = pipeline_->align(Pose{}, false);
-    const Curve curve = match_along(pipeline_->scan(), alignment_, kReach_m, kShifts, pipeline_->curve.get());
+    const Curve curve = match_along(pipeline_->scan(), alignment_, kReachMost_m, kShiftsMost, pipeline_->curve.get());
     return curve;
   }
   // What is told lies within its level of the truth, as the odometry takes it.
@@ -98,7 +95,7 @@ class AlongTheRoad : public ::testing::Test {
     there.pose.t += curve.best_m * there.axes.along;
     const FinePlace fine = refine_along(pipeline_->scan(), there, pipeline_->curve.get());
     const double level_m = std::max({0.03, 5.0 * fine.sigma_m, curve.around_m});
-    return !fine.told || fine.halves_m > 0.12 || std::fabs(curve.best_m + fine.best_m - ahead_m) < level_m;
+    return !fine.told || fine.halves_m > kHalvesMost_m || std::fabs(curve.best_m + fine.best_m - ahead_m) < level_m;
   }
 
   BoxRoom room_;
