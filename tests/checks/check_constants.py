@@ -15,7 +15,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ("base", "part", "lidar", "place", "engine")
+ROOMS = ("base", "part", "lidar", "place", "engine", "motion", "planar/map", "planar/scan", "planar/route", "planar/stop", "runtime")
 WORDS_MIN = 3
 NUMBER = (r"(?:double|float|auto|bool|char|short|(?:unsigned|signed|long|int)(?:\s+(?:long|int|char|short))*"
           r"|(?:std::)?(?:u?int(?:_fast|_least)?\d+_t|u?intptr_t|size_t|ptrdiff_t)"
