@@ -13,15 +13,11 @@ Eigen::Vector2d weakest_direction(const Eigen::Matrix3d& information) {
       .least();
 }
 
-FitRule held_rule(const Fit& fit, const Eigen::Vector2d& direction, double shift_m, double sigma_m) {
+Prior held_at(const Fit& fit, const Eigen::Vector2d& direction, double shift_m) {
   constexpr double kHeld = 1e8;  // of information along the direction: 0.1 mm
-  FitRule out;
-  out.sigma_m = sigma_m;
-  out.rounds = 3;  // from a shift along its wall the fit is a few centimetres off
   const Eigen::Vector2d place = fit.pose.place() + shift_m * direction;
   const Eigen::Vector3d along(direction.x(), direction.y(), 0.0);
-  out.prior = {{place.x(), place.y(), fit.pose.yaw_rad}, kHeld * along * along.transpose()};
-  return out;
+  return {{place.x(), place.y(), fit.pose.yaw_rad}, kHeld * along * along.transpose()};
 }
 
 Eigen::Matrix3d told_by(const Fit& fit, const Slide& slide) {

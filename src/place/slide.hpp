@@ -10,6 +10,9 @@
 
 namespace pose_wall::planar {
 
+// Rounds of a new fit of all else at each shift: a direction that is a degree off would leave a smooth wall and exclude
+// everything. Three rounds find no more: 1 of 19,084 tracked scans was wrong with them, and none with one.
+constexpr std::uint32_t kRefit = 1;
 // From the longest to the shortest, halved each time. What slides by the longest may slide on.
 constexpr double kSlideMost_m = 3.2, kSlideLeast_m = 0.1;
 
@@ -21,19 +24,21 @@ struct Slide {
 // Where the place holds least, if yaw is free.
 Eigen::Vector2d weakest_direction(const Eigen::Matrix3d& information);
 
-// A fit of the rest with base held at a shift: a direction that is a degree off would leave the wall.
-FitRule held_rule(const Fit& fit, const Eigen::Vector2d& direction, double shift_m, double sigma_m);
+// Base held at a shift along the direction.
+Prior held_at(const Fit& fit, const Eigen::Vector2d& direction, double shift_m);
 
-// A shift is excluded if the mean patch fits worse by so many standard errors.
+// A shift is excluded if the mean patch fits worse by so many standard errors, with all else fitted anew.
 template <typename Map>
-Slide slide_of(const Map& map, const PatchedPoints& view, const Fit& fit, double excluded) {
+Slide slide_of(const Map& map, const PatchedPoints& view, const Fit& fit, double excluded, std::uint32_t rounds) {
   Slide out;
   out.direction = weakest_direction(fit.information);
   PatchCosts here, there;
   judge_patches(map, view, fit.pose, &here);
   const auto is_excluded = [&](double shift_m) {
-    const FitRule rule = held_rule(fit, out.direction, shift_m, view.sigma_m);
-    judge_patches(map, view, fit_pose(map, view.points, rule.prior.pose, rule).pose, &there);
+    const Prior held = held_at(fit, out.direction, shift_m);
+    const FitRule rule{view.sigma_m, held, 1, rounds};
+    const Pose2 shifted = rounds > 0 ? fit_pose(map, view.points, held.pose, rule).pose : held.pose;
+    judge_patches(map, view, shifted, &there);
     return worse_by(view, here, there) > excluded;
   };
   for (double shift_m = kSlideMost_m; shift_m >= kSlideLeast_m; shift_m *= 0.5) {

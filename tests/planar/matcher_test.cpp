@@ -23,6 +23,7 @@ using pose_wall::planar::Fit;
 using pose_wall::planar::fit_pose;
 using pose_wall::planar::Found;
 using pose_wall::planar::kExcludedBy;
+using pose_wall::planar::kRefit;
 using pose_wall::planar::Matcher;
 using pose_wall::planar::Pose2;
 using pose_wall::planar::Prior;
@@ -123,7 +124,7 @@ TEST(Matcher, ASmoothRoadSlidesAndARoughOneDoesNot) {
     bench.map.finish();
     const Points scan = road(-8.0, 8.0, 2, bump);
     const Fit fit = fit_pose(bench.map, span(scan), Pose2(), {0.02});
-    const Slide slide = slide_of(bench.map, bench.matcher.sort(span(scan), 0.02), fit, kExcludedBy);
+    const Slide slide = slide_of(bench.map, bench.matcher.sort(span(scan), 0.02), fit, kExcludedBy, kRefit);
     if (is_rough) {
       EXPECT_LE(slide.reach_m, 0.1);
       continue;

@@ -30,6 +30,7 @@ using pose_wall::planar::is_within;
 using pose_wall::planar::kExcludedBy;
 using pose_wall::planar::kMatchPointsMost;
 using pose_wall::planar::kMatchSpacing_m;
+using pose_wall::planar::kRefit;
 using pose_wall::planar::kSlideMost_m;
 using pose_wall::planar::Matcher;
 using pose_wall::planar::pose_for_caller;
@@ -140,7 +141,7 @@ pose_wall_planar_match_result match(Body& body, const BeamScan& scan, const pose
   out.explained = fit.explained;
   out.points = fit.points;
   if (!fit.is_valid) return out;
-  const Slide slide = slide_of(body.map, body.matcher.sort(points, scan.sigma_m), fit, kExcludedBy);
+  const Slide slide = slide_of(body.map, body.matcher.sort(points, scan.sigma_m), fit, kExcludedBy, kRefit);
   const Eigen::Matrix3d covariance = covariance_of(fit, slide, prior, input);
   out.state = POSE_WALL_PLANAR_MATCH_FOUND;
   out.pose = pose_for_caller(fit.pose);

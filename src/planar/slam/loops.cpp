@@ -152,7 +152,7 @@ bool Loops::match(const Trail& trail, Matcher& matcher, const Revisit& visit, Ca
   const Found found = matcher.search(points, old_, {visit.guess, reach_m, reach_rad});
   const Fit fit = fit_pose(old_, points, found.pose, {kNoise_m});
   if (!fit.is_valid) return false;
-  const Slide slide = slide_of(old_, matcher.sort(points, kNoise_m), fit, kExcludedBy);
+  const Slide slide = slide_of(old_, matcher.sort(points, kNoise_m), fit, kExcludedBy, kRefit);
   candidate->explained = fit.explained;
   candidate->second = found.score > 0.0 ? found.second_score / found.score : 1.0;
   candidate->slide_m = slide.reach_m;

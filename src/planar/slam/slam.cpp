@@ -85,7 +85,7 @@ SlamStep Slam::process(const BeamScan& scan, const Pose2* odometry) {
   step.explained = placed.explained;
   step.rms_m = placed.rms_m;
   if (is_due(placed)) {
-    const Slide slide = slide_of(near_, matcher_.sort(points, noise_m(scan)), placed, kExcludedBy);
+    const Slide slide = slide_of(near_, matcher_.sort(points, noise_m(scan)), placed, kExcludedBy, kRefit);
     begin_keyframe(points, scan, told_by(placed, slide) + prior.information);
     step.is_keyframe = true;
     const std::uint32_t believed = loops_.believed();
