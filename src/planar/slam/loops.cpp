@@ -37,7 +37,7 @@ void Loops::open() {
   old_.open();
   pool_count_ = believed_count_ = taken_back_ = groups_ = fits_ = contradictions_ = 0;
   believed_at_m_ = 0.0;
-  looked_at_m_ = 0.0;
+  looked_at_m_ = confirmed_at_m_ = 0.0;
 }
 
 void Loops::adopt(const Trail& trail) {
