@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// How a sensor is mounted, for every part that reads its clouds: the numbers of a config that tell so.
+// How a sensor is mounted, for motion and planar: the numbers of a config that tell so. The engine reads the same keys.
 
 #pragma once
 

@@ -1,21 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Every named number of the engine has a reason beside it: a comment of three words or more. It stands at the end of
+"""Every named number of the libraries has a reason beside it: a comment of three words or more. It stands at the end of
 the constant's own line, or on lines of its own directly above. One above holds for one declaration; where it ends with
 a colon, for the row of declarations below it, up to a blank line, another comment of its own line or anything else.
 
 Looked at is what is declared constexpr with an arithmetic type, or as an array of one, in any scope. What gates.def
 lists needs no constant in C++ and is not looked at.
 
-usage: check_constants.py ROOT [FOLDER...]      folders and files below src/, the trunk and the engine if none is given;
+usage: check_constants.py ROOT [FOLDER...]      folders and files below src/, all but three of planar if none is given;
                                                 exit status 1 and one line per constant without a reason"""
 
 import pathlib
 import re
 import sys
 
-ROOMS = ("base", "part", "lidar", "place", "engine", "motion", "planar/map", "planar/scan", "planar/route", "planar/stop", "runtime")
+ROOMS = ("base", "part", "lidar", "place", "engine", "motion", "planar/map", "planar/scan", "planar/route",
+         "planar/stop", "runtime")
 WORDS_MIN = 3
 NUMBER = (r"(?:double|float|auto|bool|char|short|(?:unsigned|signed|long|int)(?:\s+(?:long|int|char|short))*"
           r"|(?:std::)?(?:u?int(?:_fast|_least)?\d+_t|u?intptr_t|size_t|ptrdiff_t)"
