@@ -50,7 +50,6 @@ inline std::uint32_t latency_ms(std::int64_t latency_ns) {
                          : kMillisecondsNotKnown;
 }
 
-// Of all words but the sum's own.
 // What every image tells of its library and of its frame's time.
 template <typename Image>
 void put_version_and_stamp(std::int64_t stamp_ns, Image* image) {

@@ -107,14 +107,22 @@ std::int32_t init_settings(typename Table::Settings* settings) {
   return POSE_WALL_OK;
 }
 
-// The first row or rule that the settings break; no member: none.
+// Without a C library, which the archives do not ask for.
+inline bool same_text(const char* a, const char* b) {
+  while (*a != '\0' && *a == *b) ++a, ++b;
+  return *a == *b;
+}
+
+// The first row or rule that the settings break; no member: none. A rule about the same member says more than its row.
 template <typename Table>
 SettingFault fault_of(const typename Table::Settings& settings) {
+  const SettingFault rule = Table(settings).broken_rule();
   for (const SettingRow& row : Table::rows()) {
     const double value = value_at(row, &settings);
-    if (!(value >= row.least && value <= row.most)) return row.fault;
+    if (value >= row.least && value <= row.most) continue;
+    return rule.member != nullptr && same_text(rule.member, row.fault.member) ? rule : row.fault;
   }
-  return Table(settings).broken_rule();
+  return rule;
 }
 
 // Fault: the library's own struct; it is written where a value is refused, unless it is NULL.

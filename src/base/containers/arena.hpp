@@ -12,13 +12,13 @@
 
 namespace pose_wall {
 
-// Hands out parts of one block, front to back. Without a block it only measures: the same walk gives the size and the
-// places, so the two cannot drift apart. Parts are aligned to POSE_WALL_BLOCK_ALIGNMENT and hold garbage.
 // Whether a part can be laid out in a caller's block.
 inline bool is_aligned(const void* block) {
   return reinterpret_cast<std::uintptr_t>(block) % POSE_WALL_BLOCK_ALIGNMENT == 0;
 }
 
+// Hands out parts of one block, front to back. Without a block it only measures: the same walk gives the size and the
+// places, so the two cannot drift apart. Parts are aligned to POSE_WALL_BLOCK_ALIGNMENT and hold garbage.
 class Arena {
  public:
   explicit Arena(void* block) : block_(static_cast<unsigned char*>(block)) {}
