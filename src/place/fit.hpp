@@ -23,7 +23,7 @@ namespace pose_wall::planar {
 // Points of one surface err alike: of so many one counts. An estimate on the safe side, from recorded logs; in the
 // simulator each would count (planar/match/README.md).
 constexpr double kAlike = 10.0;
-constexpr std::uint32_t kFitRoundsMost = 12;  // from 0.3 m off a fit rests after 5 to 8
+constexpr std::uint32_t kFitRoundsMost = 12;  // a bound on the time of a fit, which rests by itself before
 
 // What is known before the scan: a pose and the information about it, in the map's axes.
 struct Prior {
@@ -73,7 +73,7 @@ struct FitSums {
       squares += across * across;
     }
     // A cluster without direction tells both ways; along a wall, where a point lies in its cell tells nothing. A wall
-    // of 0.3 m with a noise of 2 cm has a ratio of 0.05, the points about a prop or a corner 0.3 to 1.
+    // of 0.3 m with a noise of 2 cm has a ratio of 0.05, a round cluster 1.
     constexpr float kRound = 0.25F;
     if (surface.across_m2 > kRound * surface.along_m2) {
       add_row(-ny, nx, turned.x() * nx + turned.y() * ny, nx * off.y() - ny * off.x(),

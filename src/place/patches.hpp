@@ -12,7 +12,7 @@
 
 namespace pose_wall::planar {
 
-constexpr std::uint32_t kPatchesMost = 128;     // a scan of a road of 5 m has 20 to 60, the last 8 m up to 100
+constexpr std::uint32_t kPatchesMost = 128;     // a road of 5 m seen over 50 m of both walls, with a quarter to spare
 constexpr std::uint32_t kPatchPointsLeast = 3;  // patches with fewer points say nothing
 
 // Points by their patches, and the room that this takes.

@@ -14,7 +14,7 @@
 namespace pose_wall::planar {
 
 constexpr std::uint32_t kMatchPointsMost = 720;  // a scanner of half a degree whole; denser ones err alike
-constexpr double kMatchSpacing_m = 0.05;  // along a surface: half a cell of surface.hpp
+constexpr double kMatchSpacing_m = 0.05;         // along a surface: half a cell of surface.hpp
 
 struct ScanPoint {
   float x_m, y_m;  // in base

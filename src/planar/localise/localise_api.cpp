@@ -62,7 +62,7 @@ std::int32_t take_settings(const pose_wall_planar_localise_settings* from, Local
 }
 
 bool are_points(const float* xy_m, std::uint32_t points) {
-  constexpr float kFarthest_m = 2000.0F;
+  constexpr float kFarthest_m = 2000.0F;  // from base: half of the square that a map may lie in
   for (std::uint32_t k = 0; k < 2 * points; ++k) {
     if (!(xy_m[k] >= -kFarthest_m && xy_m[k] <= kFarthest_m)) return false;
   }
@@ -70,7 +70,7 @@ bool are_points(const float* xy_m, std::uint32_t points) {
 }
 
 bool add_points(PlaceMap* map, const Pose2& pose, const float* xy_m, std::uint32_t points) {
-  constexpr std::uint32_t kAtOnce = 64;
+  constexpr std::uint32_t kAtOnce = 64;  // points: half a kilobyte of stack
   ScanPoint room[kAtOnce];
   bool fits = true;
   for (std::uint32_t first = 0; first < points; first += kAtOnce) {

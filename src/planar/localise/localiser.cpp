@@ -61,7 +61,7 @@ void Localiser::place(const Pose2& pose, double sigma_m, double sigma_rad) {
 
 // A new search needs something new: metres, turns, or time in which things may have moved.
 bool Localiser::is_due() const {
-  constexpr double kTravel_m = 1.0, kTurn_rad = 0.7;
+  constexpr double kTravel_m = 1.0, kTurn_rad = 0.7;  // README.md, metres help: a search begins with every metre
   constexpr std::uint32_t kScans = 50;
   if (!has_looked_) return true;
   return recent_.travel_m() - looked_at_m_ >= kTravel_m || recent_.turned_rad() - looked_at_rad_ >= kTurn_rad ||
@@ -70,7 +70,8 @@ bool Localiser::is_due() const {
 
 // The one place, if the present scan agrees.
 bool Localiser::settle(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
-  constexpr double kKnown_m = 0.1, kKnown_rad = 0.03;
+  constexpr double kKnown_m = 0.1,
+                   kKnown_rad = 0.03;  // a cell of the map, and the yaw that moves its points by one at 3 m
   scan_around_.take(points, scan.origin_m, scan.sigma_m);
   follower_.begin(now(verdict_.candidates[0].pose), kKnown_m, kKnown_rad);
   return follower_.confirm(map_, scan_around_, odometry) == Track::tracked;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFits = 0.75, kContradicts = 0.5;  // share of the seen patches
 constexpr std::uint32_t kPatchesLeast = 8;
-constexpr double kSlid_m = 0.4;
+constexpr double kSlid_m = 0.4;  // README.md, tracking: so far the fit is no better than odometry
 
 // The place's direction of most variance.
 struct Uncertain {
@@ -103,8 +103,9 @@ MapFollower::Placed MapFollower::place(const PlaceMap& map, const Surroundings& 
     if (one.cost < best.cost) best = one;
   };
   const Uncertain along(predictions.first().covariance);
-  constexpr double kCertain_m = 0.12, kStep_m = 0.25;
-  constexpr int kStepsMost = 6;
+  constexpr double kCertain_m = 0.12,
+                   kStep_m = 0.25;  // about a cell of the map; what a fit reaches to each side of a start
+  constexpr int kStepsMost = 6;     // to 1.5 m: a place that is less certain is lost
   for (int k = 1; k <= kStepsMost && along.sigma_m > kCertain_m && (k - 1) * kStep_m < 2.0 * along.sigma_m; ++k) {
     for (const double sign : {1.0, -1.0}) {
       Pose2 start = predictions.first().pose;
@@ -117,7 +118,7 @@ MapFollower::Placed MapFollower::place(const PlaceMap& map, const Surroundings& 
     if (&one != &predictions.first() && !one.agrees(best.fit.pose)) offer(one.pose, one);
   }
   if (best.verdict.fits >= kFits) return best;
-  constexpr double kWide_m = 0.2;
+  constexpr double kWide_m = 0.2;  // two cells: ten times the noise, so that what is near still pulls
   for (const Predicted& about : predictions) {
     for (const double turn_rad : {0.0, 0.1, -0.1}) {
       Pose2 start = about.pose;
@@ -176,8 +177,8 @@ void MapFollower::update(const PlaceMap& map, const Surroundings& around, const 
 }
 
 Track MapFollower::judge(double step_m) {
-  constexpr std::uint32_t kContradictions = 3;
-  constexpr double kPatience_m = 8.0, kLost_m = 1.5;
+  constexpr std::uint32_t kContradictions = 3;        // scans in a row (README.md, lost is a state)
+  constexpr double kPatience_m = 8.0, kLost_m = 1.5;  // of doubt, of standard deviation (README.md, lost is a state)
   const bool sees = verdict_.seen >= kPatchesLeast && 2 * verdict_.seen >= verdict_.judged;
   Track track = Track::tracked;
   if (!sees) {

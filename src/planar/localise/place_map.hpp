@@ -62,9 +62,10 @@ class PlaceMap {
   using Cells = SurfaceCells<kAcross * kTileCells, 20, std::uint32_t>;
 
   static constexpr std::uint32_t kNone = 0xFFFF;  // no tile: more than a localisation may have
-  static constexpr auto kTileSize = static_cast<std::uint32_t>(kTileCells * kTileCells);          // cells
-  static constexpr auto kTileCoarseSize = static_cast<std::uint32_t>(kTileCoarse * kTileCoarse);  // coarse cells
-  static constexpr std::uint32_t kCellsPerTile = 256;  // in the mean. Rough roads need 132.
+  static constexpr auto kTileSize = static_cast<std::uint32_t>(kTileCells * kTileCells);  // cells of a tile
+  static constexpr auto kTileCoarseSize =
+      static_cast<std::uint32_t>(kTileCoarse * kTileCoarse);  // coarse cells of a tile
+  static constexpr std::uint32_t kCellsPerTile = 256;         // in the mean. Rough roads need 132.
 
   std::uint32_t find(std::int32_t tile_x, std::int32_t tile_y) const {
     if (tile_x < 0 || tile_x >= kAcross || tile_y < 0 || tile_y >= kAcross) return kNone;

@@ -12,10 +12,10 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kFarthest_m = 24.0;  // of the points that search: inside a block's margin
-constexpr double kLeast = 0.62;       // of the most likely, that a seed needs: a fifth may have changed
-constexpr double kSteps = 2500.0;     // of work that a seed takes at most
-constexpr double kPeakApart_rad = 0.15;
+constexpr double kFarthest_m = 24.0;     // of the points that search: inside a block's margin
+constexpr double kLeast = 0.62;          // of the most likely, that a seed needs: a fifth may have changed
+constexpr double kSteps = 2500.0;        // of work that a seed takes at most
+constexpr double kPeakApart_rad = 0.15;  // some steps of yaw: nearer directions end in one fit
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void PlaceSearch::choose_points(const Surroundings& around) {
   std::uint32_t taken[kPatchesMost];
   chosen_count_ = 0;
   double farthest2_m2 = 1.0;
-  constexpr std::uint32_t kPerPatch = 4;
+  constexpr std::uint32_t kPerPatch = 4;  // points of a patch at most: 64 points then come from 16 patches
   for (std::uint32_t round = 0; round < kPerPatch && chosen_count_ < kPointsMost; ++round) {
     for (std::uint32_t at = 0; at < around.patches; ++at) taken[at] = 0;
     for (std::uint32_t k = 0; k < around.points.size() && chosen_count_ < kPointsMost; ++k) {
@@ -54,7 +54,7 @@ void PlaceSearch::choose_points(const Surroundings& around) {
       farthest2_m2 = std::max(farthest2_m2, range2_m2);
     }
   }
-  constexpr double kStepMost_rad = 0.04;
+  constexpr double kStepMost_rad = 0.04;  // a coarse cell at 10 m; farther points make it finer
   const double step_rad = std::min(kStepMost_rad, kSight_m / std::sqrt(farthest2_m2));
   yaws_ = static_cast<std::uint32_t>(2.0 * kPi / step_rad) + 1;
   yaw_step_rad_ = 2.0 * kPi / yaws_;
@@ -71,7 +71,7 @@ void PlaceSearch::begin(const PlaceMap& map, const Surroundings& around) {
   block_ = -1;
   while (next_block(map)) ++blocks_all_;
   block_ = -1;
-  constexpr std::uint32_t kPointsLeast = 12;
+  constexpr std::uint32_t kPointsLeast = 12;  // fewer fit anywhere in a road
   if (chosen_count_ < kPointsLeast || !next_block(map)) {
     is_whole_ = false;
     stage_ = Stage::kEnded;
@@ -230,13 +230,13 @@ bool PlaceSearch::is_new(const Pose2& pose) {
   const auto x = static_cast<std::int64_t>(std::floor(pose.x_m / kPlace_m));
   const auto y = static_cast<std::int64_t>(std::floor(pose.y_m / kPlace_m));
   const auto yaw = static_cast<std::int64_t>(std::floor((wrapped(pose.yaw_rad) + kPi) / kYaw_rad));
-  constexpr std::int64_t kHalf = 1 << 20;
+  constexpr std::int64_t kHalf = 1 << 20;  // bins to each side: 157 km, so that the key is positive
   const std::uint64_t key = (static_cast<std::uint64_t>(x + kHalf) << 40U) ^
                             (static_cast<std::uint64_t>(y + kHalf) << 16U) ^ static_cast<std::uint64_t>(yaw);
   const std::uint64_t mixed = key * 0x9E3779B97F4A7C15ULL;  // the golden ratio
   const auto tag = static_cast<std::uint32_t>(mixed | 1U);
   auto at = static_cast<std::uint32_t>(mixed >> 48U) % kBins;
-  constexpr std::uint32_t kTries = 64;
+  constexpr std::uint32_t kTries = 64;  // a bound: beyond it a seed is fitted twice, at worst
   for (std::uint32_t k = 0; k < kTries; ++k, at = (at + 1) % kBins) {
     if (bins_[at] == tag) return false;
     if (bins_[at] != 0) continue;
@@ -278,7 +278,7 @@ void PlaceSearch::refine(const PlaceMap& map, const Surroundings& around, const 
   const Fit wide = fit_from(seeded, kWide_m, kFewPoints);
   if (!is_new(wide.pose)) return;
   const Fit narrow = fit_from(wide.pose, kNarrow_m, kSomePoints);
-  constexpr double kHopeful = 0.5, kPlausible = 0.45;
+  constexpr double kHopeful = 0.5, kPlausible = 0.45;  // shares explained; README.md: 45 % make a hypothesis
   if (!(narrow.explained >= kHopeful)) return;
   const Fit first = fit_from(narrow.pose, around.sigma_m, kSomePoints);
   if (!(first.explained >= kPlausible)) return;
@@ -293,7 +293,7 @@ void PlaceSearch::refine(const PlaceMap& map, const Surroundings& around, const 
 void PlaceSearch::sort_out(const PlaceMap& map, const Surroundings& around) {
   const auto better = [](const Hypothesis& a, const Hypothesis& b) { return a.verdict.cost < b.verdict.cost; };
   heap_sort(hypotheses_.begin(), hypotheses_.begin() + hypothesis_count_, better);
-  constexpr std::uint32_t kBest = 32;
+  constexpr std::uint32_t kBest = 32;  // as many as kCandidatesMost of verdict.hpp
   for (std::uint32_t k = 0; k < std::min(kBest, hypothesis_count_); ++k) {
     Hypothesis& own = hypotheses_[k];
     const Fit fit = fit_pose(map, around.points, own.pose, {around.sigma_m});

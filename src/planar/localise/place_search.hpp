@@ -25,7 +25,7 @@ struct Hypothesis {
 
 class PlaceSearch {
  public:
-  static constexpr std::uint32_t kHypothesesMost = 512;
+  static constexpr std::uint32_t kHypothesesMost = 512;  // the best stay (README.md): a tenth of a megabyte
 
   void lay_out(Arena& arena);
   void open();
@@ -50,11 +50,11 @@ class PlaceSearch {
   static constexpr std::int32_t kMargin = 64;                                // coarse cells about them
   static constexpr std::int32_t kWide = kOwn + 2 * kMargin;
   static constexpr std::int32_t kBlocks = PlaceMap::kAcross / kBlockTiles;
-  static constexpr std::uint32_t kPointsMost = 64;
-  static constexpr std::uint32_t kPeaks = 4;  // directions of a cell
+  static constexpr std::uint32_t kPointsMost = 64;  // by kLikely at most 192 in all, which a byte holds
+  static constexpr std::uint32_t kPeaks = 4;        // directions of a cell
   static constexpr std::uint32_t kSeedsMost = 24576;
-  static constexpr std::uint32_t kLanes = 16;
-  static constexpr std::uint32_t kBins = 65536;
+  static constexpr std::uint32_t kLanes = 16;    // bytes of a vector register of SSE and NEON
+  static constexpr std::uint32_t kBins = 65536;  // more than twice the seeds: few collide
 
   struct Seed {
     std::int16_t x, y;  // coarse cells of the square

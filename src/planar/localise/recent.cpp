@@ -9,8 +9,8 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kKeyframe_m = 0.3, kKeyframe_rad = 0.25;
-constexpr double kLookBack_m = 8.0;
+constexpr double kKeyframe_m = 0.3, kKeyframe_rad = 0.25;  // as the SLAM's by default
+constexpr double kLookBack_m = 8.0;                        // README.md, metres help: searched for as one
 
 double length_of(const Pose2& step) {
   return step.place().norm();

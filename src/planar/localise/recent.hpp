@@ -29,7 +29,7 @@ class Recent {
   void gather(Span<const ScanPoint> points, const BeamScan& scan, Surroundings* out) const;
 
  private:
-  static constexpr std::uint32_t kKeyframesMost = 40;
+  static constexpr std::uint32_t kKeyframesMost = 40;  // half as many again as 8 m have, for turns
   struct Kept {
     Pose2 pose;
     double travel_m;

@@ -79,7 +79,7 @@ void judge(const PlaceMap& map, const Surroundings& around, const PlaceSearch& s
   const Fit fit = fit_of(fit_sums(map, around.points, best.pose, rule), best.pose);
   out->best.slide_m = slide_of(map, around, fit, kExcludedBy, kAsFitted).reach_m;
   out->best.relief = relief_patches(map, around, best.pose, walls);
-  constexpr double kNoRival = 99.0;
+  constexpr double kNoRival = 99.0;  // standard errors: beyond every limit
   out->best.rival = kNoRival;
   for (std::uint32_t k = 0; k < all.size(); ++k) {
     const double worse = k == 0 ? 0.0 : worse_by(around, best.costs, all[k].costs);

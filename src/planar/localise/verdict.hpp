@@ -39,7 +39,7 @@ struct CandidatePlace {
   double spread_m = 0.0;  // how far apart the places are that stand for this one
 };
 
-constexpr std::uint32_t kCandidatesMost = 32;
+constexpr std::uint32_t kCandidatesMost = 32;  // those that were fitted with all points; `all` counts the rest
 
 // Evidence that the finding rests on.
 struct Evidence {

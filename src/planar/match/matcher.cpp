@@ -11,7 +11,7 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::uint32_t kCoarsest = 2;
+constexpr std::uint32_t kCoarsest = 2;  // level: blocks of 1.6 m, the last of surface_map.hpp
 constexpr std::int32_t kFineInCoarse[kCoarsest + 1] = {1, SurfaceMap::kShrink,
                                                        SurfaceMap::kShrink* SurfaceMap::kShrink};
 
@@ -149,8 +149,8 @@ void Matcher::keep_best(const Grid& grid, Found* found, std::uint32_t kept, std:
   found->pose = grid.pose_of(*best);
   found->score = best->score / most;
   found->is_whole = dropped <= best->score;
-  constexpr std::int32_t kApart = 6;  // fine cells: beyond the bells of one surface
-  constexpr double kApart_rad = 0.15;
+  constexpr std::int32_t kApart = 6;   // fine cells: beyond the bells of one surface
+  constexpr double kApart_rad = 0.15;  // turns the points 4 m away by as much
   std::uint32_t second = 0;
   for (std::uint32_t k = 0; k < kept; ++k) {
     const Node& node = nodes_[k];

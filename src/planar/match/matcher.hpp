@@ -16,7 +16,7 @@
 
 namespace pose_wall::planar {
 
-constexpr std::uint32_t kSearchNodesMost = 512;
+constexpr std::uint32_t kSearchNodesMost = 512;  // a bound on the time of a level; is_whole says whether it cost a pose
 
 struct SearchWindow {
   Pose2 middle;
@@ -58,7 +58,7 @@ class Matcher {
   std::uint32_t look_coarse(const Grid& grid, std::uint32_t* dropped) const;
   std::uint32_t look_closer(const Grid& grid, std::uint32_t level, std::uint32_t parents, std::uint32_t* dropped) const;
 
-  static constexpr std::uint32_t kSearchPointsMost = 240;
+  static constexpr std::uint32_t kSearchPointsMost = 240;  // a bound on the time of a pose: every third of a whole scan
 
   Span<Node> nodes_, parents_;
   Span<Offset> offsets_;

@@ -19,9 +19,9 @@ constexpr double kEvery_m = 0.5;            // travel between two looks
 constexpr double kNoise_m = 0.03;           // range noise and drift within a group
 // Drift of the trail per metre: what matching left on recorded logs of buildings stays below a third of this.
 constexpr double kDrift = 0.02, kDriftYaw_rad = 0.002;
-constexpr std::uint32_t kBearings = 360;
-constexpr double kConfirm_m = 3.0;   // travel between two long looks
-constexpr double kConfirmed = 0.85;  // share of a long stretch's points that is explained
+constexpr std::uint32_t kBearings = 360;  // bins of a whole turn: a degree, as scanners of recorded logs have
+constexpr double kConfirm_m = 3.0;        // travel between two long looks
+constexpr double kConfirmed = 0.85;       // share of a long stretch's points that is explained
 
 }  // namespace
 
@@ -159,6 +159,7 @@ bool Loops::match(const Trail& trail, Matcher& matcher, const Revisit& visit, Ca
   const Pose2 step = between(trail.pose(old), fit.pose);
   candidate->edge = {old, now, step, in_frame_of(trail.pose(old), told_by(fit, slide)), true};
   candidate->seen_through = seen_through(trail, old, now, step);
+  // README.md, what makes a closure: found on the failures of the recorded logs, with one set for all of them.
   constexpr double kExplained = 0.75, kThrough = 0.1, kSecond = 0.9, kHolds_m = 0.25;
   candidate->is_distinct = slide.reach_m <= kHolds_m && candidate->second < kSecond;
   const bool is_inside = (fit.pose.place() - visit.guess.place()).norm() < 1.5 * reach_m + 0.2;
@@ -203,9 +204,11 @@ bool Loops::is_confirmed(const Trail& trail, Matcher& matcher, const Candidate& 
 }
 
 std::uint32_t Loops::believe(Trail* trail, Matcher& matcher, const Candidate& newest) {
+  // Travel over which candidates agree, and after which they count no more. Single matches folded logs by 5 and 13 m.
   constexpr double kSpan_m = 3.0, kPool_m = 12.0;
   // Two roads do not go through one another: where drift is less than half a road's width, the place is the same.
   constexpr double kSameSpace_m = 1.5;
+  // With one distinct candidate among four, corridors agreed with anything: Killian was folded by 3 m (README.md).
   constexpr std::uint32_t kAgree = 4, kDistinct = 3;
   std::uint32_t agree = 0, differ = 0, distinct = 0;
   double span_m = 0.0;
@@ -242,8 +245,8 @@ std::uint32_t Loops::believe(Trail* trail, Matcher& matcher, const Candidate& ne
 
 // A belief predicts that the next looks fit. Where they contradict it instead, the last group is taken back.
 bool Loops::doubt(Trail* trail, const Candidate& newest) {
-  constexpr double kProbation_m = 10.0;
-  constexpr std::uint32_t kEnough = 6;
+  constexpr double kProbation_m = 10.0;  // travel in which the next looks test a belief (README.md)
+  constexpr std::uint32_t kEnough = 6;   // looks of the 20 in probation (README.md)
   if (groups_ == 0 || (*trail)[newest.edge.to].travel_m - believed_at_m_ > kProbation_m) return false;
   constexpr double kContradicted = 0.6, kThrough = 0.3;
   if (newest.explained < kContradicted && newest.seen_through > kThrough) {

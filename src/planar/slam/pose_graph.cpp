@@ -10,7 +10,7 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::uint32_t kClosuresMost = 8192;
+constexpr std::uint32_t kClosuresMost = 8192;  // two for each keyframe of the default trail
 
 bool is_band(const Edge& edge) {
   return edge.to == edge.from + 1;
@@ -55,7 +55,7 @@ void PoseGraph::linearise(Span<Pose2> poses, Span<const Edge> edges) const {
     rows_[k].next.setZero();
     rows_[k].right.setZero();
   }
-  constexpr double kStays = 1e12;
+  constexpr double kStays = 1e12;  // of information: a micrometre, for the pose that holds the map
   rows_[0].diagonal = kStays * Block::Identity();
   std::uint32_t ties = 0;
   for (const Edge& edge : edges) {

@@ -37,7 +37,7 @@ class PoseGraph {
   // neighbours go from k to k + 1. At most kGradientsMost times through all poses and edges.
   GraphRound improve(Span<Pose2> poses, Span<const Edge> edges) const;
 
-  static constexpr std::uint32_t kGradientsMost = 40;
+  static constexpr std::uint32_t kGradientsMost = 40;  // a bound on the time of a call (README.md)
 
  private:
   using Block = Eigen::Matrix3d;

@@ -12,9 +12,9 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kLookBack_m = 12.0;  // of travel that a scan is matched with
-constexpr std::uint32_t kLookBackMost = 60;
-constexpr double kTrusted = 0.75;  // share of points that a right pose explains at least, but for crowds
+constexpr double kLookBack_m = 12.0;         // of travel that a scan is matched with
+constexpr std::uint32_t kLookBackMost = 60;  // keyframes: half as many again as in 12 m by the default distance
+constexpr double kTrusted = 0.75;            // share of points that a right pose explains at least, but for crowds
 
 }  // namespace
 
@@ -149,7 +149,7 @@ void Slam::resume(const Pose2& base) {
 
 // One round of the graph. The last keyframe takes the machine along.
 void Slam::improve() {
-  constexpr double kStill_m = 1e-4;
+  constexpr double kStill_m = 1e-4;  // no map shows it, and no later round is worth its time
   const std::uint32_t last = trail_.size() - 1;
   const Pose2 in_keyframe = between(trail_.pose(last), pose_);
   const GraphRound round = graph_.improve(trail_.poses(), trail_.edges());

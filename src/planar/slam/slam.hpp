@@ -51,7 +51,7 @@ class Slam {
   void begin_keyframe(Span<const ScanPoint> points, const BeamScan& scan, const Eigen::Matrix3d& information);
   void tie_to_saved(const Eigen::Matrix3d& information);
 
-  static constexpr std::uint32_t kRoundsMost = 12;
+  static constexpr std::uint32_t kRoundsMost = 12;  // of the graph after a closure: a bound, should it not come to rest
 
   void improve();
   void draw_near();
