@@ -44,17 +44,17 @@ void StopTable::set_others() {
   set_rectangle(this, -2.25, 2.25, -0.6, 0.6);  // the roadheader's 4.5 x 1.2 m
 }
 
+// Constants of their own: a pair that is made here lies in memory that could be written to (GCC 12.2, ARMv7).
+constexpr SettingFault kFootprint = {"corner_m",
+                                     "corner_m must be 3 to 12 corners within 5 m, convex and counter-clockwise"};
+constexpr SettingFault kBand = {"floor_band_m", "floor_band_m must be 0.05 below thing_height_m"};
+constexpr SettingFault kTall = {"tall_m", "tall_m must be from thing_height_m to top_m"};
+
 SettingFault StopTable::broken_rule() const {
-  if (!is_footprint(*this)) {
-    return {"corner_m", "corner_m must be 3 to 12 corners within 5 m, convex and counter-clockwise"};
-  }
+  if (!is_footprint(*this)) return kFootprint;
   constexpr double kBandLeast_m = 0.05;  // between floor and thing: rays in it show that a place is free
-  if (!(thing_height_m - floor_band_m >= kBandLeast_m)) {
-    return {"floor_band_m", "floor_band_m must be 0.05 below thing_height_m"};
-  }
-  if (!(tall_m >= thing_height_m && top_m >= tall_m)) {
-    return {"tall_m", "tall_m must be from thing_height_m to top_m"};
-  }
+  if (!(thing_height_m - floor_band_m >= kBandLeast_m)) return kBand;
+  if (!(tall_m >= thing_height_m && top_m >= tall_m)) return kTall;
   return {};
 }
 
