@@ -553,7 +553,7 @@ class Pages(BrokenProject):
 
     def setUp(self):
         super().setUp()
-        for header in (CHECKS.parents[1] / "include").glob("pose_wall*.h"):
+        for header in (CHECKS.parents[1] / "include").glob("pose_wall*.[hd]*"):  # and the tables of settings
             self.write(f"include/{header.name}", header.read_text(encoding="utf-8"))
         checks = "pose_wall_check(house COMMAND x)\npose_wall_check(header_${h} COMMAND x)\n"
         self.write("tests/checks/CMakeLists.txt", checks)
