@@ -20,13 +20,13 @@ fi
 
 weekly_passed=.ci/weekly_passed
 
-# Sources that changed since the commit that a file ends with, newest first; the last hundred commits where there is none.
+# Sources of the libraries that changed since the commit that a file ends with, newest first; the last hundred commits where there is none.
 changed_files() {
   local since
   since=$(awk '{print $NF}' "$1" 2> /dev/null || true)
   git cat-file -e "$since^{commit}" 2> /dev/null || since=HEAD~100
   git cat-file -e "$since^{commit}" 2> /dev/null || since=$(git rev-list --max-parents=0 HEAD | tail -n 1)
-  [ -n "$since" ] && git log -M90% --diff-filter=dr --format= --name-only "$since.." -- src tools |
+  [ -n "$since" ] && git log -M90% --diff-filter=dr --format= --name-only "$since.." -- src |
     awk '/[.]cpp$/ && !seen[$0]++'
 }
 

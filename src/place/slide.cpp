@@ -21,7 +21,7 @@ Prior held_at(const Fit& fit, const Eigen::Vector2d& direction, double shift_m) 
 }
 
 Eigen::Matrix3d told_by(const Fit& fit, const Slide& slide) {
-  const Eigen::Matrix3d told = fit.information / kAlike;
+  Eigen::Matrix3d told = fit.information / kAlike;
   if (slide.reach_m == 0.0) return told;
   return less_along(told, slide.direction, 1.0 / (slide.reach_m * slide.reach_m));
 }

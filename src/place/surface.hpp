@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 
 #include "base/containers/arena.hpp"
 #include "base/math/principal_axes.hpp"
@@ -65,7 +64,8 @@ void walk_sight(const Eigen::Vector2d& from_m, const Eigen::Vector2d& to_m, Mark
 template <std::int32_t kSide, std::int32_t kMargin, typename Slot>
 class SurfaceCells {
  public:
-  static constexpr Slot kNone = std::numeric_limits<Slot>::max();  // the slot of a cell without a surface near it
+  // The slot of a cell without a surface near it. NOLINTNEXTLINE(bugprone-dynamic-static-initializers): constexpr
+  static constexpr Slot kNone = static_cast<Slot>(-1);
 
   static bool holds(double x_m, double y_m) {
     constexpr double kMost_m = kSurfaceCell_m * (kSide / 2 - kMargin);  // by the definition of the margin

@@ -84,7 +84,7 @@ MapFollower::Placed MapFollower::fit_from(const PlaceMap& map, const Surrounding
                                           const Predicted& predicted, const Predictions& predictions) {
   Placed out;
   PatchCosts costs;
-  out.fit = fit_pose(map, around.points, start, {around.sigma_m, predicted});
+  out.fit = fit_pose(map, around.points, start, {around.sigma_m, predicted.prior()});
   out.verdict = judge_patches(map, around, out.fit.pose, &costs);
   double unlikely = 0.0;
   out.predicted = &predictions.likeliest(out.fit.pose, &unlikely);
@@ -123,7 +123,7 @@ MapFollower::Placed MapFollower::place(const PlaceMap& map, const Surroundings& 
     for (const double turn_rad : {0.0, 0.1, -0.1}) {
       Pose2 start = about.pose;
       start.yaw_rad = wrapped(start.yaw_rad + turn_rad);
-      offer(fit_pose(map, around.points, start, {kWide_m, about, 4, 6}).pose, about);
+      offer(fit_pose(map, around.points, start, {kWide_m, about.prior(), 4, 6}).pose, about);
     }
   }
   return best;

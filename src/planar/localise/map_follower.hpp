@@ -40,6 +40,7 @@ class MapFollower {
     double unlikely = 0.0;  // a squared distance
     bool is_odometry = false;
 
+    Prior prior() const { return {pose, information}; }
     bool agrees(const Pose2& to) const { return squared_distance(to) < StepPredictor::kAgrees; }
   };
 
