@@ -45,7 +45,7 @@ constexpr const char* kReasons[POSE_WALL_MOTION_REASON_COUNT][2] = {
     {"map_full", "The oldest part of the map gave way to the newest."},
     {"repeated", "Points that came before came again, so sensor or driver hang, and the frame is not used."}};
 
-constexpr double pi = pose_wall::kPi;  // as the table writes it
+constexpr double pi = pose_wall::kPi;  // NOLINT(readability-identifier-naming): as the table writes it
 constexpr pose_wall::SettingRow kRows[] = {
 #define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_motion_settings, __VA_ARGS__)
 #include "pose_wall_motion_settings.def"

@@ -10,7 +10,7 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double pi = kPi;  // as the table writes it
+constexpr double pi = kPi;  // NOLINT(readability-identifier-naming): as the table writes it
 constexpr SettingRow kRows[] = {
 #define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_scanner_settings, __VA_ARGS__)
 #include "pose_wall_planar_scanner_settings.def"
