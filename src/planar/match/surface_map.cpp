@@ -30,8 +30,8 @@ void SurfaceMap::open() {
 
 // Only what was written is cleared: a window is mostly empty.
 void SurfaceMap::begin(const Eigen::Vector2d& middle_m) {
-  for (std::uint16_t k = 0; k < cells_.used(); ++k) {
-    const SurfaceCell& cell = cells_.cell(k);
+  for (std::uint32_t k = 0; k < cells_.used(); ++k) {
+    const SurfaceCell& cell = cells_.cell(static_cast<std::uint16_t>(k));
     for (std::int32_t row = cell.row - kReach; row <= cell.row + kReach; ++row) {
       for (std::int32_t column = cell.column - kReach; column <= cell.column + kReach; ++column) {
         nearest_[at(column, row)] = Cells::kNone;
@@ -94,9 +94,10 @@ void SurfaceMap::raise(std::uint32_t level, std::int32_t x, std::int32_t y, std:
 void SurfaceMap::finish() {
   const auto slot_at = [this](std::int32_t column, std::int32_t row) { return &nearest_[at(column, row)]; };
   cells_.make_surfaces(slot_at);
-  for (std::uint16_t k = 0; k < cells_.used(); ++k) {
-    cells_.spread(k, kReach, slot_at);
-    spread_likelihood(cells_.cell(k));
+  for (std::uint32_t k = 0; k < cells_.used(); ++k) {
+    const auto slot = static_cast<std::uint16_t>(k);
+    cells_.spread(slot, kReach, slot_at);
+    spread_likelihood(cells_.cell(slot));
   }
 }
 
