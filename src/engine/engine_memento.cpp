@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/math/elementary.hpp"
+#include "base/math/fnv1a.hpp"
 
 namespace pose_wall {
 namespace {
@@ -208,9 +209,7 @@ void visit(Way* way, Memory* m) {
 // FNV-1a: for accidents, not for attackers. Starts with the config's checksum, so that no config holds values that
 // another one measured, with other axes and extrinsic.
 std::uint64_t checksum(std::uint32_t config_crc32, const unsigned char* bytes, std::uint64_t count) {
-  std::uint64_t sum = 0xCBF29CE484222325ULL ^ config_crc32;
-  for (std::uint64_t i = 0; i < count; ++i) sum = (sum ^ bytes[i]) * 0x100000001B3ULL;
-  return sum;
+  return fnv1a(bytes, count, kFnv1aOfNothing ^ config_crc32);
 }
 
 std::uint64_t body_bytes() {

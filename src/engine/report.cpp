@@ -4,6 +4,7 @@
 #include "engine/report.hpp"
 
 #include "base/math/finite.hpp"
+#include "base/math/fnv1a.hpp"
 
 namespace pose_wall {
 namespace {
@@ -64,7 +65,7 @@ std::uint32_t mark_of(const pose_wall_result& r) {
   std::uint64_t sum = 0x506F736557616C6CULL;
   for (const std::uint64_t word :
        {std::uint64_t{r.config_crc32}, r.publication, static_cast<std::uint64_t>(r.stamp_ns), r.frame_index}) {
-    sum = (sum ^ word) * 0x100000001B3ULL;
+    sum = fnv1a_with(sum, word);
     sum ^= sum >> 29U;
   }
   return static_cast<std::uint32_t>(sum >> 32U);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/math/fnv1a.hpp"
 #include "engine/self_test_code.hpp"
 #include "engine/self_test_road.hpp"
 
@@ -33,9 +34,8 @@ std::int32_t configure(pose_wall_config* config) {
   return status == POSE_WALL_OK ? pose_wall_config_set_number(config, "points_max", 16000.0) : status;
 }
 
-void add(const void* data, std::uint64_t bytes, std::uint64_t* digest) {  // FNV-1a
-  const unsigned char* const byte = static_cast<const unsigned char*>(data);
-  for (std::uint64_t i = 0; i < bytes; ++i) *digest = (*digest ^ byte[i]) * 0x100000001B3ULL;
+void add(const void* data, std::uint64_t bytes, std::uint64_t* digest) {
+  *digest = fnv1a(data, bytes, *digest);
 }
 
 bool may_be_measured(std::uint32_t quantity, const SelfTestScene& scene) {
@@ -103,7 +103,7 @@ std::int32_t self_test(std::uint64_t digest_expected, void* block, pose_wall_sel
   *report = pose_wall_self_test_report{};
   report->struct_size = sizeof(*report);
   report->digest_expected = digest_expected;
-  report->digest_found = 0xCBF29CE484222325ULL;
+  report->digest_found = kFnv1aOfNothing;
   const CodeSum code = sum_of_code();
   report->code_bytes = code.bytes;
   report->code_crc32 = code.crc32;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include "lidar/cloud_print.hpp"
+#include "base/math/fnv1a.hpp"
 
 namespace pose_wall {
 
@@ -12,8 +13,8 @@ std::uint32_t CloudPrint::returns() const {
 }
 
 std::uint64_t CloudPrint::whole() const {
-  std::uint64_t whole = 0xCBF29CE484222325ULL;  // FNV-1a by words
-  for (std::uint32_t s = 0; s < kSectors; ++s) whole = (whole ^ sum_[s]) * 0x100000001B3ULL;
+  std::uint64_t whole = kFnv1aOfNothing;
+  for (std::uint32_t s = 0; s < kSectors; ++s) whole = fnv1a_with(whole, sum_[s]);
   return whole;
 }
 

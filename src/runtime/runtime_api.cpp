@@ -5,6 +5,7 @@
 
 #include <new>
 
+#include "base/containers/arena.hpp"
 #include "box_layout.hpp"
 #include "options.hpp"
 #include "part/export.hpp"
@@ -13,15 +14,12 @@
 #include "runtime.hpp"
 #include "struct_versions.hpp"
 
-using pose_wall::runtime::InnerBytes;
+using pose_wall::is_aligned;
 using pose_wall::ok_if;
+using pose_wall::runtime::InnerBytes;
 using pose_wall::runtime::Runtime;
 
 namespace {
-
-bool is_aligned(const void* block) {
-  return reinterpret_cast<std::uintptr_t>(block) % POSE_WALL_BLOCK_ALIGNMENT == 0;
-}
 
 Runtime* runtime_of(pose_wall_runtime* handle) {
   return reinterpret_cast<Runtime*>(handle);

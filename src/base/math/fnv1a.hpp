@@ -17,9 +17,9 @@ constexpr std::uint64_t fnv1a_with(std::uint64_t sum, std::uint64_t next) {
   return (sum ^ next) * kPrime;
 }
 
-inline std::uint64_t fnv1a(const void* bytes, std::uint64_t count) {
+// sum: of what came before.
+inline std::uint64_t fnv1a(const void* bytes, std::uint64_t count, std::uint64_t sum = kFnv1aOfNothing) {
   const auto* const from = static_cast<const unsigned char*>(bytes);
-  std::uint64_t sum = kFnv1aOfNothing;
   for (std::uint64_t k = 0; k < count; ++k) sum = fnv1a_with(sum, from[k]);
   return sum;
 }

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "base/containers/heap_sort.hpp"
+#include "base/math/golden_ratio.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -233,7 +234,7 @@ bool PlaceSearch::is_new(const Pose2& pose) {
   constexpr std::int64_t kHalf = 1 << 20;  // bins to each side: 157 km, so that the key is positive
   const std::uint64_t key = (static_cast<std::uint64_t>(x + kHalf) << 40U) ^
                             (static_cast<std::uint64_t>(y + kHalf) << 16U) ^ static_cast<std::uint64_t>(yaw);
-  const std::uint64_t mixed = key * 0x9E3779B97F4A7C15ULL;  // the golden ratio
+  const std::uint64_t mixed = key * kGoldenTurn64;
   const auto tag = static_cast<std::uint32_t>(mixed | 1U);
   auto at = static_cast<std::uint32_t>(mixed >> 48U) % kBins;
   constexpr std::uint32_t kTries = 64;  // a bound: beyond it a seed is fitted twice, at worst

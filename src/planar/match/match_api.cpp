@@ -88,8 +88,7 @@ std::int32_t check_input(const pose_wall_planar_match_input* input) {
   if (!is_within(input->reach_m, 0.0, kReach_m) || !is_within(input->reach_rad, 0.0, kReach_rad)) {
     return POSE_WALL_E_VALUE_RANGE;
   }
-  return input->has_prior == 0 || is_covariance(input->covariance) ? std::int32_t{POSE_WALL_OK}
-                                                                   : POSE_WALL_PLANAR_E_POSE;
+  return pose_wall::ok_if(input->has_prior == 0 || is_covariance(input->covariance), POSE_WALL_PLANAR_E_POSE);
 }
 
 Prior prior_of(const pose_wall_planar_match_input& input) {
