@@ -83,7 +83,7 @@ class SurfaceCells {
   }
   void clear() { used_ = 0; }
   std::uint32_t used() const { return used_; }
-  const SurfaceCell& cell(Slot k) const { return cells_[k]; }
+  const SurfaceCell& cell(std::uint32_t k) const { return cells_[k]; }
   const Surface* surface(Slot k) const { return k != kNone ? &surfaces_[k] : nullptr; }
   bool is_of(Slot k, std::int32_t column, std::int32_t row) const {
     return k != kNone && cells_[k].column == column && cells_[k].row == row;

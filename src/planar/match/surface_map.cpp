@@ -31,7 +31,7 @@ void SurfaceMap::open() {
 // Only what was written is cleared: a window is mostly empty.
 void SurfaceMap::begin(const Eigen::Vector2d& middle_m) {
   for (std::uint32_t k = 0; k < cells_.used(); ++k) {
-    const SurfaceCell& cell = cells_.cell(static_cast<std::uint16_t>(k));
+    const SurfaceCell& cell = cells_.cell(k);
     for (std::int32_t row = cell.row - kReach; row <= cell.row + kReach; ++row) {
       for (std::int32_t column = cell.column - kReach; column <= cell.column + kReach; ++column) {
         nearest_[at(column, row)] = Cells::kNone;
@@ -95,9 +95,8 @@ void SurfaceMap::finish() {
   const auto slot_at = [this](std::int32_t column, std::int32_t row) { return &nearest_[at(column, row)]; };
   cells_.make_surfaces(slot_at);
   for (std::uint32_t k = 0; k < cells_.used(); ++k) {
-    const auto slot = static_cast<std::uint16_t>(k);
-    cells_.spread(slot, kReach, slot_at);
-    spread_likelihood(cells_.cell(slot));
+    cells_.spread(k, kReach, slot_at);
+    spread_likelihood(cells_.cell(k));
   }
 }
 
