@@ -154,7 +154,7 @@ TEST(LocaliseRestart, CandidatesMoveOnWithTheMachine) {
 
 // One corridor with plain walls and no ends in sight: every place of it, both ways.
 TEST(LocaliseRestart, APlainCorridorStaysAmbiguous) {
-  LocaliseSettings settings;
+  LocaliseSettings settings = localise_settings();
   settings.work = kWholeSearch;
   settings.tiles_most = 128;
   OpenedLocaliser localiser(settings);

@@ -66,6 +66,19 @@ inline void hide_behind(const std::vector<Round>& things, const sim::PlanarSenso
   }
 }
 
+inline LocaliseSettings localise_settings() {
+  LocaliseSettings settings;
+  EXPECT_EQ(pose_wall_planar_localise_settings_init(&settings), POSE_WALL_OK);
+  return settings;
+}
+inline LocaliseSettings localise_settings(std::uint32_t tiles_most, std::uint32_t work, bool is_whole) {
+  LocaliseSettings settings = localise_settings();
+  settings.tiles_most = tiles_most;
+  settings.work = work;
+  settings.map_is_whole = is_whole ? 1 : 0;
+  return settings;
+}
+
 class OpenedLocaliser {
  public:
   explicit OpenedLocaliser(const LocaliseSettings& settings) : settings_(settings) {
@@ -148,7 +161,9 @@ class World {
   World(int kind, std::uint64_t seed) : World(kind, seed, lengths(seed), 768) {}
   World(int kind, std::uint64_t seed, double length_m, std::uint32_t tiles_most, bool by_slam = false,
         bool is_whole = false, std::uint32_t work = kWholeSearch)
-      : random_seed_(seed), network_(plan_of(kind, length_m), seed), localiser_({tiles_most, work, is_whole}) {
+      : random_seed_(seed),
+        network_(plan_of(kind, length_m), seed),
+        localiser_(localise_settings(tiles_most, work, is_whole)) {
     sensor_.noise_m = 0.015;
     // In half of the networks one of the roads is not in the map.
     const sim::NetworkGraph& graph = network_.graph();

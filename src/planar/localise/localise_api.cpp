@@ -30,15 +30,7 @@ using pose_wall::planar::ScanPoint;
 using pose_wall::planar::Where;
 using pose_wall::planar::Why;
 
-// What lives in the block: the localiser and its settings, for clear().
-struct Body {
-  Localiser localiser;
-  LocaliseSettings settings;
-
-  void lay_out(pose_wall::Arena& arena, const LocaliseSettings& with) { localiser.lay_out(arena, with); }
-};
-
-using Opened = pose_wall::Held<Body, 0x65736C6163636F6CULL>;
+using Opened = pose_wall::Held<Localiser, 0x65736C6163636F6CULL>;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -47,19 +39,10 @@ constexpr pose_wall::SettingRow kRows[] = {
 #include "pose_wall_planar_localise_settings.def"
 };
 
-struct LocaliseTable : pose_wall::SettingsTable<pose_wall_planar_localise_settings> {
+struct LocaliseTable : pose_wall::SettingsTable<LocaliseSettings> {
   using SettingsTable::SettingsTable;
   static pose_wall::SettingRows rows() { return pose_wall::rows_of(kRows); }
 };
-
-// The caller's settings, or the defaults. Fails as pose_wall_planar_localise_settings_check does.
-std::int32_t take_settings(const pose_wall_planar_localise_settings* from, LocaliseSettings* out) {
-  pose_wall_planar_localise_settings chosen;
-  const std::int32_t status = pose_wall::choose_settings<LocaliseTable>(from, &chosen);
-  if (status != POSE_WALL_OK) return status;
-  *out = {chosen.tiles_most, chosen.work, chosen.map_is_whole == 1, chosen.odometry_m, chosen.odometry_rad};
-  return POSE_WALL_OK;
-}
 
 bool are_points(const float* xy_m, std::uint32_t points) {
   constexpr float kFarthest_m = 2000.0F;  // from base: half of the square that a map may lie in
@@ -172,30 +155,18 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_check(const pose_wal
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_memory_needed(const pose_wall_planar_localise_settings* settings,
                                                                  uint64_t* bytes) {
-  if (bytes == nullptr) return POSE_WALL_E_NULL;
-  LocaliseSettings own;
-  const std::int32_t status = take_settings(settings, &own);
-  if (status == POSE_WALL_OK) *bytes = Opened::bytes(own);
-  return status;
+  return pose_wall::part_memory_needed<Opened, LocaliseTable>(settings, bytes);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_open(const pose_wall_planar_localise_settings* settings, void* block,
                                                         uint64_t block_bytes, pose_wall_planar_localise** localise) {
-  if (block == nullptr || localise == nullptr) return POSE_WALL_E_NULL;
-  LocaliseSettings own;
-  std::int32_t status = take_settings(settings, &own);
-  Opened* placed = nullptr;
-  if (status == POSE_WALL_OK) status = Opened::place(block, block_bytes, &placed, own);
-  if (status != POSE_WALL_OK) return status;
-  placed->body().settings = own;
-  placed->body().localiser.open(own);
-  *localise = reinterpret_cast<pose_wall_planar_localise*>(placed);
-  return POSE_WALL_OK;
+  return pose_wall::open_part<Opened, LocaliseTable>(
+      settings, block, block_bytes, localise, [](Localiser& own, const LocaliseSettings& chosen) { own.open(chosen); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_clear(pose_wall_planar_localise* localise) {
-  return pose_wall::with_part<Opened>(localise, [](Body& body) {
-    body.localiser.open(body.settings);
+  return pose_wall::with_part<Opened>(localise, [](Localiser& own) {
+    own.clear();
     return pose_wall::kOk;
   });
 }
@@ -206,11 +177,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add(pose_wall_planar_localise
   if (pose == nullptr || xy_m == nullptr) return POSE_WALL_E_NULL;
   if (!is_pose(*pose)) return POSE_WALL_PLANAR_E_POSE;
   if (points > POSE_WALL_PLANAR_BEAMS_MAX || !are_points(xy_m, points)) return POSE_WALL_PLANAR_E_SCAN;
-  return pose_wall::with_part<Opened>(localise, [&](Body& body) {
-    PlaceMap& map = body.localiser.map();
+  return pose_wall::with_part<Opened>(localise, [&](Localiser& own) {
+    PlaceMap& map = own.map();
     if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
-    return add_points(&map, pose_of(*pose), xy_m, points) ? std::int32_t{POSE_WALL_OK}
-                                                          : std::int32_t{POSE_WALL_E_BLOCK_SMALL};
+    return pose_wall::ok_if(add_points(&map, pose_of(*pose), xy_m, points), POSE_WALL_E_BLOCK_SMALL);
   });
 }
 
@@ -220,16 +190,16 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_loc
   if (const std::int32_t size = pose_wall::check_struct(*grid); size != POSE_WALL_OK) return size;
   if (grid->cells == nullptr) return POSE_WALL_E_NULL;
   if (!is_grid(*grid)) return POSE_WALL_PLANAR_E_GRID;
-  return pose_wall::with_part<Opened>(localise, [&](Body& body) {
-    PlaceMap& map = body.localiser.map();
+  return pose_wall::with_part<Opened>(localise, [&](Localiser& own) {
+    PlaceMap& map = own.map();
     if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
-    return add_cells(&map, *grid) ? std::int32_t{POSE_WALL_OK} : std::int32_t{POSE_WALL_E_BLOCK_SMALL};
+    return pose_wall::ok_if(add_cells(&map, *grid), POSE_WALL_E_BLOCK_SMALL);
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_finish(pose_wall_planar_localise* localise) {
-  return pose_wall::with_part<Opened>(localise, [](Body& body) {
-    PlaceMap& map = body.localiser.map();
+  return pose_wall::with_part<Opened>(localise, [](Localiser& own) {
+    PlaceMap& map = own.map();
     if (map.is_finished() || map.is_empty()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     map.finish();
     return pose_wall::kOk;
@@ -245,8 +215,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_loca
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
   if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
-  return pose_wall::with_part<Opened>(localise, [&](Body& body) {
-    Localiser& own = body.localiser;
+  return pose_wall::with_part<Opened>(localise, [&](Localiser& own) {
     if (!own.map().is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
     const Pose2 given = odometry != nullptr ? pose_of(*odometry) : Pose2();
     const Where where = own.process(read_beams(*scan, own.beams()), odometry != nullptr ? &given : nullptr);
@@ -259,8 +228,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_pla
                                                              pose_wall_planar_candidate* candidate) {
   if (candidate == nullptr) return POSE_WALL_E_NULL;
   if (const std::int32_t size = pose_wall::check_struct(*candidate); size != POSE_WALL_OK) return size;
-  return pose_wall::with_part<Opened>(localise, [&](const Body& body) {
-    const Localiser& own = body.localiser;
+  return pose_wall::with_part<Opened>(localise, [&](const Localiser& own) {
     if (own.is_tracking() || number >= own.verdict().count) return std::int32_t{POSE_WALL_E_INDEX};
     const CandidatePlace& place = own.verdict().candidates[number];
     pose_wall_planar_candidate out{};
@@ -281,15 +249,15 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_place(pose_wall_planar_locali
   if (base == nullptr) return POSE_WALL_E_NULL;
   if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(sigma_m, 0.001, 1.0) || !is_within(sigma_rad, 0.001, 0.5)) return POSE_WALL_E_VALUE_RANGE;
-  return pose_wall::with_part<Opened>(localise, [&](Body& body) {
-    body.localiser.place(pose_of(*base), sigma_m, sigma_rad);
+  return pose_wall::with_part<Opened>(localise, [&](Localiser& own) {
+    own.place(pose_of(*base), sigma_m, sigma_rad);
     return pose_wall::kOk;
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_forget(pose_wall_planar_localise* localise) {
-  return pose_wall::with_part<Opened>(localise, [](Body& body) {
-    body.localiser.forget();
+  return pose_wall::with_part<Opened>(localise, [](Localiser& own) {
+    own.forget();
     return pose_wall::kOk;
   });
 }

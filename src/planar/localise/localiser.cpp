@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include "planar/localise/localiser.hpp"
+#include "base/math/fnv1a.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -70,8 +71,8 @@ bool Localiser::is_due() const {
 
 // The one place, if the present scan agrees.
 bool Localiser::settle(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
-  constexpr double kKnown_m = 0.1,
-                   kKnown_rad = 0.03;  // a cell of the map, and the yaw that moves its points by one at 3 m
+  // A cell of the map, and the yaw that moves its points by one at 3 m.
+  constexpr double kKnown_m = 0.1, kKnown_rad = 0.03;
   scan_around_.take(points, scan.origin_m, scan.sigma_m);
   follower_.begin(now(verdict_.candidates[0].pose), kKnown_m, kKnown_rad);
   return follower_.confirm(map_, scan_around_, odometry) == Track::tracked;
@@ -97,7 +98,7 @@ Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, cons
   if (!search_.is_under_way() || !search_.go_on(map_, around_, settings_.work)) return where_;
   ++searches_;
   judged_from_ = looked_from_;
-  judge(map_, around_, search_, settings_.map_is_whole, walls_, &verdict_);
+  judge(map_, around_, search_, settings_.map_is_whole != 0, walls_, &verdict_);
   if (verdict_.finding == Finding::unknown) return Where::unknown;
   if (verdict_.finding == Finding::ambiguous) return Where::ambiguous;
   if (!settle(points, scan, odometry)) {
@@ -123,12 +124,12 @@ Where Localiser::track(Span<const ScanPoint> points, const BeamScan& scan, const
 
 // By the bits of its ranges. Scans of the same stamp are the same scan once more.
 bool Localiser::is_repeat(const BeamScan& scan) {
-  std::uint64_t print = 0xCBF29CE484222325ULL;  // FNV-1a by words
+  std::uint64_t print = kFnv1aOfNothing;
   std::uint32_t ranges = 0;
   for (const Beam& beam : scan.beams) {
     std::uint32_t bits;
     std::memcpy(&bits, &beam.range_m, sizeof(bits));
-    print = (print ^ bits) * 0x100000001B3ULL;
+    print = fnv1a_with(print, bits);
     ranges += beam.end == BeamEnd::thing ? 1U : 0U;
   }
   if (ranges < SeenClouds::kReturnsLeast) return false;

@@ -12,15 +12,11 @@
 #include "planar/localise/map_follower.hpp"
 #include "planar/localise/recent.hpp"
 #include "planar/localise/verdict.hpp"
+#include "pose_wall_planar_localise.h"
 
 namespace pose_wall::planar {
 
-struct LocaliseSettings {
-  std::uint32_t tiles_most = 1024;
-  std::uint32_t work = 40000;  // steps of search in a call
-  bool map_is_whole = false;
-  double odometry_m = 0.1, odometry_rad = 0.3;
-};
+using LocaliseSettings = pose_wall_planar_localise_settings;
 
 enum class Where : std::uint32_t { searching, unknown, ambiguous, unique, doubtful };
 
@@ -28,6 +24,8 @@ class Localiser {
  public:
   void lay_out(Arena& arena, const LocaliseSettings& settings);
   void open(const LocaliseSettings& settings);
+  // As opened, without a map.
+  void clear() { open(settings_); }
   PlaceMap& map() { return map_; }
   const PlaceMap& map() const { return map_; }
   Span<Beam> beams() const { return beams_; }
@@ -57,7 +55,7 @@ class Localiser {
   bool is_repeat(const BeamScan& scan);
   bool settle(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry);
 
-  LocaliseSettings settings_;
+  LocaliseSettings settings_{};
   PlaceMap map_;
   Matcher matcher_;
   Recent recent_;

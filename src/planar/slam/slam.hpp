@@ -30,6 +30,8 @@ class Slam {
  public:
   void lay_out(Arena& arena, const SlamSettings& settings);
   void open(const SlamSettings& settings);
+  // As opened, without a map.
+  void clear() { open(settings_); }
   SlamStep process(const BeamScan& scan, const Pose2* odometry);
   // Goes on with the graph until it rests, at most kRoundsMost rounds. process() does one round a scan.
   void settle();

@@ -29,15 +29,7 @@ using pose_wall::planar::TrailImage;
 
 constexpr const char* kStates[] = {"first", "tracked", "doubtful", "blind"};
 
-// What lives in the block: SLAM and its settings, for clear().
-struct Body {
-  Slam slam;
-  SlamSettings settings;
-
-  void lay_out(pose_wall::Arena& arena, const SlamSettings& with) { slam.lay_out(arena, with); }
-};
-
-using Opened = pose_wall::Held<Body, 0x6D616C736C6E616CULL>;
+using Opened = pose_wall::Held<Slam, 0x6D616C736C6E616CULL>;
 
 constexpr pose_wall::SettingRow kRows[] = {
 #define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_slam_settings, __VA_ARGS__)
@@ -80,15 +72,12 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_memory_needed(const pose_wall_pla
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_open(const pose_wall_planar_slam_settings* settings, void* block,
                                                     uint64_t block_bytes, pose_wall_planar_slam** slam) {
   return pose_wall::open_part<Opened, SlamTable>(settings, block, block_bytes, slam,
-                                                 [](Body& body, const SlamSettings& chosen) {
-                                                   body.settings = chosen;
-                                                   body.slam.open(chosen);
-                                                 });
+                                                 [](Slam& part, const SlamSettings& chosen) { part.open(chosen); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_clear(pose_wall_planar_slam* slam) {
-  return pose_wall::with_part<Opened>(slam, [](Body& body) {
-    body.slam.open(body.settings);
+  return pose_wall::with_part<Opened>(slam, [](Slam& part) {
+    part.clear();
     return pose_wall::kOk;
   });
 }
@@ -101,8 +90,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_process(pose_wall_planar_slam* sl
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
   if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
-  return pose_wall::with_part<Opened>(slam, [&](Body& body) {
-    Slam& own = body.slam;
+  return pose_wall::with_part<Opened>(slam, [&](Slam& own) {
     const bool is_first = own.trail().size() == 0;
     const Pose2 given = odometry != nullptr ? pose_of(*odometry) : Pose2();
     const SlamStep step = own.process(read_beams(*scan, own.beams()), odometry != nullptr ? &given : nullptr);
@@ -128,8 +116,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_process(pose_wall_planar_slam* sl
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_settle(pose_wall_planar_slam* slam) {
-  return pose_wall::with_part<Opened>(slam, [](Body& body) {
-    body.slam.settle();
+  return pose_wall::with_part<Opened>(slam, [](Slam& part) {
+    part.settle();
     return pose_wall::kOk;
   });
 }
@@ -138,8 +126,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_keyframe(const pose_wall_planar_s
                                                         pose_wall_planar_keyframe* keyframe) {
   if (keyframe == nullptr) return POSE_WALL_E_NULL;
   if (const std::int32_t size = pose_wall::check_struct(*keyframe); size != POSE_WALL_OK) return size;
-  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
-    const Trail& trail = body.slam.trail();
+  return pose_wall::with_part<Opened>(slam, [&](const Slam& part) {
+    const Trail& trail = part.trail();
     if (number >= trail.size()) return std::int32_t{POSE_WALL_E_INDEX};
     const Keyframe& own = trail[number];
     *keyframe = {sizeof(*keyframe), own.count, own.stamp_ns, pose_for_caller(trail.pose(number)), own.travel_m};
@@ -150,8 +138,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_keyframe(const pose_wall_planar_s
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_points(const pose_wall_planar_slam* slam, uint32_t number, float* xy_m,
                                                       uint32_t capacity) {
   if (xy_m == nullptr) return POSE_WALL_E_NULL;
-  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
-    const Trail& trail = body.slam.trail();
+  return pose_wall::with_part<Opened>(slam, [&](const Slam& part) {
+    const Trail& trail = part.trail();
     if (number >= trail.size()) return std::int32_t{POSE_WALL_E_INDEX};
     if (capacity < trail[number].count) return std::int32_t{POSE_WALL_E_BUFFER_SMALL};
     float* to = xy_m;
@@ -167,8 +155,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_edge(const pose_wall_planar_slam*
                                                     pose_wall_planar_edge* edge) {
   if (edge == nullptr) return POSE_WALL_E_NULL;
   if (const std::int32_t size = pose_wall::check_struct(*edge); size != POSE_WALL_OK) return size;
-  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
-    const Trail& trail = body.slam.trail();
+  return pose_wall::with_part<Opened>(slam, [&](const Slam& part) {
+    const Trail& trail = part.trail();
     if (number >= trail.edges().size()) return std::int32_t{POSE_WALL_E_INDEX};
     const Edge& own = trail.edges()[number];
     pose_wall_planar_edge out{};
@@ -185,8 +173,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_edge(const pose_wall_planar_slam*
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_save_bytes(const pose_wall_planar_slam* slam, uint64_t* bytes) {
   if (bytes == nullptr) return POSE_WALL_E_NULL;
-  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
-    *bytes = TrailImage::bytes(body.slam.trail());
+  return pose_wall::with_part<Opened>(slam, [&](const Slam& part) {
+    *bytes = TrailImage::bytes(part.trail());
     return pose_wall::kOk;
   });
 }
@@ -194,10 +182,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_save_bytes(const pose_wall_planar
 POSE_WALL_EXPORT int32_t pose_wall_planar_slam_save(const pose_wall_planar_slam* slam, void* buffer,
                                                     uint64_t buffer_bytes, uint64_t* bytes) {
   if (buffer == nullptr || bytes == nullptr) return POSE_WALL_E_NULL;
-  return pose_wall::with_part<Opened>(slam, [&](const Body& body) {
-    const std::uint64_t needed = TrailImage::bytes(body.slam.trail());
+  return pose_wall::with_part<Opened>(slam, [&](const Slam& part) {
+    const std::uint64_t needed = TrailImage::bytes(part.trail());
     if (buffer_bytes < needed) return std::int32_t{POSE_WALL_E_BUFFER_SMALL};
-    TrailImage::write(body.slam.trail(), static_cast<unsigned char*>(buffer));
+    TrailImage::write(part.trail(), static_cast<unsigned char*>(buffer));
     *bytes = needed;
     return pose_wall::kOk;
   });
@@ -207,12 +195,12 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_slam_load(pose_wall_planar_slam* slam,
                                                     const pose_wall_planar_pose* base) {
   if (saved == nullptr) return POSE_WALL_E_NULL;
   if (base != nullptr && !is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
-  return pose_wall::with_part<Opened>(slam, [&](Body& body) {
-    Trail& trail = body.slam.trail();
+  return pose_wall::with_part<Opened>(slam, [&](Slam& part) {
+    Trail& trail = part.trail();
     const std::int32_t status = TrailImage::read(static_cast<const unsigned char*>(saved), bytes, &trail);
     if (status != POSE_WALL_OK) return status;
     const Pose2 end = trail.size() > 0 ? trail.pose(trail.size() - 1) : Pose2();
-    body.slam.resume(base != nullptr ? pose_of(*base) : end);
+    part.resume(base != nullptr ? pose_of(*base) : end);
     return pose_wall::kOk;
   });
 }

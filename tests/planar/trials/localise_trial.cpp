@@ -57,7 +57,7 @@ double processor_s() {
 // Processor time of calls with the default share of work, in a kilometre of roads.
 void cost(const Options& options) {
   const double begun = processor_s();
-  const World world(std::max(0, options.kind), 2 * options.seed, 1000.0, 1024, false, false, LocaliseSettings().work);
+  const World world(std::max(0, options.kind), 2 * options.seed, 1000.0, 1024, false, false, localise_settings().work);
   std::printf("map of a kilometre: %u tiles, %u surfaces, block %.1f MB, made in %.2f s with its scans\n",
               world.localiser().map().tiles(), world.localiser().map().surfaces(),
               static_cast<double>(world.bytes()) * 1e-6, processor_s() - begun);
