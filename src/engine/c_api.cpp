@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The only extern "C" file: checks arguments, translates, calls.
+// The calls of pose_wall.h but for names.cpp: checks arguments, translates, calls.
 
 #include <cstring>
 
@@ -9,7 +9,6 @@
 #include "engine/engine.hpp"
 #include "engine/engine_memento.hpp"
 #include "engine/image.hpp"
-#include "engine/names.hpp"
 #include "engine/self_test.hpp"
 #include "engine/self_test_digest.hpp"
 #include "lidar/cloud_reader.hpp"
@@ -22,58 +21,53 @@
 #define POSE_WALL_TEXT_OF(number) POSE_WALL_TEXT_OF_(number)
 #define POSE_WALL_TEXT_OF_(number) #number
 
-using pose_wall::Engine;
-
+namespace pose_wall {
 namespace {
-
-Engine* engine_of(pose_wall_engine* handle) {
-  return reinterpret_cast<Engine*>(handle);
-}
-const Engine* engine_of(const pose_wall_engine* handle) {
-  return reinterpret_cast<const Engine*>(handle);
-}
-
-using Inside = pose_wall::Inside<Engine>;
 
 std::int32_t check_inputs(const pose_wall_inputs* inputs) {
   // The bits of pose_wall_inputs.given; others are of a later version.
   constexpr std::uint32_t kKnown =
       POSE_WALL_INPUT_STANDING | POSE_WALL_INPUT_SPEED | POSE_WALL_INPUT_TURN_RATE | POSE_WALL_INPUT_ODOMETRY;
   if (inputs == nullptr) return POSE_WALL_OK;
-  const std::int32_t status = pose_wall::check_struct_size(inputs->struct_size, pose_wall::kInputsSizes);
+  const std::int32_t status = check_struct_size(inputs->struct_size, kInputsSizes);
   if (status != POSE_WALL_OK) return status;
-  return pose_wall::ok_if((inputs->given & ~kKnown) == 0, POSE_WALL_E_INPUT);
+  return ok_if((inputs->given & ~kKnown) == 0, POSE_WALL_E_INPUT);
 }
 
 std::int32_t check_moment(const pose_wall_moment* moment) {
   // The bits of pose_wall_moment.known; others are of a later version.
   constexpr std::uint32_t kKnown = POSE_WALL_MOMENT_BOOT | POSE_WALL_MOMENT_WALL | POSE_WALL_MOMENT_SAME_CLOCK;
   if (moment == nullptr) return POSE_WALL_OK;
-  const std::int32_t status = pose_wall::check_struct_size(moment->struct_size, pose_wall::kMomentSizes);
+  const std::int32_t status = check_struct_size(moment->struct_size, kMomentSizes);
   if (status != POSE_WALL_OK) return status;
   // An identity that somebody forgot to fill in is the same after each start.
   constexpr unsigned char kForgotten[sizeof(moment->boot_id)] = {};
   const bool forgotten =
       (moment->known & POSE_WALL_MOMENT_BOOT) != 0 && std::memcmp(moment->boot_id, kForgotten, sizeof(kForgotten)) == 0;
-  return pose_wall::ok_if((moment->known & ~kKnown) == 0 && !forgotten, POSE_WALL_E_INPUT);
+  return ok_if((moment->known & ~kKnown) == 0 && !forgotten, POSE_WALL_E_INPUT);
+}
+
+// Of a checked moment; for none, one of which nothing is known.
+pose_wall_moment whole_moment(const pose_wall_moment* given) {
+  return given != nullptr ? read_struct<pose_wall_moment>(given, given->struct_size) : pose_wall_moment{};
 }
 
 // Struct size, description, inputs: all that is wrong with a cloud before a point is looked at.
 std::int32_t check_whole_cloud(const pose_wall_cloud& cloud) {
-  std::int32_t status = pose_wall::check_struct_size(cloud.struct_size, pose_wall::kCloudSizes);
+  std::int32_t status = check_struct_size(cloud.struct_size, kCloudSizes);
   if (status != POSE_WALL_OK) return status;
-  status = pose_wall::check_cloud(pose_wall::read_struct<pose_wall_cloud>(&cloud, cloud.struct_size));
+  status = check_cloud(read_struct<pose_wall_cloud>(&cloud, cloud.struct_size));
   return status == POSE_WALL_OK ? check_inputs(cloud.inputs) : status;
 }
 
 // The whole result in *whole, or why there is no image of it.
 std::int32_t image_status(const pose_wall_result& result, std::uint32_t image_size, std::uint32_t known_size,
                           pose_wall_result* whole) {
-  std::int32_t status = pose_wall::check_struct_size(result.struct_size, pose_wall::kResultSizes);
-  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(image_size, {0, known_size, known_size});
+  std::int32_t status = check_struct_size(result.struct_size, kResultSizes);
+  if (status == POSE_WALL_OK) status = check_struct_size(image_size, {0, known_size, known_size});
   if (status != POSE_WALL_OK) return status;
-  *whole = pose_wall::read_struct<pose_wall_result>(&result, result.struct_size);
-  return pose_wall::ok_if(whole->mark == pose_wall::mark_of(*whole), POSE_WALL_E_RESULT);
+  *whole = read_struct<pose_wall_result>(&result, result.struct_size);
+  return ok_if(whole->mark == mark_of(*whole), POSE_WALL_E_RESULT);
 }
 
 }  // namespace
@@ -89,80 +83,55 @@ POSE_WALL_EXPORT uint32_t pose_wall_abi_version(void) {
   return POSE_WALL_ABI_VERSION;
 }
 
-POSE_WALL_EXPORT const char* pose_wall_status_text(int32_t status) {
-  return pose_wall::status_text(status);
-}
-POSE_WALL_EXPORT const char* pose_wall_reason_name(uint32_t bit_index) {
-  return pose_wall::reason_name(bit_index);
-}
-POSE_WALL_EXPORT const char* pose_wall_reason_text(uint32_t bit_index) {
-  return pose_wall::reason_text(bit_index);
-}
-POSE_WALL_EXPORT const char* pose_wall_state_name(uint32_t state) {
-  return pose_wall::state_name(state);
-}
-POSE_WALL_EXPORT const char* pose_wall_quantity_name(uint32_t quantity) {
-  return pose_wall::quantity_name(quantity);
-}
-POSE_WALL_EXPORT const char* pose_wall_stage_name(uint32_t stage) {
-  return pose_wall::stage_name(stage);
-}
-POSE_WALL_EXPORT const char* pose_wall_part_name(uint32_t part) {
-  return pose_wall::part_name(part);
-}
-POSE_WALL_EXPORT const char* pose_wall_sense_name(uint32_t sense) {
-  return pose_wall::sense_name(sense);
-}
-
 #undef pose_wall_config_init
 POSE_WALL_EXPORT int32_t pose_wall_config_init(pose_wall_config* /*config*/) {
   return POSE_WALL_E_ABI;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_config_init_2(pose_wall_config* config) {
-  return config != nullptr ? pose_wall::config_init(config) : POSE_WALL_E_NULL;
+  return config != nullptr ? config_init(config) : POSE_WALL_E_NULL;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value) {
   if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
-  return pose_wall::config_set(config, key, value);
+  return config_set(config, key, value);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value) {
   if (config == nullptr || key == nullptr) return POSE_WALL_E_NULL;
-  return pose_wall::config_set_number(config, key, value);
+  return config_set_number(config, key, value);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_config_get_number(const pose_wall_config* config, const char* key, double* value) {
   if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
-  return pose_wall::config_get_number(*config, key, value);
+  return config_get_number(*config, key, value);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_config_get_box(const pose_wall_config* config, const char* key, double value[6]) {
   if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
-  return pose_wall::config_get_box(*config, key, value);
+  return config_get_box(*config, key, value);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* key, char* buffer,
                                                    uint64_t bytes) {
   if (config == nullptr || key == nullptr || buffer == nullptr) return POSE_WALL_E_NULL;
-  return pose_wall::config_get_text(*config, key, buffer, bytes);
+  return config_get_text(*config, key, buffer, bytes);
 }
 
 POSE_WALL_EXPORT uint32_t pose_wall_config_key_count(void) {
-  return pose_wall::config_key_count();
+  return config_key_count();
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info) {
-  return info != nullptr ? pose_wall::config_key(index, info) : POSE_WALL_E_NULL;
+  return info != nullptr ? config_key(index, info) : POSE_WALL_E_NULL;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault) {
-  return config != nullptr ? pose_wall::check_config(*config, fault) : POSE_WALL_E_NULL;
+  return config != nullptr ? check_config(*config, fault) : POSE_WALL_E_NULL;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_config_crc(const pose_wall_config* config, uint32_t* crc) {
-  return config != nullptr && crc != nullptr ? pose_wall::config_crc(*config, crc) : POSE_WALL_E_NULL;
+  return config != nullptr && crc != nullptr ? config_crc(*config, crc) : POSE_WALL_E_NULL;
 }
 
 #undef pose_wall_cloud_xyz32
@@ -176,7 +145,7 @@ POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32_2(pose_wall_cloud* cloud, const v
   pose_wall_cloud whole;
   const std::int32_t status = cloud != nullptr ? pose_wall_cloud_xyz32_3(&whole, data, count, point_step, stamp_ns)
                                                : std::int32_t{POSE_WALL_E_NULL};
-  if (status == POSE_WALL_OK) pose_wall::write_struct(whole, pose_wall::kCloudSizes.first, cloud);
+  if (status == POSE_WALL_OK) write_struct(whole, kCloudSizes.first, cloud);
   return status;
 }
 
@@ -195,7 +164,7 @@ POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32_3(pose_wall_cloud* cloud, const v
   cloud->y = {4, POSE_WALL_FIELD_FLOAT32};
   cloud->z = {8, POSE_WALL_FIELD_FLOAT32};
   cloud->big_endian = 0;
-  if (pose_wall::needs_swap(*cloud)) cloud->big_endian = 1;  // native floats on a big-endian machine
+  if (needs_swap(*cloud)) cloud->big_endian = 1;  // native floats on a big-endian machine
   return POSE_WALL_OK;
 }
 
@@ -206,9 +175,9 @@ POSE_WALL_EXPORT int32_t pose_wall_cloud_check(const pose_wall_cloud* cloud) {
 
 POSE_WALL_EXPORT int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes) {
   if (config == nullptr || bytes == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = pose_wall::check_config(*config, nullptr);
+  const int32_t status = check_config(*config, nullptr);
   if (status != POSE_WALL_OK) return status;
-  *bytes = Engine::lay_out(nullptr, pose_wall::read_settings(*config), nullptr);
+  *bytes = Engine::lay_out(nullptr, read_settings(*config), nullptr);
   return POSE_WALL_OK;
 }
 
@@ -218,129 +187,109 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
   uint64_t needed = 0;
   const int32_t status = pose_wall_memory_needed(config, &needed);
   if (status != POSE_WALL_OK) return status;
-  if (!pose_wall::is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
+  if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
   if (block_bytes < needed) return POSE_WALL_E_BLOCK_SMALL;
   if (Engine::is_inside(block)) return POSE_WALL_E_BUSY;
-  const pose_wall::Settings settings = pose_wall::read_settings(*config);
+  const Settings settings = read_settings(*config);
   // The engine's sum covers padding too. It may hold anything, but must be written.
   std::memset(block, 0, sizeof(Engine));
   Engine* placed = nullptr;
   Engine::lay_out(block, settings, &placed);
   uint32_t crc = 0;
-  pose_wall::config_crc(*config, &crc);
+  config_crc(*config, &crc);
   placed->open(settings, crc);
   *engine = reinterpret_cast<pose_wall_engine*>(placed);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_reset(pose_wall_engine* engine) {
-  if (engine == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine_of(engine));
-  if (inside.status() == POSE_WALL_OK) inside->reset();
-  return inside.status();
+  return with_inside<Engine>(engine, [](Engine& own) { own.reset(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_set_clock(pose_wall_engine* engine, pose_wall_clock clock, void* user) {
-  if (engine == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine_of(engine));
-  if (inside.status() == POSE_WALL_OK) inside->set_clock(clock, user);
-  return inside.status();
+  return with_inside<Engine>(engine, [&](Engine& own) { own.set_clock(clock, user); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_process(pose_wall_engine* engine, const pose_wall_cloud* cloud,
                                            pose_wall_result* result) {
-  if (engine == nullptr || cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine_of(engine));
-  if (inside.status() != POSE_WALL_OK) return inside.status();
-  std::int32_t status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
-  if (status == POSE_WALL_OK) status = check_whole_cloud(*cloud);
-  if (status != POSE_WALL_OK) return status;
-  auto whole_cloud = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
-  pose_wall_inputs whole_inputs;
-  if (whole_cloud.inputs != nullptr) {
-    whole_inputs = pose_wall::read_struct<pose_wall_inputs>(whole_cloud.inputs, whole_cloud.inputs->struct_size);
-    whole_cloud.inputs = &whole_inputs;
-  }
-  pose_wall_result whole{};
-  whole.struct_size = sizeof(whole);
-  inside->process(whole_cloud, &whole);
-  pose_wall::write_struct(whole, result->struct_size, result);
-  return POSE_WALL_OK;
+  if (cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  return with_inside<Engine>(engine, [&](Engine& own) {
+    std::int32_t status = check_struct_size(result->struct_size, kResultSizes);
+    if (status == POSE_WALL_OK) status = check_whole_cloud(*cloud);
+    if (status != POSE_WALL_OK) return status;
+    pose_wall_result whole{};
+    whole.struct_size = sizeof(whole);
+    own.process(WholeCloud(*cloud).cloud, &whole);
+    write_struct(whole, result->struct_size, result);
+    return status;
+  });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_age(pose_wall_engine* engine, int64_t stamp_ns, pose_wall_result* result) {
-  if (engine == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine_of(engine));
-  if (inside.status() != POSE_WALL_OK) return inside.status();
-  const std::int32_t status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
-  if (status != POSE_WALL_OK) return status;
-  pose_wall_result whole{};
-  whole.struct_size = sizeof(whole);
-  inside->age(stamp_ns, &whole);
-  pose_wall::write_struct(whole, result->struct_size, result);
-  return POSE_WALL_OK;
+  if (result == nullptr) return POSE_WALL_E_NULL;
+  return with_inside<Engine>(engine, [&](Engine& own) {
+    const std::int32_t status = check_struct_size(result->struct_size, kResultSizes);
+    if (status != POSE_WALL_OK) return status;
+    pose_wall_result whole{};
+    whole.struct_size = sizeof(whole);
+    own.age(stamp_ns, &whole);
+    write_struct(whole, result->struct_size, result);
+    return status;
+  });
 }
 
 POSE_WALL_EXPORT uint64_t pose_wall_memento_bytes(void) {
-  return pose_wall::memento_bytes();
+  return memento_bytes();
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_save(const pose_wall_engine* engine, const pose_wall_moment* now, void* memento,
                                         uint64_t bytes) {
-  if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine_of(engine));
-  if (inside.status() != POSE_WALL_OK) return inside.status();
-  const std::int32_t status = check_moment(now);
-  if (status != POSE_WALL_OK) return status;
-  if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_BUFFER_SMALL;
-  const pose_wall_moment moment =
-      now != nullptr ? pose_wall::read_struct<pose_wall_moment>(now, now->struct_size) : pose_wall_moment{};
-  pose_wall::save_memory(inside->memory(), moment, inside->config_crc32(), memento);
-  return POSE_WALL_OK;
+  if (memento == nullptr) return POSE_WALL_E_NULL;
+  return with_inside<Engine>(engine, [&](const Engine& own) -> std::int32_t {
+    if (const std::int32_t status = check_moment(now); status != POSE_WALL_OK) return status;
+    if (bytes < memento_bytes()) return POSE_WALL_E_BUFFER_SMALL;
+    save_memory(own.memory(), whole_moment(now), own.config_crc32(), memento);
+    return POSE_WALL_OK;
+  });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_load(pose_wall_engine* engine, const pose_wall_moment* now, const void* memento,
                                         uint64_t bytes) {
-  if (engine == nullptr || memento == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine_of(engine));
-  if (inside.status() != POSE_WALL_OK) return inside.status();
-  const std::int32_t status = check_moment(now);
-  if (status != POSE_WALL_OK) return status;
-  if (bytes < pose_wall::memento_bytes()) return POSE_WALL_E_MEMENTO;  // cut off
-  pose_wall::Memory memory;
-  std::memset(static_cast<void*>(&memory), 0, sizeof(memory));  // padding, too: see pose_wall_open
-  pose_wall_moment then{};
-  if (!pose_wall::load_memory(memento, inside->config_crc32(), &then, &memory)) return POSE_WALL_E_MEMENTO;
-  const pose_wall_moment moment =
-      now != nullptr ? pose_wall::read_struct<pose_wall_moment>(now, now->struct_size) : pose_wall_moment{};
-  pose_wall::take_up(memory, then, moment, engine_of(engine));
-  return POSE_WALL_OK;
+  if (memento == nullptr) return POSE_WALL_E_NULL;
+  return with_inside<Engine>(engine, [&](Engine& own) -> std::int32_t {
+    if (const std::int32_t status = check_moment(now); status != POSE_WALL_OK) return status;
+    if (bytes < memento_bytes()) return POSE_WALL_E_MEMENTO;  // cut off
+    Memory memory;
+    std::memset(static_cast<void*>(&memory), 0, sizeof(memory));  // padding, too: see pose_wall_open
+    pose_wall_moment then{};
+    if (!load_memory(memento, own.config_crc32(), &then, &memory)) return POSE_WALL_E_MEMENTO;
+    take_up(memory, then, whole_moment(now), &own);
+    return POSE_WALL_OK;
+  });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_last_points(const pose_wall_engine* engine, pose_wall_points* points) {
-  if (engine == nullptr || points == nullptr) return POSE_WALL_E_NULL;
-  const Inside inside(engine_of(engine));
-  if (inside.status() == POSE_WALL_OK) *points = inside->points();
-  return inside.status();
+  if (points == nullptr) return POSE_WALL_E_NULL;
+  return with_inside<Engine>(engine, [&](const Engine& own) { *points = own.points(); });
 }
 
 POSE_WALL_EXPORT uint64_t pose_wall_self_test_bytes(void) {
-  return pose_wall::self_test_bytes();
+  return self_test_bytes();
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_self_test(void* block, uint64_t bytes, pose_wall_self_test_report* report) {
   if (block == nullptr || report == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*report); size != POSE_WALL_OK) return size;
-  if (!pose_wall::is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
-  if (bytes < pose_wall::self_test_bytes()) return POSE_WALL_E_BLOCK_SMALL;
-  return pose_wall::self_test(pose_wall::kSelfTestDigest, block, report);
+  if (const std::int32_t size = check_struct(*report); size != POSE_WALL_OK) return size;
+  if (!is_aligned(block)) return POSE_WALL_E_BLOCK_ALIGN;
+  if (bytes < self_test_bytes()) return POSE_WALL_E_BLOCK_SMALL;
+  return self_test(kSelfTestDigest, block, report);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_image_fill(const pose_wall_result* result, pose_wall_image* image) {
   if (result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
   pose_wall_result whole;
   const std::int32_t status = image_status(*result, image->struct_size, sizeof(*image), &whole);
-  if (status == POSE_WALL_OK) pose_wall::fill_image(whole, image);
+  if (status == POSE_WALL_OK) fill_image(whole, image);
   return status;
 }
 
@@ -350,21 +299,23 @@ POSE_WALL_EXPORT int32_t pose_wall_image2_fill(const pose_wall_result* result, c
   pose_wall_result whole;
   std::int32_t status = image_status(*result, image->struct_size, sizeof(*image), &whole);
   if (status == POSE_WALL_OK && source != nullptr) {
-    status = pose_wall::check_struct_size(source->struct_size, pose_wall::kSourceSizes);
+    status = check_struct_size(source->struct_size, kSourceSizes);
   }
   if (status != POSE_WALL_OK) return status;
-  const auto told = source == nullptr ? pose_wall::source_of(whole)
-                                      : pose_wall::read_struct<pose_wall_image_source>(source, source->struct_size);
-  pose_wall::fill_image(whole, told, image);
+  const auto told =
+      source == nullptr ? source_of(whole) : read_struct<pose_wall_image_source>(source, source->struct_size);
+  fill_image(whole, told, image);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_image_check(const pose_wall_image* image) {
-  return image != nullptr ? pose_wall::check_image(*image) : POSE_WALL_E_NULL;
+  return image != nullptr ? check_image(*image) : POSE_WALL_E_NULL;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_image2_check(const pose_wall_image2* image) {
-  return image != nullptr ? pose_wall::check_image(*image) : POSE_WALL_E_NULL;
+  return image != nullptr ? check_image(*image) : POSE_WALL_E_NULL;
 }
 
 }  // extern "C"
+
+}  // namespace pose_wall

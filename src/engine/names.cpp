@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
+//
+// Texts of the public enums.
 
-#include "engine/names.hpp"
-
+#include "part/export.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall {
@@ -111,38 +112,42 @@ const char* text_of(const char* texts, std::uint32_t rows, std::uint32_t row) {
 
 }  // namespace
 
-const char* status_text(std::int32_t status) {
+extern "C" {
+
+POSE_WALL_EXPORT const char* pose_wall_status_text(int32_t status) {
   std::uint32_t row = 0;
   while (row < rows_of(kStatuses) && kStatuses[row] != status) ++row;
   return text_of(kStatusTexts, rows_of(kStatuses), row);
 }
 
-const char* reason_name(std::uint32_t bit_index) {
+POSE_WALL_EXPORT const char* pose_wall_reason_name(uint32_t bit_index) {
   return text_of(kReasonNames, rows_of(kReasonBits), bit_index);
 }
 
-const char* reason_text(std::uint32_t bit_index) {
+POSE_WALL_EXPORT const char* pose_wall_reason_text(uint32_t bit_index) {
   return text_of(kReasonTexts, rows_of(kReasonBits), bit_index);
 }
 
-const char* state_name(std::uint32_t state) {
+POSE_WALL_EXPORT const char* pose_wall_state_name(uint32_t state) {
   return text_of(kStateNames, rows_of(kStates), state);
 }
 
-const char* quantity_name(std::uint32_t quantity) {
+POSE_WALL_EXPORT const char* pose_wall_quantity_name(uint32_t quantity) {
   return text_of(kQuantityNames, rows_of(kQuantities), quantity);
 }
 
-const char* stage_name(std::uint32_t stage) {
+POSE_WALL_EXPORT const char* pose_wall_stage_name(uint32_t stage) {
   return text_of(kStageNames, rows_of(kStages), stage);
 }
 
-const char* part_name(std::uint32_t part) {
+POSE_WALL_EXPORT const char* pose_wall_part_name(uint32_t part) {
   return text_of(kPartNames, rows_of(kParts), part);
 }
 
-const char* sense_name(std::uint32_t sense) {
+POSE_WALL_EXPORT const char* pose_wall_sense_name(uint32_t sense) {
   return text_of(kSenseNames, rows_of(kSenses), sense);
 }
+
+}  // extern "C"
 
 }  // namespace pose_wall

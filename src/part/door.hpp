@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "pose_wall.h"
 
@@ -55,23 +56,21 @@ class Door {
   static constexpr std::uint64_t kChangingBytes = sizeof(inside_);  // of the first word
 };
 
-// One call inside a part that has enter() and leave(), as long as this lives.
-template <typename Part>
-class Inside {
- public:
-  explicit Inside(const Part* part) : part_(const_cast<Part*>(part)), status_(part->enter()) {}
-  ~Inside() {
-    if (status_ == POSE_WALL_OK) part_->leave();
+// call(part) inside a part that has enter() and leave(). It gives the status, or nothing where it cannot fail. The
+// header's handle may be NULL.
+template <typename Part, typename Handle, typename Call>
+std::int32_t with_inside(const Handle* handle, const Call& call) {
+  if (handle == nullptr) return POSE_WALL_E_NULL;
+  Part& part = *reinterpret_cast<Part*>(const_cast<Handle*>(handle));
+  std::int32_t status = part.enter();
+  if (status != POSE_WALL_OK) return status;
+  if constexpr (std::is_void<decltype(call(part))>::value) {
+    call(part);
+  } else {
+    status = call(part);
   }
-  Inside(const Inside&) = delete;
-  Inside& operator=(const Inside&) = delete;
-
-  std::int32_t status() const { return status_; }
-  Part* operator->() const { return part_; }
-
- private:
-  Part* part_;
-  std::int32_t status_;
-};
+  part.leave();
+  return status;
+}
 
 }  // namespace pose_wall

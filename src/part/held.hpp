@@ -6,8 +6,7 @@
 //     using Mine = Held<Body, 0x...>;      Body has lay_out(Arena&) and is trivially destructible
 //     std::uint64_t bytes = Mine::bytes(lay_out_arguments...);
 //     status = Mine::place(block, bytes, &mine, lay_out_arguments...);
-//     const Inside<Mine> inside(mine);  if (inside.status() != POSE_WALL_OK) return inside.status();
-//     inside->body()...
+//     with_inside<Mine>(handle, [](Mine& mine) { mine.body()... });
 
 #pragma once
 

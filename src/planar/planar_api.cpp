@@ -9,9 +9,8 @@
 #include "place/pose2.hpp"
 #include "pose_wall_planar_types.h"
 
+namespace pose_wall::planar {
 namespace {
-
-using pose_wall::planar::Pose2;
 
 // Where the machine's frame stands in base.
 std::int32_t machine_in_base(const pose_wall_config* config, const double* centre_m, Pose2* machine) {
@@ -20,11 +19,11 @@ std::int32_t machine_in_base(const pose_wall_config* config, const double* centr
   if (status != POSE_WALL_OK) return status;
   constexpr double kFarthest_m = 20.0;  // the largest edge of the planner's rectangle
   for (int k = 0; centre_m != nullptr && k < 2; ++k) {
-    if (!pose_wall::planar::is_within(centre_m[k], -kFarthest_m, kFarthest_m)) return POSE_WALL_E_VALUE_RANGE;
+    if (!is_within(centre_m[k], -kFarthest_m, kFarthest_m)) return POSE_WALL_E_VALUE_RANGE;
   }
-  const Eigen::Vector2d forward = pose_wall::mount_of(*config).forward_base;
+  const Eigen::Vector2d forward = mount_of(*config).forward_base;
   *machine = {centre_m != nullptr ? centre_m[0] : 0.0, centre_m != nullptr ? centre_m[1] : 0.0,
-              pose_wall::arc_tangent2(forward.y(), forward.x())};
+              arc_tangent2(forward.y(), forward.x())};
   return POSE_WALL_OK;
 }
 
@@ -47,8 +46,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_machine_of_base(const pose_wall_config
   Pose2 in_base;
   const std::int32_t status = machine_in_base(config, centre_m, &in_base);
   if (status != POSE_WALL_OK) return status;
-  if (!pose_wall::planar::is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
-  *machine = pose_wall::planar::pose_for_caller(compose(pose_wall::planar::pose_of(*base), in_base));
+  if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
+  *machine = pose_for_caller(compose(pose_of(*base), in_base));
   return POSE_WALL_OK;
 }
 
@@ -59,10 +58,12 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_base_of_machine(const pose_wall_config
   Pose2 in_base;
   const std::int32_t status = machine_in_base(config, centre_m, &in_base);
   if (status != POSE_WALL_OK) return status;
-  if (!pose_wall::planar::is_pose(*machine)) return POSE_WALL_PLANAR_E_POSE;
+  if (!is_pose(*machine)) return POSE_WALL_PLANAR_E_POSE;
   const Pose2 base_in_machine = between(in_base, Pose2{});
-  *base = pose_wall::planar::pose_for_caller(compose(pose_wall::planar::pose_of(*machine), base_in_machine));
+  *base = pose_for_caller(compose(pose_of(*machine), base_in_machine));
   return POSE_WALL_OK;
 }
 
 }  // extern "C"
+
+}  // namespace pose_wall::planar

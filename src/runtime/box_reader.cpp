@@ -156,9 +156,6 @@ void copy_version(const unsigned char* header, char (&version)[kLibraryBytes]) {
 constexpr pose_wall_moment kSameClock = {sizeof(pose_wall_moment), POSE_WALL_MOMENT_SAME_CLOCK, {}, 0, 0};
 
 }  // namespace
-}  // namespace pose_wall::runtime
-
-using namespace pose_wall::runtime;  // NOLINT(google-build-using-namespace): of this file's own parts
 
 extern "C" {
 
@@ -206,7 +203,7 @@ POSE_WALL_EXPORT int32_t pose_wall_box_next(const void* bytes, uint64_t count, u
   const uint64_t end = found ? at : count;
   record->passed_over = end > from ? end - from : 0;
   *offset = found ? read_record(start, count, at, record) : end;
-  return pose_wall::ok_if(found, POSE_WALL_BOX_E_END);
+  return ok_if(found, POSE_WALL_BOX_E_END);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_box_compute(const pose_wall_box_record* record, pose_wall_engine* engine,
@@ -233,3 +230,5 @@ POSE_WALL_EXPORT int32_t pose_wall_box_compute(const pose_wall_box_record* recor
 }
 
 }  // extern "C"
+
+}  // namespace pose_wall::runtime

@@ -9,7 +9,6 @@
 #include <cstdint>
 
 #include "activity.hpp"
-#include "block_walk.hpp"
 #include "box_writer.hpp"
 #include "frame_copy.hpp"
 #include "frame_slot.hpp"

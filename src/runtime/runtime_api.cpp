@@ -14,24 +14,20 @@
 #include "runtime.hpp"
 #include "struct_versions.hpp"
 
-using pose_wall::is_aligned;
-using pose_wall::ok_if;
-using pose_wall::runtime::InnerBytes;
-using pose_wall::runtime::Runtime;
-
+namespace pose_wall::runtime {
 namespace {
 
-Runtime* runtime_of(pose_wall_runtime* handle) {
-  return reinterpret_cast<Runtime*>(handle);
-}
-// Reading takes a lock, which is no change that a caller could see.
-Runtime* runtime_of(const pose_wall_runtime* handle) {
-  return reinterpret_cast<Runtime*>(const_cast<pose_wall_runtime*>(handle));
-}
+constexpr const char* kActivities[POSE_WALL_RUNTIME_ACTIVITIES] = {"nothing", "wait",    "choice",
+                                                                   "frame",   "silence", "callback"};
+constexpr const char* kDrops[POSE_WALL_RUNTIME_DROPS] = {"description", "large",  "busy", "overtaken",
+                                                         "stopped",     "engine", "late"};
 
-int32_t check(const pose_wall_runtime* handle) {
+// Reading takes a lock, which is no change that a caller could see.
+template <typename Call>
+int32_t with_runtime(const pose_wall_runtime* handle, const Call& call) {
   if (handle == nullptr) return POSE_WALL_E_NULL;
-  return ok_if(runtime_of(handle)->is_open(), POSE_WALL_RUNTIME_E_HANDLE);
+  Runtime* const runtime = reinterpret_cast<Runtime*>(const_cast<pose_wall_runtime*>(handle));
+  return runtime->is_open() ? call(*runtime) : POSE_WALL_RUNTIME_E_HANDLE;
 }
 
 // The memory of engine and motion, after all other checks; and the options as this version reads them.
@@ -40,13 +36,13 @@ int32_t inner_bytes(const pose_wall_config* config, const pose_wall_runtime_opti
   if (config == nullptr) return POSE_WALL_E_NULL;
   int32_t status = POSE_WALL_OK;
   if (options == nullptr) {
-    pose_wall::runtime::set_defaults(whole);
+    set_defaults(whole);
   } else {
-    status = pose_wall::runtime::read_options(*options, nullptr, whole);
+    status = read_options(*options, nullptr, whole);
   }
   if (status == POSE_WALL_OK) status = pose_wall_memory_needed(config, &bytes->engine);
   if (status != POSE_WALL_OK) return status;
-  const bool moves = whole->motion != nullptr && pose_wall::runtime::config_wants_motion(*config);
+  const bool moves = whole->motion != nullptr && config_wants_motion(*config);
   bytes->motion = moves ? whole->motion->memory_needed() : 0;
   return POSE_WALL_OK;
 }
@@ -59,6 +55,18 @@ POSE_WALL_EXPORT uint32_t pose_wall_runtime_abi_version(void) {
   return POSE_WALL_RUNTIME_ABI_VERSION;
 }
 
+POSE_WALL_EXPORT const char* pose_wall_runtime_status_text(int32_t status) {
+  return pose_wall_status_text(status);
+}
+
+POSE_WALL_EXPORT const char* pose_wall_runtime_activity_name(uint32_t activity) {
+  return activity < POSE_WALL_RUNTIME_ACTIVITIES ? kActivities[activity] : "unknown";
+}
+
+POSE_WALL_EXPORT const char* pose_wall_runtime_drop_name(uint32_t drop) {
+  return drop < POSE_WALL_RUNTIME_DROPS ? kDrops[drop] : "unknown";
+}
+
 #undef pose_wall_runtime_options_init
 POSE_WALL_EXPORT int32_t pose_wall_runtime_options_init(pose_wall_runtime_options* /*options*/) {
   return POSE_WALL_E_ABI;
@@ -66,14 +74,14 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_options_init(pose_wall_runtime_option
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_options_init_3(pose_wall_runtime_options* options) {
   if (options == nullptr) return POSE_WALL_E_NULL;
-  pose_wall::runtime::set_defaults(options);
+  set_defaults(options);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_options_check(const pose_wall_runtime_options* options,
                                                          const char** option) {
   pose_wall_runtime_options whole;
-  return options != nullptr ? pose_wall::runtime::read_options(*options, option, &whole) : POSE_WALL_E_NULL;
+  return options != nullptr ? read_options(*options, option, &whole) : POSE_WALL_E_NULL;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_memory_needed(const pose_wall_config* config,
@@ -106,104 +114,95 @@ POSE_WALL_EXPORT int32_t pose_wall_runtime_open(const pose_wall_config* config,
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_start(pose_wall_runtime* runtime) {
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->start() : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.start(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_wait_idle(pose_wall_runtime* runtime) {
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->wait_idle() : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.wait_idle(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_request_stop(pose_wall_runtime* runtime) {
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->request_stop() : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.request_stop(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_stop(pose_wall_runtime* runtime) {
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->stop() : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.stop(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_close(pose_wall_runtime* runtime) {
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->close() : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.close(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_save(pose_wall_runtime* runtime, const pose_wall_moment* now, void* memento,
                                                 uint64_t bytes) {
   if (memento == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->save(now, memento, bytes) : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.save(now, memento, bytes); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_last_points(const pose_wall_runtime* runtime, pose_wall_points* points) {
   if (points == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->last_points(points) : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.last_points(points); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_load(pose_wall_runtime* runtime, const pose_wall_moment* now,
                                                 const void* memento, uint64_t bytes) {
   if (memento == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->load(now, memento, bytes) : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.load(now, memento, bytes); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_push(pose_wall_runtime* runtime, const pose_wall_cloud* cloud) {
   if (cloud == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->push(*cloud) : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.push(*cloud); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_latest(const pose_wall_runtime* runtime,
                                                   pose_wall_publication* publication) {
   if (publication == nullptr) return POSE_WALL_E_NULL;
-  int32_t status = check(runtime);
-  const uint32_t size = publication->struct_size;
-  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(size, pose_wall::runtime::kPublicationSizes);
-  if (status != POSE_WALL_OK) return status;
-  pose_wall_publication whole;
-  status = runtime_of(runtime)->latest(&whole);
-  pose_wall::runtime::write_publication(whole, size, publication);
-  return status;
+  return with_runtime(runtime, [&](Runtime& own) {
+    const uint32_t size = publication->struct_size;
+    int32_t status = check_struct_size(size, kPublicationSizes);
+    if (status != POSE_WALL_OK) return status;
+    pose_wall_publication whole;
+    status = own.latest(&whole);
+    write_publication(whole, size, publication);
+    return status;
+  });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_image(const pose_wall_runtime* runtime, pose_wall_image* image) {
   if (image == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->image(image) : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.image(image); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_image2(const pose_wall_runtime* runtime, pose_wall_image2* image) {
   if (image == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->image2(image) : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.image2(image); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_motion_image(const pose_wall_runtime* runtime,
                                                         pose_wall_motion_image* image) {
   if (image == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->motion_image(image) : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.motion_image(image); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_tick(pose_wall_runtime* runtime) {
-  const int32_t status = check(runtime);
-  return status == POSE_WALL_OK ? runtime_of(runtime)->tick() : status;
+  return with_runtime(runtime, [&](Runtime& own) { return own.tick(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_runtime_statistics_now(const pose_wall_runtime* runtime,
                                                           pose_wall_runtime_statistics* statistics) {
   if (statistics == nullptr) return POSE_WALL_E_NULL;
-  int32_t status = check(runtime);
-  const uint32_t size = statistics->struct_size;
-  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(size, pose_wall::runtime::kStatisticsSizes);
-  if (status != POSE_WALL_OK) return status;
-  pose_wall_runtime_statistics whole;
-  runtime_of(runtime)->statistics(&whole);
-  pose_wall::write_struct(whole, size, statistics);
-  return POSE_WALL_OK;
+  return with_runtime(runtime, [&](Runtime& own) {
+    const uint32_t size = statistics->struct_size;
+    const int32_t status = check_struct_size(size, kStatisticsSizes);
+    if (status != POSE_WALL_OK) return status;
+    pose_wall_runtime_statistics whole;
+    own.statistics(&whole);
+    write_struct(whole, size, statistics);
+    return status;
+  });
 }
 
 }  // extern "C"
+
+}  // namespace pose_wall::runtime

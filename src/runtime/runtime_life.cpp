@@ -8,6 +8,7 @@
 
 #include <cstddef>
 
+#include "base/containers/arena.hpp"
 #include "base/math/crc32.hpp"
 #include "options.hpp"
 #include "part/status.hpp"
@@ -25,12 +26,13 @@ Runtime::Runtime(const pose_wall_config& config, const pose_wall_runtime_options
 
 std::uint64_t Runtime::lay_out(void* block, const InnerBytes& inner, const pose_wall_runtime_options& options,
                                Runtime* runtime) {
-  BlockWalk walk(block);
-  walk.take(sizeof(Runtime));
-  unsigned char* const engine_block = walk.take(inner.engine);
-  unsigned char* const motion_block = walk.take(inner.motion);
+  Arena arena(block);
+  const auto take = [&](std::uint64_t bytes) { return static_cast<unsigned char*>(arena.take_bytes(bytes)); };
+  take(sizeof(Runtime));
+  unsigned char* const engine_block = take(inner.engine);
+  unsigned char* const motion_block = take(inner.motion);
   const bool has_box = options.sink != nullptr;
-  unsigned char* const scratch = has_box ? walk.take(BoxWriter::scratch_bytes()) : nullptr;
+  unsigned char* const scratch = has_box ? take(BoxWriter::scratch_bytes()) : nullptr;
   if (runtime != nullptr) {
     runtime->engine_block_ = engine_block;
     runtime->engine_bytes_ = inner.engine;
@@ -39,14 +41,14 @@ std::uint64_t Runtime::lay_out(void* block, const InnerBytes& inner, const pose_
     runtime->box_.open(options, scratch);
   }
   for (std::uint32_t i = 0; i < slots_of(options); ++i) {
-    unsigned char* const points = walk.take(cloud_bytes_max(options));
-    unsigned char* const memento = has_box ? walk.take(pose_wall_memento_bytes()) : nullptr;
+    unsigned char* const points = take(cloud_bytes_max(options));
+    unsigned char* const memento = has_box ? take(pose_wall_memento_bytes()) : nullptr;
     if (runtime == nullptr) continue;
     runtime->slot_[i].points = points;
     runtime->slot_[i].memento = memento;
     runtime->free_.push(&runtime->slot_[i]);
   }
-  return walk.bytes();
+  return arena.bytes();
 }
 
 std::int32_t Runtime::open_engine() {

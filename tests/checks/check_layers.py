@@ -31,8 +31,8 @@ for library, row in zip(("engine", "motion"), ROWS):
 ENGINE_ROOMS = {room for room in MAY_INCLUDE if room.startswith("engine/")}
 MAY_INCLUDE.update({
     "engine/self_test": {"base/math", "part"},
-    "engine/names": set(),
-    "engine/c_api": {*TRUNK, *ENGINE_ROOMS, "engine/self_test", "engine/names"},
+    "engine/names": {"part"},
+    "engine/c_api": {*TRUNK, *ENGINE_ROOMS, "engine/self_test"},
     # Planar's parts stand side by side; two of them follow scans.
     "planar": set(TRUNK),
     **{f"planar/{part}": {*TRUNK, "planar"} for part in ("scan", "match", "map", "route", "stop")},

@@ -206,7 +206,7 @@ TEST(Plan, TheWidestWayIsFoundWithLessWorkThanASearch) {
     AlignedBlock block(arena.bytes(), Dirt::kRandom);
     pose_wall::Arena placed(block.data());
     planner.lay_out(placed, settings);
-    planner.open();
+    planner.open(settings);
     ASSERT_TRUE(planner.read(grid.view()));
     pose_wall_planar_plan_result result{};
     planner.plan({6.0, 6.0, 0.0}, {34.0, 34.0, 0.0}, {}, &result);

@@ -23,15 +23,23 @@ class Arena {
  public:
   explicit Arena(void* block) : block_(static_cast<unsigned char*>(block)) {}
 
+  // NULL when measuring.
+  void* take_bytes(std::uint64_t bytes) {
+    constexpr std::uint64_t kMask = POSE_WALL_BLOCK_ALIGNMENT - 1;  // a part ends where the next may begin
+    void* place = block_ != nullptr ? block_ + used_ : nullptr;
+    used_ += (bytes + kMask) & ~kMask;
+    return place;
+  }
+
   template <typename T>
   Span<T> take(std::uint32_t count) {
-    void* place = advance(static_cast<std::uint64_t>(count) * sizeof(T));
+    void* place = take_bytes(static_cast<std::uint64_t>(count) * sizeof(T));
     return Span<T>(static_cast<T*>(place), count);
   }
 
   template <typename T>
   T* take_one() {
-    void* place = advance(sizeof(T));
+    void* place = take_bytes(sizeof(T));
     return place != nullptr ? new (place) T : nullptr;
   }
 
@@ -50,13 +58,6 @@ class Arena {
   std::uint64_t bytes() const { return used_ > most_ ? used_ : most_; }
 
  private:
-  void* advance(std::uint64_t bytes) {
-    constexpr std::uint64_t kMask = POSE_WALL_BLOCK_ALIGNMENT - 1;  // a part ends where the next may begin
-    void* place = block_ != nullptr ? block_ + used_ : nullptr;
-    used_ += (bytes + kMask) & ~kMask;
-    return place;
-  }
-
   unsigned char* block_;
   std::uint64_t used_ = 0, most_ = 0;
 };

@@ -7,41 +7,24 @@
 
 #include <limits>
 
-#include "part/export.hpp"
 #include "part/shell.hpp"
-#include "part/struct_sizes.hpp"
 #include "planar/localise/localiser.hpp"
 
+namespace pose_wall::planar {
 namespace {
 
-using pose_wall::planar::CandidatePlace;
-using pose_wall::planar::check_scan;
-using pose_wall::planar::is_place;
-using pose_wall::planar::is_pose;
-using pose_wall::planar::is_within;
-using pose_wall::planar::Localiser;
-using pose_wall::planar::LocaliseSettings;
-using pose_wall::planar::PlaceMap;
-using pose_wall::planar::Pose2;
-using pose_wall::planar::pose_for_caller;
-using pose_wall::planar::pose_of;
-using pose_wall::planar::read_beams;
-using pose_wall::planar::ScanPoint;
-using pose_wall::planar::Where;
-using pose_wall::planar::Why;
-
-using Opened = pose_wall::Held<Localiser, 0x65736C6163636F6CULL>;
+using Opened = Held<Localiser, 0x65736C6163636F6CULL>;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-constexpr pose_wall::SettingRow kRows[] = {
+constexpr SettingRow kRows[] = {
 #define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_localise_settings, __VA_ARGS__)
 #include "pose_wall_planar_localise_settings.def"
 };
 
-struct LocaliseTable : pose_wall::SettingsTable<LocaliseSettings> {
+struct LocaliseTable : SettingsTable<LocaliseSettings> {
   using SettingsTable::SettingsTable;
-  static pose_wall::SettingRows rows() { return pose_wall::rows_of(kRows); }
+  static SettingRows rows() { return rows_of(kRows); }
 };
 
 bool are_points(const float* xy_m, std::uint32_t points) {
@@ -59,7 +42,7 @@ bool add_points(PlaceMap* map, const Pose2& pose, const float* xy_m, std::uint32
   for (std::uint32_t first = 0; first < points; first += kAtOnce) {
     const std::uint32_t count = points - first < kAtOnce ? points - first : kAtOnce;
     for (std::uint32_t k = 0; k < count; ++k) room[k] = {xy_m[2 * (first + k)], xy_m[2 * (first + k) + 1]};
-    fits = map->add(pose_wall::Span<const ScanPoint>(room, count), pose) && fits;
+    fits = map->add(Span<const ScanPoint>(room, count), pose) && fits;
   }
   return fits;
 }
@@ -144,31 +127,11 @@ POSE_WALL_EXPORT const char* pose_wall_planar_localise_reason_name(uint32_t reas
   return reason < POSE_WALL_PLANAR_LOCALISE_REASONS ? kReasons[reason] : "?";
 }
 
-POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_init(pose_wall_planar_localise_settings* settings) {
-  return pose_wall::init_settings<LocaliseTable>(settings);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_planar_localise_settings_check(const pose_wall_planar_localise_settings* settings,
-                                                                  pose_wall_planar_fault* fault) {
-  return pose_wall::check_settings<LocaliseTable>(settings, fault);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_planar_localise_memory_needed(const pose_wall_planar_localise_settings* settings,
-                                                                 uint64_t* bytes) {
-  return pose_wall::part_memory_needed<Opened, LocaliseTable>(settings, bytes);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_planar_localise_open(const pose_wall_planar_localise_settings* settings, void* block,
-                                                        uint64_t block_bytes, pose_wall_planar_localise** localise) {
-  return pose_wall::open_part<Opened, LocaliseTable>(
-      settings, block, block_bytes, localise, [](Localiser& own, const LocaliseSettings& chosen) { own.open(chosen); });
-}
+POSE_WALL_SETTINGS_CALLS(pose_wall_planar_localise, LocaliseTable, pose_wall_planar_fault)
+POSE_WALL_BLOCK_CALLS(pose_wall_planar_localise, Opened, LocaliseTable, pose_wall_planar_localise)
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_clear(pose_wall_planar_localise* localise) {
-  return pose_wall::with_part<Opened>(localise, [](Localiser& own) {
-    own.clear();
-    return pose_wall::kOk;
-  });
+  return with_part<Opened>(localise, [](Localiser& own) { own.clear(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add(pose_wall_planar_localise* localise,
@@ -177,32 +140,32 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add(pose_wall_planar_localise
   if (pose == nullptr || xy_m == nullptr) return POSE_WALL_E_NULL;
   if (!is_pose(*pose)) return POSE_WALL_PLANAR_E_POSE;
   if (points > POSE_WALL_PLANAR_BEAMS_MAX || !are_points(xy_m, points)) return POSE_WALL_PLANAR_E_SCAN;
-  return pose_wall::with_part<Opened>(localise, [&](Localiser& own) {
+  return with_part<Opened>(localise, [&](Localiser& own) -> std::int32_t {
     PlaceMap& map = own.map();
-    if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
-    return pose_wall::ok_if(add_points(&map, pose_of(*pose), xy_m, points), POSE_WALL_E_BLOCK_SMALL);
+    if (map.is_finished()) return POSE_WALL_PLANAR_E_ORDER;
+    return ok_if(add_points(&map, pose_of(*pose), xy_m, points), POSE_WALL_E_BLOCK_SMALL);
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_add_grid(pose_wall_planar_localise* localise,
                                                             const pose_wall_planar_grid* grid) {
   if (grid == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*grid); size != POSE_WALL_OK) return size;
+  if (const std::int32_t size = check_struct(*grid); size != POSE_WALL_OK) return size;
   if (grid->cells == nullptr) return POSE_WALL_E_NULL;
   if (!is_grid(*grid)) return POSE_WALL_PLANAR_E_GRID;
-  return pose_wall::with_part<Opened>(localise, [&](Localiser& own) {
+  return with_part<Opened>(localise, [&](Localiser& own) -> std::int32_t {
     PlaceMap& map = own.map();
-    if (map.is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
-    return pose_wall::ok_if(add_cells(&map, *grid), POSE_WALL_E_BLOCK_SMALL);
+    if (map.is_finished()) return POSE_WALL_PLANAR_E_ORDER;
+    return ok_if(add_cells(&map, *grid), POSE_WALL_E_BLOCK_SMALL);
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_finish(pose_wall_planar_localise* localise) {
-  return pose_wall::with_part<Opened>(localise, [](Localiser& own) {
+  return with_part<Opened>(localise, [](Localiser& own) -> std::int32_t {
     PlaceMap& map = own.map();
-    if (map.is_finished() || map.is_empty()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
+    if (map.is_finished() || map.is_empty()) return POSE_WALL_PLANAR_E_ORDER;
     map.finish();
-    return pose_wall::kOk;
+    return POSE_WALL_OK;
   });
 }
 
@@ -211,25 +174,25 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_process(pose_wall_planar_loca
                                                            const pose_wall_planar_pose* odometry,
                                                            pose_wall_planar_localise_result* result) {
   if (result == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*result); size != POSE_WALL_OK) return size;
+  if (const std::int32_t size = check_struct(*result); size != POSE_WALL_OK) return size;
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
   if (odometry != nullptr && !is_pose(*odometry)) return POSE_WALL_PLANAR_E_POSE;
-  return pose_wall::with_part<Opened>(localise, [&](Localiser& own) {
-    if (!own.map().is_finished()) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
+  return with_part<Opened>(localise, [&](Localiser& own) -> std::int32_t {
+    if (!own.map().is_finished()) return POSE_WALL_PLANAR_E_ORDER;
     const Pose2 given = odometry != nullptr ? pose_of(*odometry) : Pose2();
     const Where where = own.process(read_beams(*scan, own.beams()), odometry != nullptr ? &given : nullptr);
     write_result(own, where, scan->stamp_ns, result);
-    return pose_wall::kOk;
+    return POSE_WALL_OK;
   });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_planar_localise* localise, uint32_t number,
                                                              pose_wall_planar_candidate* candidate) {
   if (candidate == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*candidate); size != POSE_WALL_OK) return size;
-  return pose_wall::with_part<Opened>(localise, [&](const Localiser& own) {
-    if (own.is_tracking() || number >= own.verdict().count) return std::int32_t{POSE_WALL_E_INDEX};
+  if (const std::int32_t size = check_struct(*candidate); size != POSE_WALL_OK) return size;
+  return with_part<Opened>(localise, [&](const Localiser& own) -> std::int32_t {
+    if (own.is_tracking() || number >= own.verdict().count) return POSE_WALL_E_INDEX;
     const CandidatePlace& place = own.verdict().candidates[number];
     pose_wall_planar_candidate out{};
     out.struct_size = sizeof(out);
@@ -239,7 +202,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_candidate(const pose_wall_pla
     out.fits = place.fits;
     out.spread_m = place.spread_m;
     *candidate = out;
-    return pose_wall::kOk;
+    return POSE_WALL_OK;
   });
 }
 
@@ -249,17 +212,13 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_localise_place(pose_wall_planar_locali
   if (base == nullptr) return POSE_WALL_E_NULL;
   if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(sigma_m, 0.001, 1.0) || !is_within(sigma_rad, 0.001, 0.5)) return POSE_WALL_E_VALUE_RANGE;
-  return pose_wall::with_part<Opened>(localise, [&](Localiser& own) {
-    own.place(pose_of(*base), sigma_m, sigma_rad);
-    return pose_wall::kOk;
-  });
+  return with_part<Opened>(localise, [&](Localiser& own) { own.place(pose_of(*base), sigma_m, sigma_rad); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_localise_forget(pose_wall_planar_localise* localise) {
-  return pose_wall::with_part<Opened>(localise, [](Localiser& own) {
-    own.forget();
-    return pose_wall::kOk;
-  });
+  return with_part<Opened>(localise, [](Localiser& own) { own.forget(); });
 }
 
 }  // extern "C"
+
+}  // namespace pose_wall::planar

@@ -7,51 +7,23 @@
 #include <algorithm>
 
 #include "base/math/finite.hpp"
-#include "part/export.hpp"
 #include "part/shell.hpp"
-#include "part/struct_sizes.hpp"
 #include "place/slide.hpp"
 #include "planar/match/matcher.hpp"
 #include "pose_wall_planar_match.h"
 
+namespace pose_wall::planar {
 namespace {
-
-using pose_wall::not_a_number;
-using pose_wall::planar::Beam;
-using pose_wall::planar::BeamScan;
-using pose_wall::planar::check_scan;
-using pose_wall::planar::even_points;
-using pose_wall::planar::Fit;
-using pose_wall::planar::fit_pose;
-using pose_wall::planar::Found;
-using pose_wall::planar::is_place;
-using pose_wall::planar::is_pose;
-using pose_wall::planar::is_within;
-using pose_wall::planar::kExcludedBy;
-using pose_wall::planar::kMatchPointsMost;
-using pose_wall::planar::kMatchSpacing_m;
-using pose_wall::planar::kRefit;
-using pose_wall::planar::kSlideMost_m;
-using pose_wall::planar::Matcher;
-using pose_wall::planar::pose_for_caller;
-using pose_wall::planar::pose_of;
-using pose_wall::planar::Prior;
-using pose_wall::planar::read_beams;
-using pose_wall::planar::ScanPoint;
-using pose_wall::planar::Slide;
-using pose_wall::planar::slide_of;
-using pose_wall::planar::SurfaceMap;
-using pose_wall::planar::told_by;
 
 // What lives in the block.
 struct Body {
   Matcher matcher;
   SurfaceMap map;
-  pose_wall::Span<Beam> beams;
-  pose_wall::Span<ScanPoint> points;
+  Span<Beam> beams;
+  Span<ScanPoint> points;
   bool has_begun, is_finished;
 
-  void lay_out(pose_wall::Arena& arena) {
+  void lay_out(Arena& arena) {
     matcher.lay_out(arena);
     map.lay_out(arena);
     beams = arena.take<Beam>(POSE_WALL_PLANAR_BEAMS_MAX);
@@ -59,7 +31,7 @@ struct Body {
   }
 };
 
-using Opened = pose_wall::Held<Body, 0x6863746D6E616C70ULL>;
+using Opened = Held<Body, 0x6863746D6E616C70ULL>;
 
 // Symmetric and positive. Its scale may be anything that an inverse can hold.
 bool is_covariance(const double (&c)[9]) {
@@ -82,13 +54,13 @@ bool is_covariance(const double (&c)[9]) {
 std::int32_t check_input(const pose_wall_planar_match_input* input) {
   constexpr double kReach_m = 38.0, kReach_rad = 3.14159265358979;  // what Matcher::search looks through
   if (input == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*input); size != POSE_WALL_OK) return size;
+  if (const std::int32_t size = check_struct(*input); size != POSE_WALL_OK) return size;
   if (input->has_prior > 1) return POSE_WALL_E_VALUE_RANGE;
   if (!is_pose(input->guess)) return POSE_WALL_PLANAR_E_POSE;
   if (!is_within(input->reach_m, 0.0, kReach_m) || !is_within(input->reach_rad, 0.0, kReach_rad)) {
     return POSE_WALL_E_VALUE_RANGE;
   }
-  return pose_wall::ok_if(input->has_prior == 0 || is_covariance(input->covariance), POSE_WALL_PLANAR_E_POSE);
+  return ok_if(input->has_prior == 0 || is_covariance(input->covariance), POSE_WALL_PLANAR_E_POSE);
 }
 
 Prior prior_of(const pose_wall_planar_match_input& input) {
@@ -126,10 +98,10 @@ pose_wall_planar_match_result match(Body& body, const BeamScan& scan, const pose
   pose_wall_planar_match_result out = no_match();
   const auto points = even_points(scan, kMatchSpacing_m, body.points);
   const Prior prior = prior_of(input);
-  pose_wall::planar::Pose2 start = prior.pose;
+  Pose2 start = prior.pose;
   if ((input.reach_m > 0.0 || input.reach_rad > 0.0) && points.size() > 0) {
-    const Found found = body.matcher.search(
-        points, body.map, {start, input.reach_m, input.reach_rad, pose_wall::planar::kSearchNodesMost});
+    const Found found =
+        body.matcher.search(points, body.map, {start, input.reach_m, input.reach_rad, kSearchNodesMost});
     start = found.pose;
     out.score = found.score;
     out.second_score = found.second_score;
@@ -147,7 +119,7 @@ pose_wall_planar_match_result match(Body& body, const BeamScan& scan, const pose
   for (int k = 0; k < 9; ++k) out.covariance[k] = covariance(k / 3, k % 3);
   out.misfit_m = fit.rms_m;
   out.slide_m = slide.reach_m;
-  out.slide_rad = pose_wall::arc_tangent2(slide.direction.y(), slide.direction.x());
+  out.slide_rad = arc_tangent2(slide.direction.y(), slide.direction.x());
   return out;
 }
 
@@ -175,11 +147,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_open(void* block, uint64_t block
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_match_begin(pose_wall_planar_matcher* matcher, double x_m, double y_m) {
   if (!is_place(x_m, y_m)) return POSE_WALL_PLANAR_E_POSE;
-  return pose_wall::with_part<Opened>(matcher, [&](Body& body) {
+  return with_part<Opened>(matcher, [&](Body& body) {
     body.map.begin({x_m, y_m});
     body.has_begun = true;
     body.is_finished = false;
-    return pose_wall::kOk;
   });
 }
 
@@ -190,10 +161,10 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_add(pose_wall_planar_matcher* ma
   const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
   if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
-  return pose_wall::with_part<Opened>(matcher, [&](Body& body) {
-    if (!body.has_begun || body.is_finished) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
+  return with_part<Opened>(matcher, [&](Body& body) -> std::int32_t {
+    if (!body.has_begun || body.is_finished) return POSE_WALL_PLANAR_E_ORDER;
     body.map.add(even_points(read_beams(*scan, body.beams), kMatchSpacing_m, body.points), pose_of(*base), true);
-    return pose_wall::kOk;
+    return POSE_WALL_OK;
   });
 }
 
@@ -211,17 +182,19 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_match_scan(pose_wall_planar_matcher* m
                                                      const pose_wall_planar_match_input* input,
                                                      pose_wall_planar_match_result* result) {
   if (result == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*result); size != POSE_WALL_OK) return size;
+  if (const std::int32_t size = check_struct(*result); size != POSE_WALL_OK) return size;
   std::int32_t status = check_scan(scan);
   if (status == POSE_WALL_OK) status = check_input(input);
   if (status != POSE_WALL_OK) return status;
-  return pose_wall::with_part<Opened>(matcher, [&](Body& body) {
-    if (!body.has_begun) return std::int32_t{POSE_WALL_PLANAR_E_ORDER};
+  return with_part<Opened>(matcher, [&](Body& body) -> std::int32_t {
+    if (!body.has_begun) return POSE_WALL_PLANAR_E_ORDER;
     if (!body.is_finished) body.map.finish();
     body.is_finished = true;
     *result = match(body, read_beams(*scan, body.beams), *input);
-    return pose_wall::kOk;
+    return POSE_WALL_OK;
   });
 }
 
 }  // extern "C"
+
+}  // namespace pose_wall::planar

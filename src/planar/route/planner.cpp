@@ -25,7 +25,6 @@ std::uint32_t step_cells(const pose_wall_planar_plan_settings& s, std::uint32_t 
 }  // namespace
 
 void Planner::lay_out(Arena& arena, const pose_wall_planar_plan_settings& settings) {
-  settings_ = settings;
   const double reach_cells = footprint_of(settings).reach_m() / settings.resolution_m;
   grid_.lay_out(arena, settings.width_max, settings.height_max);
   sweeps_.lay_out(arena, settings.height_max);
@@ -41,10 +40,11 @@ void Planner::lay_out(Arena& arena, const pose_wall_planar_plan_settings& settin
   corners_ = arena.take<Corner>(kCornersMost);
 }
 
-void Planner::open() {
-  costs_ = {settings_.turn_cost_m_rad, settings_.reverse_cost, settings_.cusp_cost_m};
+void Planner::open(const pose_wall_planar_plan_settings& settings) {
+  settings_ = settings;
+  costs_ = {settings.turn_cost_m_rad, settings.reverse_cost, settings.cusp_cost_m};
   for (std::uint32_t level = 0; level < kLevels; ++level) {
-    lattice_[level].open(step_cells(settings_, level), settings_.resolution_m, footprint_of(settings_));
+    lattice_[level].open(step_cells(settings, level), settings.resolution_m, footprint_of(settings));
   }
   has_grid_ = false;
 }

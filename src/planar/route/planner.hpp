@@ -21,7 +21,7 @@ namespace pose_wall::planar::route {
 class Planner {
  public:
   void lay_out(Arena& arena, const pose_wall_planar_plan_settings& settings);
-  void open();
+  void open(const pose_wall_planar_plan_settings& settings);
 
   // False for a grid of another resolution or one that is too large.
   bool read(const pose_wall_planar_grid& grid);

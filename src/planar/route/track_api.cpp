@@ -4,22 +4,14 @@
 // The extern "C" file of the tracker: checks arguments, translates, calls.
 
 #include "base/math/finite.hpp"
-#include "part/export.hpp"
 #include "part/shell.hpp"
-#include "part/struct_sizes.hpp"
 #include "planar/route/tracker.hpp"
 #include "pose_wall_planar_track.h"
 
+namespace pose_wall::planar::route {
 namespace {
 
-using pose_wall::is_finite;
-using pose_wall::planar::is_pose;
-using pose_wall::planar::route::Tracker;
-using HeldTracker = pose_wall::Held<Tracker, 0x6B6361725440504CULL>;
-
-HeldTracker* held_of(pose_wall_planar_tracker* tracker) {
-  return reinterpret_cast<HeldTracker*>(tracker);
-}
+using HeldTracker = Held<Tracker, 0x6B6361725440504CULL>;
 
 std::int32_t check_route(const pose_wall_planar_path_pose* poses, std::uint32_t count) {
   double along_m = 0.0;
@@ -33,15 +25,15 @@ std::int32_t check_route(const pose_wall_planar_path_pose* poses, std::uint32_t 
   return POSE_WALL_OK;
 }
 
-constexpr pose_wall::SettingRow kRows[] = {
+constexpr SettingRow kRows[] = {
 #define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_track_settings, __VA_ARGS__)
 #include "pose_wall_planar_track_settings.def"
 };
 
-struct TrackTable : pose_wall::SettingsTable<pose_wall_planar_track_settings> {
+struct TrackTable : SettingsTable<pose_wall_planar_track_settings> {
   using SettingsTable::SettingsTable;
-  static pose_wall::SettingRows rows() { return pose_wall::rows_of(kRows); }
-  pose_wall::SettingFault broken_rule() const {
+  static SettingRows rows() { return rows_of(kRows); }
+  SettingFault broken_rule() const {
     if (speed_min_m_s <= speed_max_m_s) return {};
     return {"speed_min_m_s", "speed_min_m_s must be from 0.01 to speed_max_m_s"};
   }
@@ -53,60 +45,41 @@ constexpr const char* kStates[] = {"idle", "following", "turning", "stopping", "
 
 extern "C" {
 
-POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_init(pose_wall_planar_track_settings* settings) {
-  return pose_wall::init_settings<TrackTable>(settings);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_planar_track_settings_check(const pose_wall_planar_track_settings* settings,
-                                                               pose_wall_planar_fault* fault) {
-  return pose_wall::check_settings<TrackTable>(settings, fault);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_planar_track_memory_needed(const pose_wall_planar_track_settings* settings,
-                                                              uint64_t* bytes) {
-  return pose_wall::part_memory_needed<HeldTracker, TrackTable>(settings, bytes);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_planar_track_open(const pose_wall_planar_track_settings* settings, void* block,
-                                                     uint64_t block_bytes, pose_wall_planar_tracker** tracker) {
-  return pose_wall::open_part<HeldTracker, TrackTable>(settings, block, block_bytes, tracker,
-                                                       [](auto& body, const auto&) { body.open(); });
-}
+POSE_WALL_SETTINGS_CALLS(pose_wall_planar_track, TrackTable, pose_wall_planar_fault)
+POSE_WALL_BLOCK_CALLS(pose_wall_planar_track, HeldTracker, TrackTable, pose_wall_planar_tracker)
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_route(pose_wall_planar_tracker* tracker,
                                                       const pose_wall_planar_path_pose* poses, uint32_t count,
                                                       pose_wall_planar_clearance clearance, void* context) {
-  if (tracker == nullptr || poses == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<HeldTracker> inside(held_of(tracker));
-  std::int32_t status = inside.status();
-  if (status == POSE_WALL_OK && !(count >= 1 && count <= inside->body().path_max())) status = POSE_WALL_E_VALUE_RANGE;
-  if (status == POSE_WALL_OK) status = check_route(poses, count);
-  if (status == POSE_WALL_OK) inside->body().take_route(poses, count, clearance, context);
-  return status;
+  if (poses == nullptr) return POSE_WALL_E_NULL;
+  return with_part<HeldTracker>(tracker, [&](Tracker& own) -> std::int32_t {
+    if (count < 1 || count > own.path_max()) return POSE_WALL_E_VALUE_RANGE;
+    const std::int32_t status = check_route(poses, count);
+    if (status == POSE_WALL_OK) own.take_route(poses, count, clearance, context);
+    return status;
+  });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_step(pose_wall_planar_tracker* tracker,
                                                      const pose_wall_planar_track_input* input,
                                                      pose_wall_planar_track_command* command) {
-  if (tracker == nullptr || input == nullptr || command == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<HeldTracker> inside(held_of(tracker));
-  if (inside.status() != POSE_WALL_OK) return inside.status();
-  if (const std::int32_t size = pose_wall::check_struct(*input); size != POSE_WALL_OK) return size;
-  if (const std::int32_t size = pose_wall::check_struct(*command); size != POSE_WALL_OK) return size;
-  inside->body().step(*input, command);
-  return POSE_WALL_OK;
+  if (input == nullptr || command == nullptr) return POSE_WALL_E_NULL;
+  return with_part<HeldTracker>(tracker, [&](Tracker& own) {
+    std::int32_t size = check_struct(*input);
+    if (size == POSE_WALL_OK) size = check_struct(*command);
+    if (size == POSE_WALL_OK) own.step(*input, command);
+    return size;
+  });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_track_obeyed(pose_wall_planar_tracker* tracker, double speed_m_s,
                                                        double turn_rad_s) {
-  if (tracker == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<HeldTracker> inside(held_of(tracker));
-  if (inside.status() != POSE_WALL_OK) return inside.status();
-  constexpr double kMost = 1000.0;  // no machine: more is a wrong unit
-  const bool is_sound = speed_m_s >= -kMost && speed_m_s <= kMost && turn_rad_s >= -kMost && turn_rad_s <= kMost;
-  if (!is_sound) return POSE_WALL_E_VALUE_RANGE;
-  inside->body().obeyed({speed_m_s, turn_rad_s});
-  return POSE_WALL_OK;
+  return with_part<HeldTracker>(tracker, [&](Tracker& own) -> std::int32_t {
+    constexpr double kMost = 1000.0;  // no machine: more is a wrong unit
+    if (!is_within(speed_m_s, -kMost, kMost) || !is_within(turn_rad_s, -kMost, kMost)) return POSE_WALL_E_VALUE_RANGE;
+    own.obeyed({speed_m_s, turn_rad_s});
+    return POSE_WALL_OK;
+  });
 }
 
 POSE_WALL_EXPORT const char* pose_wall_planar_track_state_name(uint32_t state) {
@@ -114,3 +87,5 @@ POSE_WALL_EXPORT const char* pose_wall_planar_track_state_name(uint32_t state) {
 }
 
 }  // extern "C"
+
+}  // namespace pose_wall::planar::route

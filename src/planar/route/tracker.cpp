@@ -26,12 +26,12 @@ double towards(double from, double to, double most) {
 }  // namespace
 
 void Tracker::lay_out(Arena& arena, const pose_wall_planar_track_settings& settings) {
-  settings_ = settings;
   room_ = arena.take<pose_wall_planar_path_pose>(settings.path_max);
 }
 
-void Tracker::open() {
-  model_.open(settings_.delay_s, settings_.lag_s, settings_.pose_age_max_s);
+void Tracker::open(const pose_wall_planar_track_settings& settings) {
+  settings_ = settings;
+  model_.open(settings.delay_s, settings.lag_s, settings.pose_age_max_s);
   path_ = TrackPath();
   phase_ = Phase::idle;
   has_time_ = false;

@@ -17,7 +17,7 @@ namespace pose_wall::planar::route {
 class Tracker {
  public:
   void lay_out(Arena& arena, const pose_wall_planar_track_settings& settings);
-  void open();
+  void open(const pose_wall_planar_track_settings& settings);
 
   std::uint32_t path_max() const { return room_.size(); }
   // The poses have been checked.

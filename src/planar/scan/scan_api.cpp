@@ -3,32 +3,19 @@
 //
 // The extern "C" file of the planar scan: checks arguments, translates, calls.
 
-#include "part/export.hpp"
-#include "part/held.hpp"
-#include "part/struct_sizes.hpp"
+#include "base/math/larger.hpp"
+#include "part/shell.hpp"
 #include "part/struct_versions.hpp"
 #include "place/beams.hpp"
 #include "planar/scan/laserscan.hpp"
 #include "planar/scan/scanner.hpp"
 
+namespace pose_wall::planar {
 namespace {
 
-using pose_wall::StructSizes;
-using pose_wall::planar::Scanner;
-using pose_wall::planar::ScannerTable;
-using pose_wall::planar::ScanSettings;
-using HeldScanner = pose_wall::Held<Scanner, 0x6E6163732D6C7070ULL>;
+using HeldScanner = Held<Scanner, 0x6E6163732D6C7070ULL>;
 
-constexpr StructSizes sizes_of(std::uint32_t now) {
-  return {0, now, now};
-}
-constexpr StructSizes kFloorSizes = sizes_of(sizeof(pose_wall_planar_floor));
-constexpr StructSizes kViewSizes = sizes_of(sizeof(pose_wall_planar_scan_view));
 constexpr StructSizes kScanSizes = {0, offsetof(pose_wall_planar_scan, free_m), sizeof(pose_wall_planar_scan)};
-
-HeldScanner* held(pose_wall_planar_scanner* scanner) {
-  return reinterpret_cast<HeldScanner*>(scanner);
-}
 
 // Both measured this frame's floor, and their levels are finite.
 bool has_floor(const pose_wall_result& result) {
@@ -38,20 +25,16 @@ bool has_floor(const pose_wall_result& result) {
          roll.sigma >= 0.0 && pitch.sigma >= 0.0;
 }
 
-double larger(double a, double b) {
-  return a > b ? a : b;
-}
-
 }  // namespace
 
 extern "C" {
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_floor_of(const pose_wall_result* result, pose_wall_planar_floor* floor) {
   if (result == nullptr || floor == nullptr) return POSE_WALL_E_NULL;
-  std::int32_t status = pose_wall::check_struct_size(floor->struct_size, kFloorSizes);
-  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(result->struct_size, pose_wall::kResultSizes);
+  std::int32_t status = check_struct(*floor);
+  if (status == POSE_WALL_OK) status = check_struct_size(result->struct_size, kResultSizes);
   if (status != POSE_WALL_OK) return status;
-  const auto whole = pose_wall::read_struct<pose_wall_result>(result, result->struct_size);
+  const auto whole = read_struct<pose_wall_result>(result, result->struct_size);
   pose_wall_planar_floor found{};
   found.struct_size = sizeof(found);
   if (has_floor(whole)) {
@@ -61,54 +44,32 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_floor_of(const pose_wall_result* resul
     found.tilt_sigma_rad = larger(roll.sigma, pitch.sigma);
     found.tilt_level_rad = larger(roll.raw_protection_level, pitch.raw_protection_level);
     found.reach_m = whole.floor.extent_max_m;
-    found.measured = pose_wall::planar::check_floor(found) == POSE_WALL_OK ? 1 : 0;
+    found.measured = check_floor(found) == POSE_WALL_OK ? 1 : 0;
   }
-  pose_wall::write_struct(found, floor->struct_size, floor);
+  write_struct(found, floor->struct_size, floor);
   return POSE_WALL_OK;
 }
 
-POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_settings_init(pose_wall_planar_scanner_settings* settings) {
-  return pose_wall::init_settings<ScannerTable>(settings);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_settings_check(const pose_wall_planar_scanner_settings* settings,
-                                                                 pose_wall_planar_fault* fault) {
-  return pose_wall::check_settings<ScannerTable>(settings, fault);
-}
+POSE_WALL_SETTINGS_CALLS(pose_wall_planar_scanner, ScannerTable, pose_wall_planar_fault)
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_memory_needed(const pose_wall_planar_scanner_settings* settings,
                                                                 uint64_t* bytes) {
-  if (bytes == nullptr) return POSE_WALL_E_NULL;
-  pose_wall_planar_scanner_settings chosen;
-  const std::int32_t status = pose_wall::choose_settings<ScannerTable>(settings, &chosen);
-  if (status == POSE_WALL_OK) *bytes = HeldScanner::bytes(pose_wall::planar::scan_settings_of(chosen));
-  return status;
+  return part_memory_needed<HeldScanner, ScannerTable>(settings, bytes);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_open(const pose_wall_config* config,
                                                        const pose_wall_planar_scanner_settings* settings, void* block,
                                                        uint64_t block_bytes, pose_wall_planar_scanner** scanner) {
   if (config == nullptr || block == nullptr || scanner == nullptr) return POSE_WALL_E_NULL;
-  std::int32_t status = pose_wall_config_check(config, nullptr);
-  pose_wall_planar_scanner_settings chosen;
-  if (status == POSE_WALL_OK) status = pose_wall::choose_settings<ScannerTable>(settings, &chosen);
+  const std::int32_t status = pose_wall_config_check(config, nullptr);
   if (status != POSE_WALL_OK) return status;
-  ScanSettings read = pose_wall::planar::scan_settings_of(chosen);
-  pose_wall::planar::read_sensor(*config, &read);
-  HeldScanner* opened = nullptr;
-  status = HeldScanner::place(block, block_bytes, &opened, read);
-  if (status != POSE_WALL_OK) return status;
-  opened->body().open(read);
-  *scanner = reinterpret_cast<pose_wall_planar_scanner*>(opened);
-  return POSE_WALL_OK;
+  return open_part<HeldScanner, ScannerTable>(
+      settings, block, block_bytes, scanner,
+      [&](Scanner& own, const pose_wall_planar_scanner_settings& chosen) { own.open(chosen, *config); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_reset(pose_wall_planar_scanner* scanner) {
-  if (scanner == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<HeldScanner> inside(held(scanner));
-  if (inside.status() != POSE_WALL_OK) return inside.status();
-  inside->body().reset();
-  return POSE_WALL_OK;
+  return with_part<HeldScanner>(scanner, [](Scanner& own) { own.reset(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_process(pose_wall_planar_scanner* scanner,
@@ -116,38 +77,30 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_scanner_process(pose_wall_planar_scann
                                                           const pose_wall_planar_floor* floor,
                                                           pose_wall_planar_scan* scan,
                                                           pose_wall_planar_scan_view* view) {
-  if (scanner == nullptr || cloud == nullptr || scan == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<HeldScanner> inside(held(scanner));
-  std::int32_t status = inside.status();
-  if (status == POSE_WALL_OK) status = pose_wall_cloud_check(cloud);
-  if (status == POSE_WALL_OK) status = pose_wall::check_struct_size(scan->struct_size, kScanSizes);
-  if (status == POSE_WALL_OK && view != nullptr) status = pose_wall::check_struct_size(view->struct_size, kViewSizes);
-  if (status == POSE_WALL_OK && floor != nullptr) {
-    status = pose_wall::check_struct_size(floor->struct_size, kFloorSizes);
-    if (status == POSE_WALL_OK && floor->measured != 0) status = pose_wall::planar::check_floor(*floor);
-  }
-  if (status != POSE_WALL_OK) return status;
-  const auto whole = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
-  pose_wall_inputs inputs{};
-  pose_wall_cloud taken = whole;
-  if (whole.inputs != nullptr) {
-    inputs = pose_wall::read_struct<pose_wall_inputs>(whole.inputs, whole.inputs->struct_size);
-    taken.inputs = &inputs;
-  }
-  pose_wall_planar_scan found_scan{};
-  pose_wall_planar_scan_view found_view{};
-  inside->body().process(taken, floor, &found_scan, &found_view);
-  pose_wall::write_struct(found_scan, scan->struct_size, scan);
-  if (view != nullptr) pose_wall::write_struct(found_view, view->struct_size, view);
-  return POSE_WALL_OK;
+  if (cloud == nullptr || scan == nullptr) return POSE_WALL_E_NULL;
+  return with_part<HeldScanner>(scanner, [&](Scanner& own) -> std::int32_t {
+    std::int32_t status = pose_wall_cloud_check(cloud);
+    if (status == POSE_WALL_OK) status = check_struct_size(scan->struct_size, kScanSizes);
+    if (status == POSE_WALL_OK && view != nullptr) status = check_struct(*view);
+    if (status == POSE_WALL_OK && floor != nullptr) status = check_struct(*floor);
+    if (status == POSE_WALL_OK && floor != nullptr && floor->measured != 0) status = check_floor(*floor);
+    if (status != POSE_WALL_OK) return status;
+    const WholeCloud whole(*cloud);
+    pose_wall_planar_scan found_scan{};
+    pose_wall_planar_scan_view found_view{};
+    own.process(whole.cloud, floor, &found_scan, &found_view);
+    write_struct(found_scan, scan->struct_size, scan);
+    if (view != nullptr) write_struct(found_view, view->struct_size, view);
+    return POSE_WALL_OK;
+  });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_laserscan_of(const pose_wall_planar_scan* scan,
                                                        pose_wall_planar_laserscan* message) {
   if (message == nullptr) return POSE_WALL_E_NULL;
-  const std::int32_t status = pose_wall::planar::check_scan(scan);
+  const std::int32_t status = check_scan(scan);
   if (status != POSE_WALL_OK) return status;
-  *message = pose_wall::planar::laserscan_of(*scan);
+  *message = laserscan_of(*scan);
   return POSE_WALL_OK;
 }
 
@@ -157,14 +110,14 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_scan_of_laserscan(const pose_wall_plan
                                                             float* ranges_m, pose_wall_planar_scan* scan) {
   if (message == nullptr || sensor == nullptr || scan == nullptr) return POSE_WALL_E_NULL;
   if (infinite_is_open == 0 && ranges_m == nullptr) return POSE_WALL_E_NULL;
-  pose_wall_planar_scan found = pose_wall::planar::scan_of(*message);
+  pose_wall_planar_scan found = scan_of(*message);
   found.sensor = *sensor;
   found.sigma_m = sigma_m;
   found.stamp_ns = stamp_ns;
-  const std::int32_t status = pose_wall::planar::check_scan(&found);
+  const std::int32_t status = check_scan(&found);
   if (status != POSE_WALL_OK) return status;
   if (infinite_is_open == 0) {
-    pose_wall::planar::copy_without_infinity(message->ranges, message->count, ranges_m);
+    copy_without_infinity(message->ranges, message->count, ranges_m);
     found.range_m = ranges_m;
   }
   *scan = found;
@@ -172,3 +125,5 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_scan_of_laserscan(const pose_wall_plan
 }
 
 }  // extern "C"
+
+}  // namespace pose_wall::planar

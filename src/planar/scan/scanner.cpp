@@ -30,7 +30,8 @@ std::int32_t check_floor(const pose_wall_planar_floor& floor) {
   return ok_if(fits, POSE_WALL_PLANAR_E_POSE);
 }
 
-void Scanner::lay_out(Arena& arena, const ScanSettings& settings) {
+void Scanner::lay_out(Arena& arena, const pose_wall_planar_scanner_settings& given) {
+  const ScanSettings settings = scan_settings_of(given);
   evidence_.lay_out(arena, settings.beams, settings.sectors);
   ranges_.lay_out(arena, settings.beams);
   clear_alone_ = arena.take<ClearRange>(settings.sectors);
@@ -39,8 +40,9 @@ void Scanner::lay_out(Arena& arena, const ScanSettings& settings) {
   clear_m_ = arena.take<float>(settings.beams);
 }
 
-void Scanner::open(const ScanSettings& settings) {
-  settings_ = settings;
+void Scanner::open(const pose_wall_planar_scanner_settings& given, const pose_wall_config& config) {
+  settings_ = scan_settings_of(given);
+  read_sensor(config, &settings_);
   reset();
 }
 

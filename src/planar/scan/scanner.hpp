@@ -17,8 +17,8 @@ std::int32_t check_floor(const pose_wall_planar_floor& floor);
 
 class Scanner {
  public:
-  void lay_out(Arena& arena, const ScanSettings& settings);
-  void open(const ScanSettings& settings);
+  void lay_out(Arena& arena, const pose_wall_planar_scanner_settings& given);
+  void open(const pose_wall_planar_scanner_settings& given, const pose_wall_config& config);
   void reset() { has_floor_ = false; }
 
   // A checked cloud, and a checked floor of this frame or none. Complete structs are written.

@@ -8,6 +8,7 @@
 
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
+#include "base/math/larger.hpp"
 #include "place/pose2.hpp"
 #include "planar/stop/stop_image.hpp"
 
@@ -35,10 +36,6 @@ double nanoseconds_between(std::int64_t first_ns, std::int64_t second_ns) {
 // Negative for a stamp of the future.
 double age_s_of(std::int64_t stamp_ns, std::int64_t now_ns) {
   return (static_cast<double>(now_ns) - static_cast<double>(stamp_ns)) * kNanosecond_s;
-}
-
-double larger(double a, double b) {
-  return a > b ? a : b;
 }
 
 }  // namespace

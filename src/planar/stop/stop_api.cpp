@@ -4,20 +4,15 @@
 // The C ABI of the stop: pointers and sizes are checked here, once.
 
 #include "lidar/mount.hpp"
-#include "part/export.hpp"
-#include "part/held.hpp"
-#include "part/status.hpp"
-#include "part/struct_sizes.hpp"
-#include "part/struct_versions.hpp"
+#include "part/shell.hpp"
 #include "planar/stop/stop.hpp"
 #include "planar/stop/stop_image.hpp"
 #include "pose_wall_planar_stop.h"
 
+namespace pose_wall::planar {
 namespace {
 
-using pose_wall::planar::Stop;
-using pose_wall::planar::StopTable;
-using Mine = pose_wall::Held<Stop, 0x706F74735F6E6C70ULL>;
+using Mine = Held<Stop, 0x706F74735F6E6C70ULL>;
 
 constexpr const char* kStates[] = {"stop", "slow", "go"};
 constexpr const char* kReasons[POSE_WALL_PLANAR_STOP_REASON_COUNT][2] = {
@@ -34,42 +29,25 @@ constexpr const char* kReasons[POSE_WALL_PLANAR_STOP_REASON_COUNT][2] = {
     {"no_floor", "The floor was not seen, so the machine's own plane is used."},
     {"restart", "The way is clear, but not for long enough yet."}};
 
-Mine* mine(pose_wall_planar_stop* stop) {
-  return reinterpret_cast<Mine*>(stop);
-}
-
 std::int32_t check_motion(const pose_wall_planar_stop_motion& motion) {
-  if (const std::int32_t size = pose_wall::check_struct(motion); size != POSE_WALL_OK) return size;
+  if (const std::int32_t size = check_struct(motion); size != POSE_WALL_OK) return size;
   // The bits of this header:
   constexpr std::uint32_t kKnown = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
-  return pose_wall::ok_if((motion.given & ~kKnown) == 0, POSE_WALL_E_INPUT);
-}
-
-std::int32_t check_size(std::uint32_t size) {
-  constexpr pose_wall::StructSizes kSizes = {0, sizeof(pose_wall_planar_stop_result),
-                                             sizeof(pose_wall_planar_stop_result)};
-  return pose_wall::check_struct_size(size, kSizes);
+  return ok_if((motion.given & ~kKnown) == 0, POSE_WALL_E_INPUT);
 }
 
 }  // namespace
 
 extern "C" {
 
-POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_init(pose_wall_planar_stop_settings* settings) {
-  return pose_wall::init_settings<StopTable>(settings);
-}
+POSE_WALL_SETTINGS_CALLS(pose_wall_planar_stop, StopTable, pose_wall_planar_fault)
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_rectangle(pose_wall_planar_stop_settings* settings, double x_min_m,
                                                          double x_max_m, double y_min_m, double y_max_m) {
   if (settings == nullptr) return POSE_WALL_E_NULL;
-  if (const std::int32_t size = pose_wall::check_struct(*settings); size != POSE_WALL_OK) return size;
-  pose_wall::planar::set_rectangle(settings, x_min_m, x_max_m, y_min_m, y_max_m);
+  if (const std::int32_t size = check_struct(*settings); size != POSE_WALL_OK) return size;
+  set_rectangle(settings, x_min_m, x_max_m, y_min_m, y_max_m);
   return POSE_WALL_OK;
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_check(const pose_wall_planar_stop_settings* settings,
-                                                              pose_wall_planar_fault* fault) {
-  return pose_wall::check_settings<StopTable>(settings, fault);
 }
 
 POSE_WALL_EXPORT const char* pose_wall_planar_stop_state_name(uint32_t state) {
@@ -95,52 +73,45 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_open(const pose_wall_config* conf
   pose_wall_planar_stop_settings given;
   Mine* opened = nullptr;
   std::int32_t status = pose_wall_config_check(config, nullptr);
-  if (status == POSE_WALL_OK) status = pose_wall::choose_settings<StopTable>(settings, &given);
+  if (status == POSE_WALL_OK) status = choose_settings<StopTable>(settings, &given);
   if (status == POSE_WALL_OK) status = Mine::place(block, block_bytes, &opened);
   if (status != POSE_WALL_OK) return status;
-  opened->body().open(given, pose_wall::mount_of(*config), pose_wall::planar::settings_crc(*config, given));
+  opened->body().open(given, mount_of(*config), settings_crc(*config, given));
   *stop = reinterpret_cast<pose_wall_planar_stop*>(opened);
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_reset(pose_wall_planar_stop* stop) {
-  if (stop == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<Mine> inside(mine(stop));
-  if (inside.status() == POSE_WALL_OK) inside->body().reset();
-  return inside.status();
+  return with_part<Mine>(stop, [](Stop& own) { own.reset(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* stop) {
-  if (stop == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<Mine> inside(mine(stop));
-  if (inside.status() == POSE_WALL_OK) inside->body().confirm();
-  return inside.status();
+  return with_part<Mine>(stop, [](Stop& own) { own.confirm(); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_process(pose_wall_planar_stop* stop, const pose_wall_cloud* cloud,
                                                        const pose_wall_planar_stop_motion* motion, int64_t now_ns,
                                                        pose_wall_planar_stop_result* result) {
-  if (stop == nullptr || cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<Mine> inside(mine(stop));
-  std::int32_t status = inside.status();
-  if (status == POSE_WALL_OK) status = pose_wall_cloud_check(cloud);
-  if (status == POSE_WALL_OK && motion != nullptr) status = check_motion(*motion);
-  if (status == POSE_WALL_OK) status = check_size(result->struct_size);
-  if (status != POSE_WALL_OK) return status;
-  const auto whole = pose_wall::read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
-  const pose_wall_planar_stop_motion nothing{};
-  inside->body().process(whole, motion != nullptr ? *motion : nothing, now_ns, result);
-  return POSE_WALL_OK;
+  if (cloud == nullptr || result == nullptr) return POSE_WALL_E_NULL;
+  return with_part<Mine>(stop, [&](Stop& own) {
+    std::int32_t status = pose_wall_cloud_check(cloud);
+    if (status == POSE_WALL_OK && motion != nullptr) status = check_motion(*motion);
+    if (status == POSE_WALL_OK) status = check_struct(*result);
+    if (status != POSE_WALL_OK) return status;
+    const auto whole = read_struct<pose_wall_cloud>(cloud, cloud->struct_size);
+    own.process(whole, motion != nullptr ? *motion : pose_wall_planar_stop_motion{}, now_ns, result);
+    return status;
+  });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_tick(pose_wall_planar_stop* stop, int64_t now_ns,
                                                     pose_wall_planar_stop_result* result) {
-  if (stop == nullptr || result == nullptr) return POSE_WALL_E_NULL;
-  const pose_wall::Inside<Mine> inside(mine(stop));
-  std::int32_t status = inside.status();
-  if (status == POSE_WALL_OK) status = check_size(result->struct_size);
-  if (status == POSE_WALL_OK) inside->body().tick(now_ns, result);
-  return status;
+  if (result == nullptr) return POSE_WALL_E_NULL;
+  return with_part<Mine>(stop, [&](Stop& own) {
+    const std::int32_t size = check_struct(*result);
+    if (size == POSE_WALL_OK) own.tick(now_ns, result);
+    return size;
+  });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_crc(const pose_wall_config* config,
@@ -151,23 +122,24 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_settings_crc(const pose_wall_conf
   std::uint32_t config_crc = 0;
   const std::int32_t status = pose_wall_config_crc(config, &config_crc);
   if (status != POSE_WALL_OK) return status;
-  *crc = pose_wall::planar::settings_crc(*config,
-                                         settings != nullptr ? *settings : pose_wall::default_settings<StopTable>());
+  *crc = settings_crc(*config, settings != nullptr ? *settings : default_settings<StopTable>());
   return POSE_WALL_OK;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_image_fill(const pose_wall_planar_stop_result* result,
                                                           pose_wall_planar_stop_image* image) {
   if (result == nullptr || image == nullptr) return POSE_WALL_E_NULL;
-  std::int32_t status = check_size(result->struct_size);
+  std::int32_t status = check_struct(*result);
   if (status == POSE_WALL_OK && image->struct_size != sizeof(*image)) status = POSE_WALL_E_STRUCT_SIZE;
-  if (status == POSE_WALL_OK && result->mark != pose_wall::planar::kStopMark) status = POSE_WALL_E_RESULT;
-  if (status == POSE_WALL_OK) pose_wall::planar::fill_image(*result, image);
+  if (status == POSE_WALL_OK && result->mark != kStopMark) status = POSE_WALL_E_RESULT;
+  if (status == POSE_WALL_OK) fill_image(*result, image);
   return status;
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_image_check(const pose_wall_planar_stop_image* image) {
-  return image != nullptr ? pose_wall::planar::check_image(*image) : std::int32_t{POSE_WALL_E_NULL};
+  return image != nullptr ? check_image(*image) : std::int32_t{POSE_WALL_E_NULL};
 }
 
 }  // extern "C"
+
+}  // namespace pose_wall::planar
