@@ -28,16 +28,6 @@ struct Times {
   Histogram stage[POSE_WALL_STAGES];
 };
 
-// Under the lock.
-struct Counters {
-  std::uint64_t pushed = 0, processed = 0;
-  std::uint64_t dropped[POSE_WALL_RUNTIME_DROPS] = {};
-  std::uint64_t published = 0, silences = 0, thinned = 0, motion_refused = 0;
-  std::uint64_t box_written = 0, box_lost = 0, box_failed = 0, box_bytes_written = 0;
-  std::uint32_t waiting_worst = 0, thinning_worst = 1;
-  std::int32_t priority_error = 0, affinity_error = 0, lock_error = 0, thread_error = 0;
-};
-
 // Whether the key `motion` lets an odometry in.
 bool config_wants_motion(const pose_wall_config& config);
 
@@ -178,7 +168,7 @@ class Runtime {
   bool has_newest_ = false;
   bool loaded_ = false;  // since the last start
   std::int64_t loaded_ns_ = 0;
-  Counters counters_;
+  pose_wall_runtime_statistics counters_{};  // what counts up, and the errors of the last start
 
   // Of the worker alone.
   Overload overload_;

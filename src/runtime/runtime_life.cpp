@@ -21,6 +21,7 @@ Runtime::Runtime(const pose_wall_config& config, const pose_wall_runtime_options
       options_(options),
       overload_(options.thinning_max, options.frame_period_max_ns),
       watchdog_(options.watchdog_ns, options.watchdog_every_ns) {
+  counters_.thinning_worst = 1;
   if (options.motion_settings != nullptr) motion_settings_ = *options.motion_settings;
 }
 
@@ -204,7 +205,7 @@ int Runtime::lock_memory() {
 
 // Under the lock, which the new threads wait for.
 std::int32_t Runtime::start_threads() {
-  Counters& c = counters_;
+  pose_wall_runtime_statistics& c = counters_;
   c.priority_error = c.affinity_error = c.lock_error = c.thread_error = 0;
   if (options_.lock_memory != 0) c.lock_error = lock_memory();
   if (options_.sink != nullptr) {

@@ -31,7 +31,7 @@ class Finder {
         statistics_(statistics),
         e_(*evidence),
         r_(*ranges),
-        step_(static_cast<float>(settings.step_rad)) {
+        step_(static_cast<float>(settings.angle_step_rad)) {
     const double depth_m = kDepthSigmas * s_.sigma_m;
     depth_m_ = static_cast<float>(depth_m > kDepth_m ? depth_m : kDepth_m);
   }

@@ -56,17 +56,7 @@ std::uint32_t beams_of(const pose_wall_planar_scanner_settings& settings) {
 }
 
 ScanSettings scan_settings_of(const pose_wall_planar_scanner_settings& s) {
-  ScanSettings out;
-  out.clearance_m = s.ground_clearance_m;
-  out.machine_m = s.machine_height_m;
-  out.margin_m = s.margin_m;
-  out.tolerance_m = s.floor_tolerance_m;
-  out.overhead_m = s.overhead_m;
-  out.thing_m = s.thing_m;
-  out.angle_min_rad = s.angle_min_rad;
-  out.step_rad = s.angle_step_rad;
-  out.range_min_m = s.range_min_m;
-  out.range_max_m = s.range_max_m;
+  ScanSettings out{s};
   out.beams = beams_of(s);
   out.fill_beams = static_cast<std::uint32_t>(s.fill_rad / s.angle_step_rad + kRounding);
   if (out.fill_beams < 1) out.fill_beams = 1;  // beside each other there is nothing between them
@@ -79,9 +69,6 @@ ScanSettings scan_settings_of(const pose_wall_planar_scanner_settings& s) {
   out.sectors = static_cast<std::uint32_t>(sectors < most ? sectors : most);
   const double sector_rad = kTurn_rad / out.sectors, reach_m = 0.5 * s.thing_m / sector_rad;
   out.reach_m = reach_m < s.clear_reach_m ? reach_m : s.clear_reach_m;
-  out.hold_max_s = s.hold_max_s;
-  out.tilt_level_max_rad = s.tilt_level_max_rad;
-  out.bend_rad = s.bend_rad;
   return out;
 }
 

@@ -14,15 +14,13 @@
 
 namespace pose_wall::planar {
 
-struct ScanSettings {
-  // heights above the floor, m
-  double clearance_m = 0.0, machine_m = 0.0, margin_m = 0.0;
-  double tolerance_m = 0.0, overhead_m = 0.0, thing_m = 0.0;
-  double low_m() const { return clearance_m - margin_m; }
-  double high_m() const { return machine_m + margin_m; }
+// Those of the caller, and what follows from them.
+struct ScanSettings : pose_wall_planar_scanner_settings {
+  // The band's edges above the floor.
+  double low_m() const { return ground_clearance_m - margin_m; }
+  double high_m() const { return machine_height_m + margin_m; }
 
   // the scan
-  double angle_min_rad = 0.0, step_rad = 0.0, range_min_m = 0.0, range_max_m = 0.0;
   std::uint32_t beams = 0;
   std::uint32_t fill_beams = 0;  // neighbours this far apart can be joined
   double steps_of_turn = 0.0;
@@ -31,12 +29,9 @@ struct ScanSettings {
   std::uint32_t sectors = 0;  // of the guarantee, over a whole turn
   double reach_m = 0.0;       // of the guarantee
 
-  // the sensor
-  double sigma_m = 0.0;
-  Mount mount;
-
-  // the floor
-  double hold_max_s = 0.0, hold_rate_rad_s = 0.0, tilt_level_max_rad = 0.0, bend_rad = 0.0;
+  // the sensor, and the floor that is held
+  double sigma_m = 0.0, hold_rate_rad_s = 0.0;
+  Mount mount{};
 };
 
 struct ScannerTable : SettingsTable<pose_wall_planar_scanner_settings> {

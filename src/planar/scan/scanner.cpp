@@ -89,7 +89,7 @@ std::uint32_t Scanner::take_floor(const pose_wall_planar_floor* floor, std::int6
 ClearScene Scanner::clear_scene(double sensor_m) const {
   ClearScene scene;
   scene.sensor_m = sensor_m;
-  scene.tolerance_m = settings_.tolerance_m;
+  scene.tolerance_m = settings_.floor_tolerance_m;
   scene.high_m = settings_.high_m();
   scene.thing_m = settings_.thing_m;
   scene.tilt_rad = floor_.tilt_rad;
@@ -154,7 +154,7 @@ void Scanner::describe(std::int64_t stamp_ns, pose_wall_planar_scan* scan) const
   scan->stamp_ns = stamp_ns;
   scan->sensor = {place_m.x(), place_m.y(), 0.0};
   scan->angle_min_rad = settings_.angle_min_rad;
-  scan->angle_step_rad = settings_.step_rad;
+  scan->angle_step_rad = settings_.angle_step_rad;
   scan->range_min_m = settings_.range_min_m;
   scan->range_max_m = settings_.range_max_m;
   scan->sigma_m = settings_.sigma_m;
@@ -173,7 +173,7 @@ void Scanner::describe(std::uint32_t floor_state, std::int64_t stamp_ns, pose_wa
   view->sensor_height_m = sensor_m;
   view->min_height_m = settings_.low_m() - sensor_m;
   view->max_height_m = settings_.high_m() - sensor_m;
-  const double room_m = settings_.low_m() - settings_.tolerance_m;
+  const double room_m = settings_.low_m() - settings_.floor_tolerance_m;
   view->low_reach_m = none ? nan : floor_.tilt_rad > 0.0 ? room_m / floor_.tilt_rad : endless;
   view->free_m = evidence_.free_m.data();
   view->bias_m = ranges_.bias_m.data();

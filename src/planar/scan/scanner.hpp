@@ -34,7 +34,7 @@ class Scanner {
   void describe(std::int64_t stamp_ns, pose_wall_planar_scan* scan) const;
   void describe(std::uint32_t floor_state, std::int64_t stamp_ns, pose_wall_planar_scan_view* view) const;
 
-  ScanSettings settings_;
+  ScanSettings settings_{};
   OrderStatistics statistics_;
   SlotEdges edges_;
   bool has_floor_ = false;
