@@ -148,7 +148,7 @@ void Engine::set_memory(const Memory& memory) {
 void Engine::set_memory_of_other_clock(const Memory& memory, double elapsed_s, std::int64_t stamp_ns) {
   memory_ = memory;
   rebase(elapsed_s, stamp_ns, settings_, &memory_.temporal);
-  memory_.freshness = Freshness{};
+  memory_.repeat_guard = RepeatGuard{};
   memory_.repeats = 0;
   memory_.odometry.run = OdometryMemory::kNoRun;
   memory_.own.forget();
@@ -381,7 +381,7 @@ void Engine::finish(pose_wall_result* result) {
 void Engine::doubt_repeats(const FrameTiming& timing, FrameFindings* found) {
   Repeat repeat;
   if (scratch_.cloud_base.count >= limit_of<gate::POINTS>(settings_)) {
-    repeat = memory_.freshness.keep(*scratch_.print, found->stamp_ns);
+    repeat = memory_.repeat_guard.keep(*scratch_.print, found->stamp_ns);
     memory_.repeats = repeat.is_one ? memory_.repeats + 1 : 0;
   }
   constexpr double kAnyNumber = 1e9;  // of repeats, if the clock went back since the first copy

@@ -43,7 +43,7 @@ struct Memory {
   TemporalState temporal;
   Surfaces last;
   LeafMemory leaf;
-  Freshness freshness;
+  RepeatGuard repeat_guard;
   OdometryMemory odometry;
   OwnChanges own;
   std::uint32_t repeats = 0;  // number of repeated clouds in a row; clouds without points do not count

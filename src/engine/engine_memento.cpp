@@ -172,7 +172,7 @@ void visit(Way* way, Track* t) {
 }
 
 template <typename Way>
-void visit(Way* way, Freshness* f) {
+void visit(Way* way, RepeatGuard* f) {
   for (SeenCloud& cloud : f->clouds.cloud) visit_all(way, &cloud.print, &cloud.stamp_ns);
   for (auto& sector : f->sectors.print) {
     for (std::uint32_t k = 0; k < SeenSectors::kCount; k += 2) visit_pair(way, &sector[k], &sector[k + 1]);
@@ -201,7 +201,7 @@ void visit(Way* way, Memory* m) {
   for (Plane& wall : m->last.wall_level) visit(way, &wall);
   visit_all(way, &m->last.has_floor, &m->last.has_wall[0], &m->last.has_wall[1], &m->leaf.begin_with, &m->leaf.voxels,
             &m->repeats, &m->frames, &m->publications);
-  visit(way, &m->freshness);
+  visit(way, &m->repeat_guard);
   visit(way, &m->odometry);
   visit(way, &m->own);
 }

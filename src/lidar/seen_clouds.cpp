@@ -59,7 +59,7 @@ Repeat SeenSectors::keep(const CloudPrint& now, std::int64_t at_ns) {
   return repeat;
 }
 
-Repeat Freshness::keep(const CloudPrint& now, std::int64_t stamp_ns) {
+Repeat RepeatGuard::keep(const CloudPrint& now, std::int64_t stamp_ns) {
   if (now.returns() < SeenClouds::kReturnsLeast) return {};
   const Repeat whole = clouds.keep(now.whole(), stamp_ns);
   return whole.is_one ? whole : sectors.keep(now, stamp_ns);

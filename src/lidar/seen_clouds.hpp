@@ -51,8 +51,8 @@ struct SeenSectors {
   std::uint32_t next = 0;
 };
 
-// The guard of freshness of engine, motion and stop; localisation keeps prints of scans.
-struct Freshness {
+// Whether points came before: the guard of freshness of engine, motion and stop. Localisation keeps prints of scans.
+struct RepeatGuard {
   // Whether the cloud, or a part of it, was seen before. Keeps it.
   Repeat keep(const CloudPrint& now, std::int64_t stamp_ns);
 

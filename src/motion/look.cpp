@@ -25,7 +25,7 @@ void Imager::lay_out(Arena& arena) {
 bool Imager::repeats(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, Work* work) {
   project(cloud, mount, twist, &image_, print_);
   work->add(points_of(cloud), steps::kPointProjected);
-  return freshness_.keep(*print_, cloud.stamp_ns).is_one;
+  return repeat_guard_.keep(*print_, cloud.stamp_ns).is_one;
 }
 
 Seen Imager::look(const Pose& expected, const Mount& mount, Work* work) {

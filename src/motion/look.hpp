@@ -26,7 +26,7 @@ struct Seen {
 class Imager {
  public:
   void lay_out(Arena& arena);
-  void reset() { freshness_ = Freshness{}; }
+  void reset() { repeat_guard_ = RepeatGuard{}; }
   // Reads the cloud, freed of the twist. True if its points, or a part of them, came before.
   bool repeats(const pose_wall_cloud& cloud, const Mount& mount, const Twist& twist, Work* work);
   // Of a cloud that was read.
@@ -42,7 +42,7 @@ class Imager {
   ObservationScratch choice_;
   Span<Observation> observation_;
   CloudPrint* print_ = nullptr;
-  Freshness freshness_;
+  RepeatGuard repeat_guard_;
 };
 
 }  // namespace pose_wall::motion

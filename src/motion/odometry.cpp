@@ -51,7 +51,7 @@ void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* re
   const Frame frame = {cloud, dt_s, clock_.is_late(dt_s)};
   report_nothing(result);
   report_axis(RoadAxes{}, start_, result);
-  Verdict verdict;
+  AlongVerdict verdict;
   if (!clock_.goes_on(dt_s)) {
     verdict = stay(frame, result);
   } else if (imager_.repeats(cloud, mount_, model_.twist(), &work_)) {  // as if nothing had been seen
@@ -74,7 +74,7 @@ void Odometry::process(const pose_wall_cloud& cloud, pose_wall_motion_result* re
 }
 
 // Of a frame out of order nothing is taken: the last pose, and how well it is known.
-Odometry::Verdict Odometry::stay(const Frame& frame, pose_wall_motion_result* result) {
+Odometry::AlongVerdict Odometry::stay(const Frame& frame, pose_wall_motion_result* result) {
   clock_.go_back(frame.cloud.stamp_ns, frame.dt_s);
   report_axis(course_.axes, start_, result);
   if (!has_map_) return {POSE_WALL_ALONG_LOST, POSE_WALL_MOTION_R_STAMP};
@@ -82,7 +82,7 @@ Odometry::Verdict Odometry::stay(const Frame& frame, pose_wall_motion_result* re
   return {POSE_WALL_ALONG_UNOBSERVABLE, POSE_WALL_MOTION_R_STAMP};
 }
 
-Odometry::Verdict Odometry::measure(const Frame& frame, pose_wall_motion_result* result) {
+Odometry::AlongVerdict Odometry::measure(const Frame& frame, pose_wall_motion_result* result) {
   const Expected expected = model_.expect(course_, settings_, frame);
   const Seen seen = imager_.look(expected.pose, mount_, &work_);
   report(seen, result);
@@ -90,13 +90,13 @@ Odometry::Verdict Odometry::measure(const Frame& frame, pose_wall_motion_result*
   // Time counts from the last frame with a pose: frames of nothing have no effect.
   if (!has_map_ || seen.suffices()) clock_.take(frame.cloud.stamp_ns, frame.dt_s);
   if (!seen.suffices()) return {POSE_WALL_ALONG_LOST, expected.reasons | POSE_WALL_MOTION_R_FEW_POINTS};
-  Verdict verdict = has_map_ ? go_on(frame, expected, seen, result) : begin(frame, expected, seen, result);
+  AlongVerdict verdict = has_map_ ? go_on(frame, expected, seen, result) : begin(frame, expected, seen, result);
   verdict.reasons |= expected.reasons;
   return verdict;
 }
 
-Odometry::Verdict Odometry::go_on(const Frame& frame, const Expected& expected, const Seen& seen,
-                                  pose_wall_motion_result* result) {
+Odometry::AlongVerdict Odometry::go_on(const Frame& frame, const Expected& expected, const Seen& seen,
+                                       pose_wall_motion_result* result) {
   const Road road = {keyframes_.map(), course_, settings_, mount_.sensor_base_m};
   const Placed placed = place_scan(road, frame, expected.pose, seen, &scratch_, &work_);
   report(placed, result);
@@ -113,8 +113,8 @@ Odometry::Verdict Odometry::go_on(const Frame& frame, const Expected& expected, 
 }
 
 // The first scan stands upright and square to the map's axes, so that surfaces face them.
-Odometry::Verdict Odometry::begin(const Frame& frame, const Expected& expected, const Seen& seen,
-                                  pose_wall_motion_result* result) {
+Odometry::AlongVerdict Odometry::begin(const Frame& frame, const Expected& expected, const Seen& seen,
+                                       pose_wall_motion_result* result) {
   const Eigen::Matrix3d& R = expected.pose.R;
   const Eigen::Matrix3d level = upright(seen.observations, R, mount_.sensor_base_m) * R;
   const double yaw_rad = squaring_yaw_rad(seen.observations, level);

@@ -25,13 +25,13 @@ class Odometry {
   std::uint32_t map_points(std::uint32_t first, std::uint32_t capacity, float* xyz_start_m) const;
 
  private:
-  struct Verdict {
+  struct AlongVerdict {
     std::uint32_t state = POSE_WALL_ALONG_LOST, reasons = 0;
   };
-  Verdict measure(const Frame& frame, pose_wall_motion_result* result);
-  Verdict begin(const Frame& frame, const Expected& expected, const Seen& seen, pose_wall_motion_result* result);
-  Verdict go_on(const Frame& frame, const Expected& expected, const Seen& seen, pose_wall_motion_result* result);
-  Verdict stay(const Frame& frame, pose_wall_motion_result* result);
+  AlongVerdict measure(const Frame& frame, pose_wall_motion_result* result);
+  AlongVerdict begin(const Frame& frame, const Expected& expected, const Seen& seen, pose_wall_motion_result* result);
+  AlongVerdict go_on(const Frame& frame, const Expected& expected, const Seen& seen, pose_wall_motion_result* result);
+  AlongVerdict stay(const Frame& frame, pose_wall_motion_result* result);
   void begin_anew(const Frame& frame, const Seen& seen);
   void begin_map(const Frame& frame, const Seen& seen, const Pose& at);
   void begin_map_here();

@@ -10,11 +10,11 @@
 namespace pose_wall::planar {
 namespace {
 
-Why doubt_of(Track track) {
-  if (track == Track::tracked) return Why::none;
-  if (track == Track::blind) return Why::few;
-  if (track == Track::contradicted) return Why::contradicted;
-  return track == Track::loose ? Why::slides : Why::misfit;
+Why doubt_of(TrackingState track) {
+  if (track == TrackingState::tracked) return Why::none;
+  if (track == TrackingState::blind) return Why::few;
+  if (track == TrackingState::contradicted) return Why::contradicted;
+  return track == TrackingState::loose ? Why::slides : Why::misfit;
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void Localiser::open(const LocaliseSettings& settings) {
 void Localiser::forget() {
   recent_.clear();
   search_.open();
-  verdict_ = Verdict();
+  verdict_ = SearchVerdict();
   looked_from_ = judged_from_ = Pose2();
   looked_at_m_ = looked_at_rad_ = 0.0;
   is_tracking_ = has_looked_ = false;
@@ -75,7 +75,7 @@ bool Localiser::settle(Span<const ScanPoint> points, const BeamScan& scan, const
   constexpr double kKnown_m = 0.1, kKnown_rad = 0.03;
   scan_around_.take(points, scan.origin_m, scan.sigma_m);
   follower_.begin(now(verdict_.candidates[0].pose), kKnown_m, kKnown_rad);
-  return follower_.confirm(map_, scan_around_, odometry) == Track::tracked;
+  return follower_.confirm(map_, scan_around_, odometry) == TrackingState::tracked;
 }
 
 Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
@@ -83,7 +83,7 @@ Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, cons
     search_.open();
     has_looked_ = false;
     where_ = Where::searching;
-    verdict_ = Verdict();
+    verdict_ = SearchVerdict();
   }
   ++scans_since_search_;
   if (!search_.is_under_way() && is_due()) {
@@ -112,14 +112,14 @@ Where Localiser::wander(Span<const ScanPoint> points, const BeamScan& scan, cons
 
 Where Localiser::track(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry) {
   scan_around_.take(points, scan.origin_m, scan.sigma_m);
-  const Track track = follower_.follow(map_, scan_around_, odometry);
-  if (track == Track::lost) {
+  const TrackingState track = follower_.follow(map_, scan_around_, odometry);
+  if (track == TrackingState::lost) {
     ++lost_;
     forget();
     return wander(points, scan, odometry);
   }
   tracking_ = doubt_of(track);
-  return track == Track::tracked ? Where::unique : Where::doubtful;
+  return track == TrackingState::tracked ? Where::unique : Where::doubtful;
 }
 
 // By the bits of its ranges. Scans of the same stamp are the same scan once more.

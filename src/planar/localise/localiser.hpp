@@ -41,7 +41,7 @@ class Localiser {
   Why why() const { return is_tracking_ ? tracking_ : verdict_.why; }
   const MapFollower& follower() const { return follower_; }
   bool is_tracking() const { return is_tracking_; }
-  const Verdict& verdict() const { return verdict_; }
+  const SearchVerdict& verdict() const { return verdict_; }
   const PlaceSearch& search() const { return search_; }
   // Where a candidate of the verdict stands now; the next search may be under way.
   Pose2 now(const Pose2& at_look) const { return compose(at_look, between(judged_from_, recent_.pose())); }
@@ -62,7 +62,7 @@ class Localiser {
   PlaceSearch search_;
   MapFollower follower_;
   Surroundings around_, scan_around_;
-  Verdict verdict_;
+  SearchVerdict verdict_;
   Span<Beam> beams_;
   Span<ScanPoint> scan_points_;
   Span<PatchWall> walls_;

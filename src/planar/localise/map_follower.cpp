@@ -176,38 +176,40 @@ void MapFollower::update(const PlaceMap& map, const Surroundings& around, const 
   }
 }
 
-Track MapFollower::judge(double step_m) {
+TrackingState MapFollower::judge(double step_m) {
   constexpr std::uint32_t kContradictions = 3;        // scans in a row (README.md, lost is a state)
   constexpr double kPatience_m = 8.0, kLost_m = 1.5;  // of doubt, of standard deviation (README.md, lost is a state)
   const bool sees = verdict_.seen >= kPatchesLeast && 2 * verdict_.seen >= verdict_.judged;
-  Track track = Track::tracked;
+  TrackingState track = TrackingState::tracked;
   if (!sees) {
-    track = Track::blind;
+    track = TrackingState::blind;
   } else if (!(verdict_.fits >= kContradicts)) {
-    track = Track::contradicted;
+    track = TrackingState::contradicted;
   } else if (!(verdict_.fits >= kFits)) {
-    track = Track::doubtful;
+    track = TrackingState::doubtful;
   }
-  contradicted_ = track == Track::contradicted ? contradicted_ + 1 : track == Track::blind ? contradicted_ : 0;
-  doubtful_m_ = track == Track::tracked ? 0.0 : doubtful_m_ + step_m;
+  contradicted_ = track == TrackingState::contradicted ? contradicted_ + 1
+                  : track == TrackingState::blind      ? contradicted_
+                                                       : 0;
+  doubtful_m_ = track == TrackingState::tracked ? 0.0 : doubtful_m_ + step_m;
   const double place_m2 = covariance_(0, 0) + covariance_(1, 1);
   const bool is_lost =
       contradicted_ >= kContradictions || !(doubtful_m_ < kPatience_m) || !(place_m2 < kLost_m * kLost_m);
-  return is_lost ? Track::lost : track;
+  return is_lost ? TrackingState::lost : track;
 }
 
-Track MapFollower::confirm(const PlaceMap& map, const Surroundings& around, const Pose2* odometry) {
+TrackingState MapFollower::confirm(const PlaceMap& map, const Surroundings& around, const Pose2* odometry) {
   Predictions here;
   here.all[here.count++] = {{pose_, covariance_.inverse()}, covariance_};
   return follow_to(map, around, odometry, here);
 }
 
-Track MapFollower::follow(const PlaceMap& map, const Surroundings& around, const Pose2* odometry) {
+TrackingState MapFollower::follow(const PlaceMap& map, const Surroundings& around, const Pose2* odometry) {
   return follow_to(map, around, odometry, predict(odometry));
 }
 
-Track MapFollower::follow_to(const PlaceMap& map, const Surroundings& around, const Pose2* odometry,
-                             const Predictions& predictions) {
+TrackingState MapFollower::follow_to(const PlaceMap& map, const Surroundings& around, const Pose2* odometry,
+                                     const Predictions& predictions) {
   const Pose2 before = pose_;
   const Placed placed = place(map, around, predictions);
   const Predicted& likeliest = *placed.predicted;
@@ -215,8 +217,8 @@ Track MapFollower::follow_to(const PlaceMap& map, const Surroundings& around, co
   verdict_ = placed.verdict;
   const bool agrees = predictions.first().agrees(fit_.pose);
   covariance_ = likeliest.covariance;
-  const Track track = judge(between(before, likeliest.pose).place().norm());
-  if (track == Track::tracked || track == Track::doubtful) {
+  const TrackingState track = judge(between(before, likeliest.pose).place().norm());
+  if (track == TrackingState::tracked || track == TrackingState::doubtful) {
     update(map, around, predictions, likeliest);
     pose_ = fit_.pose;
   } else {
@@ -226,7 +228,8 @@ Track MapFollower::follow_to(const PlaceMap& map, const Surroundings& around, co
   has_followed_ ? predictor_.follow(before, pose_, odometry, agrees) : predictor_.start(odometry);
   has_followed_ = true;
   constexpr double kPlaced_m = 0.2;  // a place that is less certain is not one place
-  return track == Track::tracked && !(Uncertain(covariance_).sigma_m < kPlaced_m) ? Track::loose : track;
+  return track == TrackingState::tracked && !(Uncertain(covariance_).sigma_m < kPlaced_m) ? TrackingState::loose
+                                                                                          : track;
 }
 
 }  // namespace pose_wall::planar

@@ -13,7 +13,7 @@
 namespace pose_wall::planar {
 
 // loose: the scan fits, but the place is not certain along the road.
-enum class Track : std::uint32_t { tracked, loose, doubtful, blind, contradicted, lost };
+enum class TrackingState : std::uint32_t { tracked, loose, doubtful, blind, contradicted, lost };
 
 class MapFollower {
  public:
@@ -22,10 +22,10 @@ class MapFollower {
   // Base stands here; standard deviations of what is known.
   void begin(const Pose2& pose, double sigma_m, double sigma_rad);
   // One scan, from where base stands. odometry may be nullptr.
-  Track follow(const PlaceMap& map, const Surroundings& around, const Pose2* odometry);
+  TrackingState follow(const PlaceMap& map, const Surroundings& around, const Pose2* odometry);
 
   // The scan was taken where base was said to stand.
-  Track confirm(const PlaceMap& map, const Surroundings& around, const Pose2* odometry);
+  TrackingState confirm(const PlaceMap& map, const Surroundings& around, const Pose2* odometry);
 
   const Pose2& pose() const { return pose_; }
   const Eigen::Matrix3d& covariance() const { return covariance_; }
@@ -62,14 +62,14 @@ class MapFollower {
   };
 
   Predictions predict(const Pose2* odometry) const;
-  Track follow_to(const PlaceMap& map, const Surroundings& around, const Pose2* odometry,
-                  const Predictions& predictions);
+  TrackingState follow_to(const PlaceMap& map, const Surroundings& around, const Pose2* odometry,
+                          const Predictions& predictions);
   static Placed fit_from(const PlaceMap& map, const Surroundings& around, const Pose2& start,
                          const Predicted& predicted, const Predictions& predictions);
   Placed place(const PlaceMap& map, const Surroundings& around, const Predictions& predictions) const;
   void update(const PlaceMap& map, const Surroundings& around, const Predictions& predictions,
               const Predicted& likeliest);
-  Track judge(double step_m);
+  TrackingState judge(double step_m);
 
   StepPredictor predictor_;
   Pose2 pose_;

@@ -29,7 +29,7 @@ bool is_same(const CandidatePlace& candidate, const Pose2& pose) {
   return apart_m < candidate.spread_m + kChain_m && std::abs(wrapped(candidate.pose.yaw_rad - pose.yaw_rad)) < kYaw_rad;
 }
 
-void add(const Hypothesis& hypothesis, double worse, Verdict* out) {
+void add(const Hypothesis& hypothesis, double worse, SearchVerdict* out) {
   for (std::uint32_t k = 0; k < out->count; ++k) {
     CandidatePlace& known = out->candidates[k];
     if (!is_same(known, hypothesis.pose)) continue;
@@ -49,7 +49,7 @@ bool has_relief(const Surroundings& around, const Evidence& best) {
 }
 
 // none: it is the one place.
-Why doubt_of(const Verdict& verdict, const PlaceSearch& search) {
+Why doubt_of(const SearchVerdict& verdict, const PlaceSearch& search) {
   const Evidence& best = verdict.best;
   if (verdict.all != 1) return Why::several;
   if (!search.is_whole()) return Why::crowded;
@@ -63,8 +63,8 @@ Why doubt_of(const Verdict& verdict, const PlaceSearch& search) {
 }  // namespace
 
 void judge(const PlaceMap& map, const Surroundings& around, const PlaceSearch& search, bool map_is_whole,
-           Span<PatchWall> walls, Verdict* out) {
-  *out = Verdict();
+           Span<PatchWall> walls, SearchVerdict* out) {
+  *out = SearchVerdict();
   out->why = Why::no_fit;
   const Span<const Hypothesis> all = search.hypotheses();
   if (all.size() == 0) return;

@@ -49,7 +49,7 @@ struct Evidence {
   std::uint32_t relief = 0;  // patches with relief of their own
 };
 
-struct Verdict {
+struct SearchVerdict {
   Finding finding = Finding::unknown;
   Why why = Why::searching;
   CandidatePlace candidates[kCandidatesMost];
@@ -61,6 +61,6 @@ struct Verdict {
 // map_is_whole: the machine cannot be where the map has nothing. Otherwise one place needs relief, too: of walls
 // without any there may be others, which the map lacks. `walls`: room for kPatchesMost.
 void judge(const PlaceMap& map, const Surroundings& around, const PlaceSearch& search, bool map_is_whole,
-           Span<PatchWall> walls, Verdict* out);
+           Span<PatchWall> walls, SearchVerdict* out);
 
 }  // namespace pose_wall::planar

@@ -70,16 +70,17 @@ const Place* Places::known_at(std::int32_t ix, std::int32_t iy) const {
   return is_of(place, ix, iy) ? &place : nullptr;
 }
 
-bool Places::is_remembered(std::uint32_t when_ms, std::uint32_t drift, const Track& track, std::uint32_t now_ms) const {
+bool Places::is_remembered(std::uint32_t when_ms, std::uint32_t drift, const DeadReckoning& track,
+                           std::uint32_t now_ms) const {
   return when_ms != 0 && now_ms - when_ms <= memory_ms_ && track.drift_since_m(drift) <= drift_most_m_;
 }
 
-bool Places::is_thing(const Place& place, const Track& track, std::uint32_t now_ms) const {
+bool Places::is_thing(const Place& place, const DeadReckoning& track, std::uint32_t now_ms) const {
   return is_remembered(place.thing_low_ms, place.thing_drift, track, now_ms) ||
          is_remembered(place.thing_high_ms, place.thing_drift, track, now_ms);
 }
 
-bool Places::is_free(const Place& place, const Track& track, std::uint32_t now_ms) const {
+bool Places::is_free(const Place& place, const DeadReckoning& track, std::uint32_t now_ms) const {
   return is_remembered(place.low_ms, place.low_drift, track, now_ms) &&
          is_remembered(place.top_ms, place.top_drift, track, now_ms) && place.tall_ms != 0 &&
          now_ms - place.tall_ms <= delay_ms_;
@@ -100,7 +101,7 @@ void Places::doubt(Place* place, std::uint32_t now_ms) {
   place->doubt_ms = now_ms;
 }
 
-void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
+void Places::put_returns(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
                          std::uint32_t now_ms) {
   const Turn2 turn(track.yaw_rad);
   const Eigen::Vector2d origin = turn * sensor_m + Eigen::Vector2d(track.x_m, track.y_m);
@@ -132,7 +133,8 @@ void Places::put_returns(const Sight& sight, const Track& track, const Eigen::Ve
 // visit(ix, iy, which of them count, x and y in base): places within a square around a point of base, four of a row at
 // a time.
 template <typename Visit>
-void Places::each_four(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
+void Places::each_four(const DeadReckoning& track, const Eigen::Vector2d& middle_m, double half_m,
+                       const Visit& visit) const {
   const Turn2 turn(track.yaw_rad);
   const std::int32_t bx = place_of(track.x_m), by = place_of(track.y_m);
   const Eigen::Vector2d middle = turn * middle_m + Eigen::Vector2d(track.x_m, track.y_m);
@@ -156,7 +158,8 @@ void Places::each_four(const Track& track, const Eigen::Vector2d& middle_m, doub
 }
 
 template <typename Visit>
-void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
+void Places::each_around(const DeadReckoning& track, const Eigen::Vector2d& middle_m, double half_m,
+                         const Visit& visit) const {
   each_four(track, middle_m, half_m,
             [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
               for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(kFour); ++lane) {
@@ -165,8 +168,8 @@ void Places::each_around(const Track& track, const Eigen::Vector2d& middle_m, do
             });
 }
 
-void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
-                      std::uint32_t now_ms) {
+void Places::put_seen(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
+                      const Sweep& sweep, std::uint32_t now_ms) {
   const std::uint32_t drift = track.drift_steps;
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   const float most_m = sight.seen_most_m();
@@ -199,7 +202,7 @@ void Places::put_seen(const Sight& sight, const Track& track, const Eigen::Vecto
   });
 }
 
-void Places::confirm(const Track& track, const Sweep& sweep, std::uint32_t now_ms) {
+void Places::confirm(const DeadReckoning& track, const Sweep& sweep, std::uint32_t now_ms) {
   const std::uint32_t drift = track.drift_steps;
   const double reach_m = sweep.radius_m() + static_cast<double>(confirm_m_);
   each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
@@ -215,7 +218,8 @@ bool Places::was_there_with(const Place* near, const Place& place) const {
   if (near == nullptr || near->thing_high_ms == 0) return false;
   const bool was_seen_before = near->thing_high_ms < place.thing_high_ms;
   const std::uint32_t before_ms = was_seen_before ? place.thing_high_ms - near->thing_high_ms : 0;
-  return before_ms <= memory_ms_ && Track::drift_between_m(near->thing_drift, place.thing_drift) <= drift_most_m_;
+  return before_ms <= memory_ms_ &&
+         DeadReckoning::drift_between_m(near->thing_drift, place.thing_drift) <= drift_most_m_;
 }
 
 // It, or a neighbour, was there for long. What went out of sight then is taken to be still there.
@@ -284,7 +288,7 @@ bool Places::is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t no
 }
 
 // What a place is to the sweep: false if it is free.
-bool Places::is_hazard(Place* place, const Track& track, const Eigen::Vector2d& away, std::uint32_t now_ms,
+bool Places::is_hazard(Place* place, const DeadReckoning& track, const Eigen::Vector2d& away, std::uint32_t now_ms,
                        Hazard* hazard) const {
   hazard->margin_m = protection_m_ + kPlaceCorner_m;
   hazard->approach_m_s = hazard->sooner_s = 0.0F;
@@ -305,33 +309,34 @@ bool Places::is_hazard(Place* place, const Track& track, const Eigen::Vector2d& 
 }
 
 // A place in the way, and what is gone goes. False if it is none.
-bool Places::find_at(const Look& look, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard, Count* count) {
-  const float dx = hazard->x_m - look.sensor_x_m, dy = hazard->y_m - look.sensor_y_m;
+bool Places::find_at(const HazardScene& scene, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard,
+                     Count* count) {
+  const float dx = hazard->x_m - scene.sensor_x_m, dy = hazard->y_m - scene.sensor_y_m;
   Place* const place = is_of(places_[hazard->place], ix, iy) ? &places_[hazard->place] : nullptr;
-  if (place != nullptr) let_go(place, look.sight, dx, dy, look.now_ms);
-  if (place != nullptr && is_near && place->doubt_ms == look.now_ms) ++count->doubtful;
-  const Eigen::Vector2d away = look.turn * Eigen::Vector2d(static_cast<double>(dx), static_cast<double>(dy));
-  if (!is_hazard(place, look.track, away, look.now_ms, hazard)) return false;
+  if (place != nullptr) let_go(place, scene.sight, dx, dy, scene.now_ms);
+  if (place != nullptr && is_near && place->doubt_ms == scene.now_ms) ++count->doubtful;
+  const Eigen::Vector2d away = scene.turn * Eigen::Vector2d(static_cast<double>(dx), static_cast<double>(dy));
+  if (!is_hazard(place, scene.track, away, scene.now_ms, hazard)) return false;
   const bool is_blind = hazard->kind == POSE_WALL_PLANAR_STOP_UNSEEN;
   if (!is_blind) ++count->things;
   if (!is_near && !(hazard->approach_m_s > 0.0F)) return false;
-  if (look.sweep.distance_now(hazard->x_m, hazard->y_m) < kNotUnder_m) return false;
+  if (scene.sweep.distance_now(hazard->x_m, hazard->y_m) < kNotUnder_m) return false;
   if (is_blind) ++count->blind;
   return true;
 }
 
-std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
+std::uint32_t Places::find_hazards(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
                                    const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count) {
   const float still_reach_m = protection_m_ + kPlaceCorner_m + kCellCorner_m + drift_most_m_ + sweep.growth_m(0.0F);
   const float walk_reach_m = still_reach_m + sweep.growth_m(approach_m_s_) - sweep.growth_m(0.0F);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
-  const Look look{sight, track, sweep, Turn2(track.yaw_rad), sx, sy, now_ms};
+  const HazardScene scene{sight, track, sweep, Turn2(track.yaw_rad), sx, sy, now_ms};
   std::uint32_t found = 0;
   const auto find = [&](std::int32_t ix, std::int32_t iy, float x, float y, bool is_near) {
     const std::uint32_t index = index_of(ix, iy);
     if (!is_near && places_[index].thing_high_ms == 0) return;
     Hazard hazard{x, y, 0.0F, 0.0F, 0.0F, index, 0};
-    if (find_at(look, ix, iy, is_near, &hazard, count)) hazards[found++] = hazard;  // there is room for every place
+    if (find_at(scene, ix, iy, is_near, &hazard, count)) hazards[found++] = hazard;  // there is room for every place
   };
   each_four(track, sweep.middle_m(), sweep.half_m() + static_cast<double>(walk_reach_m),
             [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
@@ -345,7 +350,7 @@ std::uint32_t Places::find_hazards(const Sight& sight, const Track& track, const
   return found;
 }
 
-double Places::size_around(std::uint32_t index, const Track& track, std::uint32_t now_ms) const {
+double Places::size_around(std::uint32_t index, const DeadReckoning& track, std::uint32_t now_ms) const {
   constexpr std::int32_t kAround = 10;  // 1 m to each side
   const Place& middle = places_[index];
   std::int32_t low_x = 0, high_x = 0, low_y = 0, high_y = 0;

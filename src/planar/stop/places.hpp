@@ -23,7 +23,7 @@ constexpr std::int32_t kPlacesAround = 79;    // to each side of base
 constexpr float kPlaceCorner_m = 0.0707F, kCellCorner_m = 0.0640F;
 
 // Base on the ground, and the bound of the errors that have added up.
-struct Track {
+struct DeadReckoning {
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
   // In steps of 0.01 mm, and only differences count: so it may grow for years, as a clock does. It comes round after
   // 21 km, and memory_s ends long before.
@@ -61,43 +61,45 @@ class Places {
   void forget();
 
   // The returns of a frame at time now_ms. `sensor` in base.
-  void put_returns(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m, std::uint32_t now_ms);
+  void put_returns(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
+                   std::uint32_t now_ms);
   // What was seen free, and what is gone.
-  void put_seen(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
+  void put_seen(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
                 std::uint32_t now_ms);
   // Someone has looked.
-  void confirm(const Track& track, const Sweep& sweep, std::uint32_t now_ms);
+  void confirm(const DeadReckoning& track, const Sweep& sweep, std::uint32_t now_ms);
 
   struct Count {
     std::uint32_t things = 0, blind = 0, doubtful = 0;
   };
   // All that is in the way of a sweep, and high things that are gone go. `hazards` has room for kHazards.
-  std::uint32_t find_hazards(const Sight& sight, const Track& track, const Eigen::Vector2d& sensor_m,
+  std::uint32_t find_hazards(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
                              const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count);
 
   const Place& at(std::uint32_t index) const { return places_[index]; }
   // Across, of things that hang together around a place.
-  double size_around(std::uint32_t index, const Track& track, std::uint32_t now_ms) const;
-  bool is_thing(const Place& place, const Track& track, std::uint32_t now_ms) const;
+  double size_around(std::uint32_t index, const DeadReckoning& track, std::uint32_t now_ms) const;
+  bool is_thing(const Place& place, const DeadReckoning& track, std::uint32_t now_ms) const;
 
  private:
   template <typename Visit>
-  void each_four(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
+  void each_four(const DeadReckoning& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
   template <typename Visit>
-  void each_around(const Track& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
+  void each_around(const DeadReckoning& track, const Eigen::Vector2d& middle_m, double half_m,
+                   const Visit& visit) const;
   void let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const;
   bool is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const;
   // What find_hazards looks from.
-  struct Look {
+  struct HazardScene {
     const Sight& sight;
-    const Track& track;
+    const DeadReckoning& track;
     const Sweep& sweep;
     Turn2 turn;  // from base to the ground
     float sensor_x_m, sensor_y_m;
     std::uint32_t now_ms;
   };
-  bool find_at(const Look& look, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard, Count* count);
-  bool is_hazard(Place* place, const Track& track, const Eigen::Vector2d& away, std::uint32_t now_ms,
+  bool find_at(const HazardScene& scene, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard, Count* count);
+  bool is_hazard(Place* place, const DeadReckoning& track, const Eigen::Vector2d& away, std::uint32_t now_ms,
                  Hazard* hazard) const;
   static std::uint32_t index_of(std::int32_t ix, std::int32_t iy);
   static bool is_of(const Place& place, std::int32_t ix, std::int32_t iy) {
@@ -106,12 +108,13 @@ class Places {
   Place& place_at(std::int32_t ix, std::int32_t iy);
   const Place* known_at(std::int32_t ix, std::int32_t iy) const;
   void doubt(Place* place, std::uint32_t now_ms);
-  bool is_remembered(std::uint32_t when_ms, std::uint32_t drift, const Track& track, std::uint32_t now_ms) const;
+  bool is_remembered(std::uint32_t when_ms, std::uint32_t drift, const DeadReckoning& track,
+                     std::uint32_t now_ms) const;
   bool was_there_with(const Place* near, const Place& place) const;
   bool is_settled(const Place& place) const;
   bool goes_on(const Place& place, const std::int32_t* axis, std::int32_t times) const;
   bool is_long(const Place& place) const;
-  bool is_free(const Place& place, const Track& track, std::uint32_t now_ms) const;
+  bool is_free(const Place& place, const DeadReckoning& track, std::uint32_t now_ms) const;
 
   Span<Place> places_;
   std::uint32_t memory_ms_ = 0, delay_ms_ = 0, settle_ms_ = 0, gap_ms_ = 0;

@@ -62,13 +62,13 @@ void Stop::reset() {
   has_now_ = false;
   now_ns_ = 0;
   standing_calls_ = 0;
-  freshness_ = Freshness{};  // a clock that is set back leaves it: what was seen is old all the same
+  repeat_guard_ = RepeatGuard{};  // a clock that is set back leaves it: what was seen is old all the same
   forget();
 }
 
 void Stop::forget() {
   places_.open(settings_);
-  track_ = Track();
+  track_ = DeadReckoning();
   last_motion_ = Motion{};
   first_ns_ = last_ns_ = clear_since_ns_ = 0;
   frames_ = 0;
@@ -227,7 +227,7 @@ std::uint32_t Stop::frame_reasons(const pose_wall_cloud& cloud, std::int64_t now
   if (!(age_s <= settings_.stale_s)) reasons |= POSE_WALL_PLANAR_STOP_R_STALE;
   if (!(age_s >= -kFuture_s)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
   if (frames_ > 0 && !(cloud.stamp_ns > last_ns_)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
-  if (freshness_.keep(*print_, cloud.stamp_ns).is_one) reasons |= POSE_WALL_PLANAR_STOP_R_FROZEN;
+  if (repeat_guard_.keep(*print_, cloud.stamp_ns).is_one) reasons |= POSE_WALL_PLANAR_STOP_R_FROZEN;
   return reasons;
 }
 

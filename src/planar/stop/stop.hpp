@@ -57,10 +57,10 @@ class Stop {
   FloorLooks* looks_;
   CloudPrint* print_;
 
-  Track track_;
+  DeadReckoning track_;
   Motion last_motion_;
   std::int64_t first_ns_, last_ns_, clear_since_ns_;
-  Freshness freshness_;
+  RepeatGuard repeat_guard_;
   std::uint64_t frames_;
   std::uint32_t now_ms_, heartbeat_, settings_crc32_;
   bool is_stopped_, is_clear_;

@@ -97,22 +97,22 @@ CloudPrint print_of(const test::Points& points) {
   return print;
 }
 
-Repeat keep(Freshness* freshness, const test::Points& points, std::int64_t stamp_ns) {
-  return freshness->keep(print_of(points), stamp_ns);
+Repeat keep(RepeatGuard* guard, const test::Points& points, std::int64_t stamp_ns) {
+  return guard->keep(print_of(points), stamp_ns);
 }
 
 Standing standing_vlp16() {
   return {16, 1800, 0.01, 0.002, 0.0, std::mt19937(7)};
 }
 
-TEST(Freshness, ARingOfOldCloudsIsKnownWhateverItsLength) {
+TEST(RepeatGuard, ARingOfOldCloudsIsKnownWhateverItsLength) {
   for (const std::uint32_t ring : {1U, 2U, 5U, 17U, 64U}) {
     Standing sensor = standing_vlp16();
-    Freshness freshness;
+    RepeatGuard guard;
     std::vector<test::Points> clouds;
     for (std::uint32_t k = 0; k < ring; ++k) clouds.push_back(sensor.next());
     for (std::uint32_t k = 0; k < 2 * ring; ++k) {
-      const Repeat repeat = keep(&freshness, clouds[k % ring], k * kSecond_ns);
+      const Repeat repeat = keep(&guard, clouds[k % ring], k * kSecond_ns);
       EXPECT_EQ(repeat.is_one, k >= ring) << ring << " clouds, frame " << k;
       if (repeat.is_one) {
         EXPECT_DOUBLE_EQ(repeat.age_s, ring);
@@ -122,20 +122,20 @@ TEST(Freshness, ARingOfOldCloudsIsKnownWhateverItsLength) {
 }
 
 // Lost packets whose points the driver leaves as they were.
-TEST(Freshness, APartThatStaysOldIsKnownWhereverItLies) {
+TEST(RepeatGuard, APartThatStaysOldIsKnownWhereverItLies) {
   for (const int degrees : {10, 20, 45, 90, 180}) {
     for (int from = 0; from < 360; from += degrees == 10 ? 1 : 47) {
       Standing sensor = standing_vlp16();
-      Freshness freshness;
+      RepeatGuard guard;
       const test::Points old = sensor.next();
-      EXPECT_FALSE(keep(&freshness, old, 0).is_one);
+      EXPECT_FALSE(keep(&guard, old, 0).is_one);
       for (int k = 1; k <= (degrees == 10 ? 1 : 5); ++k) {
         test::Points cloud = sensor.next();
         for (int c = 0; c < 5 * degrees; ++c) {
           const int begin = 16 * ((5 * from + c) % 1800);
           std::copy_n(old.begin() + begin, 16, cloud.begin() + begin);
         }
-        const Repeat repeat = keep(&freshness, cloud, k * kSecond_ns);
+        const Repeat repeat = keep(&guard, cloud, k * kSecond_ns);
         ASSERT_TRUE(repeat.is_one) << degrees << " degrees from " << from << ", frame " << k;
         EXPECT_DOUBLE_EQ(repeat.age_s, k);
       }
@@ -144,30 +144,30 @@ TEST(Freshness, APartThatStaysOldIsKnownWhereverItLies) {
 }
 
 // Prints of 32 bits are alike by chance: one sector alone, however full it is, tells nothing.
-TEST(Freshness, OneSectorAloneIsNoPart) {
+TEST(RepeatGuard, OneSectorAloneIsNoPart) {
   CloudPrint first, again;
   const auto fill = [](CloudPrint* print, std::uint32_t sector, std::uint32_t seed) {
     for (std::uint32_t k = 0; k < 1000; ++k) print->add(sector, 977U * k + seed);
   };
   for (std::uint32_t s = 0; s < CloudPrint::kSectors; ++s) fill(&first, s, s);
   for (std::uint32_t s = 0; s < CloudPrint::kSectors; ++s) fill(&again, s, s == 255 ? s : s + 5000U);
-  Freshness freshness;
-  freshness.keep(first, 0);
-  EXPECT_FALSE(freshness.keep(again, kSecond_ns).is_one);
+  RepeatGuard guard;
+  guard.keep(first, 0);
+  EXPECT_FALSE(guard.keep(again, kSecond_ns).is_one);
   again.clear();
   for (std::uint32_t s = 0; s < CloudPrint::kSectors; ++s) fill(&again, s, s == 255 || s == 0 ? s : s + 9000U);
-  EXPECT_TRUE(freshness.keep(again, 2 * kSecond_ns).is_one) << "across the first sector";
+  EXPECT_TRUE(guard.keep(again, 2 * kSecond_ns).is_one) << "across the first sector";
 }
 
-TEST(Freshness, AStandingSceneUnderNoiseIsFresh) {
+TEST(RepeatGuard, AStandingSceneUnderNoiseIsFresh) {
   for (const double step_m : {0.001, 0.002, 0.005}) {
     for (const double noise_m : {0.003, 0.01}) {
       for (const double lost : {0.0, 0.3}) {
         for (const int rings : {16, 64}) {
           Standing sensor{rings, rings == 16 ? 1800 : 512, noise_m, step_m, lost, std::mt19937(11)};
-          Freshness freshness;
+          RepeatGuard guard;
           for (int k = 0; k < 70; ++k) {
-            ASSERT_FALSE(keep(&freshness, sensor.next(), k * kSecond_ns).is_one)
+            ASSERT_FALSE(keep(&guard, sensor.next(), k * kSecond_ns).is_one)
                 << rings << " rings, steps of " << step_m << ", noise " << noise_m << ", lost " << lost << ", " << k;
           }
         }
@@ -176,21 +176,21 @@ TEST(Freshness, AStandingSceneUnderNoiseIsFresh) {
   }
 }
 
-TEST(Freshness, TooFewReturnsTellNothing) {
+TEST(RepeatGuard, TooFewReturnsTellNothing) {
   Standing sensor = standing_vlp16();
   test::Points points = sensor.next();
   std::fill(points.begin(), points.end() - 60, std::array<float, 3>{0.0F, 0.0F, 0.0F});
-  Freshness freshness;
-  for (int k = 0; k < 5; ++k) EXPECT_FALSE(keep(&freshness, points, k * kSecond_ns).is_one);
+  RepeatGuard guard;
+  for (int k = 0; k < 5; ++k) EXPECT_FALSE(keep(&guard, points, k * kSecond_ns).is_one);
 }
 
-TEST(Freshness, WhatIsForgottenIsNew) {
+TEST(RepeatGuard, WhatIsForgottenIsNew) {
   Standing sensor = standing_vlp16();
   const test::Points points = sensor.next();
-  Freshness freshness;
-  keep(&freshness, points, 0);
-  freshness = Freshness{};
-  EXPECT_FALSE(keep(&freshness, points, kSecond_ns).is_one);
+  RepeatGuard guard;
+  keep(&guard, points, 0);
+  guard = RepeatGuard{};
+  EXPECT_FALSE(keep(&guard, points, kSecond_ns).is_one);
 }
 
 // Prints are of the bits of points and not of their order.

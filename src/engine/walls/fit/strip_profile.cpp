@@ -29,7 +29,7 @@ constexpr double kWideShareMax = 0.34;   // judgement, 2026-11-21: one wide thin
 
 void StripProfile::lay_out(Arena& arena) {
   columns_ = arena.take<Column>(kColumns);
-  verdicts_ = arena.take<Verdict>(kColumns);
+  verdicts_ = arena.take<StripVerdict>(kColumns);
 }
 
 void StripProfile::begin(double u_min_m, double z_min_m, double z_max_m) {
@@ -37,7 +37,7 @@ void StripProfile::begin(double u_min_m, double z_min_m, double z_max_m) {
   z_min_ = z_min_m;
   rows_per_m_ = kRowBits / (z_max_m - z_min_m);
   columns_.fill(Column{});
-  verdicts_.fill(Verdict{});
+  verdicts_.fill(StripVerdict{});
 }
 
 void StripProfile::add(FourFloats u_m, FourFloats v_m, FourFloats r_m, FourFloats z_m, FourTruths counts) {

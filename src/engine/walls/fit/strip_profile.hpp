@@ -57,10 +57,10 @@ class StripProfile {
     const FourFloats place = (u_m - static_cast<float>(u_min_)) * static_cast<float>(kColumnsPerMetre), none{};
     const FourTruths known = (place >= none) & (place < all_four(static_cast<float>(kColumns)));
     const FourInts column = cut_off(known ? place : none);
-    const auto of = [&](std::uint32_t lane) -> const Verdict& {
+    const auto of = [&](std::uint32_t lane) -> const StripVerdict& {
       return verdicts_[static_cast<std::uint32_t>(column[lane])];
     };
-    const Verdict &a = of(0), &b = of(1), &c = of(2), &d = of(3);
+    const StripVerdict &a = of(0), &b = of(1), &c = of(2), &d = of(3);
     const FourFloats shown{a.shown, b.shown, c.shown, d.shown};
     return {known ? shown : none, known & FourTruths{a.is_strip, b.is_strip, c.is_strip, d.is_strip}};
   }
@@ -83,7 +83,7 @@ class StripProfile {
     bool is_strip() const { return judged && probability < kStripProbabilityMax; }
   };
   // The verdict on a column.
-  struct Verdict {
+  struct StripVerdict {
     float shown;            // smallest probability of it and its flanks
     std::int32_t is_strip;  // a truth
   };
@@ -101,7 +101,7 @@ class StripProfile {
   bool narrow(std::int32_t first, std::int32_t last, double gate_m) const;
 
   Span<Column> columns_;
-  Span<Verdict> verdicts_;
+  Span<StripVerdict> verdicts_;
   double u_min_ = 0.0, z_min_ = 0.0, rows_per_m_ = 1.0;
   TwoLayers layers_;
 };
