@@ -23,6 +23,11 @@ struct StopTable : SettingsTable<StopSettings> {
 
 void set_rectangle(StopSettings* settings, double x_min_m, double x_max_m, double y_min_m, double y_max_m);
 
+// So slowly it may pass a thing that stood still, however near.
+inline double creeping_speed_m_s(const StopSettings& s) {
+  return s.creep_m_s;
+}
+
 // From the stamp to the first effect of the brakes.
 inline double reaction_s(const StopSettings& s) {
   return s.scan_s + s.stale_s + s.delay_s + s.latency_s;

@@ -38,7 +38,7 @@ void Sweep::open(const StopSettings& settings) {
   deceleration_ = settings.deceleration_m_s2;
   scan_s_ = settings.scan_s;
   approach_m_s_ = settings.approach_m_s;
-  creep_m_s_ = settings.creep_m_s;
+  creeping_m_s_ = creeping_speed_m_s(settings);
 }
 
 void Sweep::set_motion(const SweepMotion& motion, double reaction_s) {
@@ -148,7 +148,7 @@ FourFloats Sweep::least_until(const Four& four, std::uint32_t slices, FourFloats
 // Accepted if inside: a distance that is no number is not clear.
 bool Sweep::is_clear(float least_m, float now_m, const Hazard& hazard, std::uint32_t level) const {
   if (level == 0) return true;
-  const bool may_pass = hazard.sooner_s > 0.0F && speed_of(level) <= creep_m_s_;
+  const bool may_pass = hazard.sooner_s > 0.0F && speed_of(level) <= creeping_m_s_;
   const float walk_m = may_pass ? 0.0F : hazard.approach_m_s * (time_[level] - hazard.sooner_s);
   const float margin_m = hazard.margin_m + growth_[level] + walk_m;
   // A place that was not seen, beside the way: what counts is that the machine does not go there.

@@ -87,7 +87,7 @@ class Sweep {
   float normal_x_[kSweepEdges], normal_y_[kSweepEdges], offset_[kSweepEdges];
   double corner_x_[kSweepEdges], corner_y_[kSweepEdges];
   double radius_m_ = 0.0, top_m_s_ = 0.0, deceleration_ = 1.0, scan_s_ = 0.0, approach_m_s_ = 0.0;
-  double creep_m_s_ = 0.0, step_m_ = 0.1;
+  double creeping_m_s_ = 0.0, step_m_ = 0.1;
   // Base at each slice.
   float x_[kSweepSlices + 1], y_[kSweepSlices + 1], cosine_[kSweepSlices + 1], sine_[kSweepSlices + 1];
   // Of each level: slices until standstill, growth of static margins, time until standstill.

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "planar/encounter/events.hpp"
+#include "planar/stop/settings.hpp"
 
 namespace {
 
@@ -90,10 +91,10 @@ class Encounters {
 using Count = unsigned long long;
 
 struct Tally {
-  Count runs = 0, moved = 0, stopped = 0, fast = 0, contacts = 0, creeping = 0;  // contacts: faster than creep_m_s
+  Count runs = 0, moved = 0, stopped = 0, fast = 0, contacts = 0, creeping = 0;  // contacts: faster than creeping speed
 
-  void add(const Outcome& out, double creep_m_s) {
-    const bool creeps = out.contact && out.contact_m_s <= creep_m_s;
+  void add(const Outcome& out, double creeping_m_s) {
+    const bool creeps = out.contact && out.contact_m_s <= creeping_m_s;
     ++runs;
     moved += out.moved_m > 0.1 ? 1 : 0;
     stopped += out.stops > 0 ? 1 : 0;
@@ -121,13 +122,13 @@ int encounters(const Arguments& a) {
   Tally tallies[kKinds] = {}, total;
   Count frames = 0, lost = 0;
   double metres = 0.0;
-  const double creep_m_s = pose_wall::test::encounter_settings().creep_m_s;
+  const double creeping_m_s = pose_wall::planar::creeping_speed_m_s(pose_wall::test::encounter_settings());
   const std::uint64_t first = a.has_only ? a.only : 0, end = a.has_only ? a.only + 1 : a.encounters;
   for (std::uint64_t k = first; k < end; ++k) {
     Plan plan;
     const Outcome out = all.run(k, &plan);
-    tallies[static_cast<std::size_t>(plan.kind)].add(out, creep_m_s);
-    total.add(out, creep_m_s);
+    tallies[static_cast<std::size_t>(plan.kind)].add(out, creeping_m_s);
+    total.add(out, creeping_m_s);
     frames += out.frames, metres += out.moved_m;
     lost += plan.loss != pose_wall::test::Loss::none && plan.loss_from_s < out.lasted_s ? 1 : 0;
     if (out.contact) print_contact(k, plan, out);
