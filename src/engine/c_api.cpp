@@ -152,19 +152,11 @@ POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32_2(pose_wall_cloud* cloud, const v
 POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32_3(pose_wall_cloud* cloud, const void* data, uint32_t count,
                                                  uint32_t point_step, int64_t stamp_ns) {
   if (cloud == nullptr || (data == nullptr && count > 0)) return POSE_WALL_E_NULL;
-  *cloud = pose_wall_cloud{};
-  cloud->struct_size = sizeof(*cloud);
-  cloud->data = data;
-  cloud->data_bytes = static_cast<std::uint64_t>(count) * point_step;
-  cloud->width = count;
-  cloud->height = 1;
-  cloud->point_step = point_step;
-  cloud->stamp_ns = stamp_ns;
+  *cloud = cloud_in_a_row(data, count, point_step, stamp_ns);
   cloud->x = {0, POSE_WALL_FIELD_FLOAT32};
   cloud->y = {4, POSE_WALL_FIELD_FLOAT32};
   cloud->z = {8, POSE_WALL_FIELD_FLOAT32};
-  cloud->big_endian = 0;
-  if (needs_swap(*cloud)) cloud->big_endian = 1;  // native floats on a big-endian machine
+  cloud->big_endian = machine_is_big_endian() ? 1 : 0;  // native floats
   return POSE_WALL_OK;
 }
 

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -86,13 +87,38 @@ inline float to_float(double value) {
   return static_cast<float>(value);
 }
 
-// True where the cloud's byte order is not this machine's.
-inline bool needs_swap(const pose_wall_cloud& cloud) {
+inline bool machine_is_big_endian() {
   const std::uint16_t probe = 1;
   unsigned char first;
   std::memcpy(&first, &probe, 1);
-  const bool machine_is_big = first == 0;
-  return (cloud.big_endian != 0) != machine_is_big;
+  return first == 0;
+}
+
+// True where the cloud's byte order is not this machine's.
+inline bool needs_swap(const pose_wall_cloud& cloud) {
+  return (cloud.big_endian != 0) != machine_is_big_endian();
+}
+
+// So many points, one behind the other; their fields are still to be set. Little-endian.
+inline pose_wall_cloud cloud_in_a_row(const void* data, std::uint32_t points, std::uint32_t point_bytes,
+                                      std::int64_t stamp_ns) {
+  pose_wall_cloud cloud{};
+  cloud.struct_size = sizeof(cloud);
+  cloud.data = data;
+  cloud.data_bytes = static_cast<std::uint64_t>(points) * point_bytes;
+  cloud.width = points;
+  cloud.height = 1;
+  cloud.point_step = point_bytes;
+  cloud.stamp_ns = stamp_ns;
+  return cloud;
+}
+
+constexpr std::uint32_t kFields = 6;  // x, y, z, intensity, time, ring
+
+// The fields of a cloud, or of what describes one by the same members, in the order of their bytes in a copy.
+template <typename Cloud>
+std::array<pose_wall_field*, kFields> fields_of(Cloud* cloud) {
+  return {&cloud->x, &cloud->y, &cloud->z, &cloud->intensity, &cloud->time, &cloud->ring};
 }
 
 // A row's bytes, also where the description leaves them to width and step.

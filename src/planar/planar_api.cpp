@@ -27,6 +27,19 @@ std::int32_t machine_in_base(const pose_wall_config* config, const double* centr
   return POSE_WALL_OK;
 }
 
+// change(pose, where the machine's frame stands in base) gives the other frame's pose.
+template <typename Change>
+std::int32_t change_frame(const pose_wall_config* config, const double* centre_m, const pose_wall_planar_pose* from,
+                          pose_wall_planar_pose* to, const Change& change) {
+  if (from == nullptr || to == nullptr) return POSE_WALL_E_NULL;
+  Pose2 in_base;
+  const std::int32_t status = machine_in_base(config, centre_m, &in_base);
+  if (status != POSE_WALL_OK) return status;
+  if (!is_pose(*from)) return POSE_WALL_PLANAR_E_POSE;
+  *to = pose_for_caller(change(pose_of(*from), in_base));
+  return POSE_WALL_OK;
+}
+
 }  // namespace
 
 extern "C" {
@@ -42,26 +55,14 @@ POSE_WALL_EXPORT const char* pose_wall_planar_status_text(int32_t status) {
 POSE_WALL_EXPORT int32_t pose_wall_planar_machine_of_base(const pose_wall_config* config, const double centre_m[2],
                                                           const pose_wall_planar_pose* base,
                                                           pose_wall_planar_pose* machine) {
-  if (base == nullptr || machine == nullptr) return POSE_WALL_E_NULL;
-  Pose2 in_base;
-  const std::int32_t status = machine_in_base(config, centre_m, &in_base);
-  if (status != POSE_WALL_OK) return status;
-  if (!is_pose(*base)) return POSE_WALL_PLANAR_E_POSE;
-  *machine = pose_for_caller(compose(pose_of(*base), in_base));
-  return POSE_WALL_OK;
+  return change_frame(config, centre_m, base, machine, compose);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_base_of_machine(const pose_wall_config* config, const double centre_m[2],
                                                           const pose_wall_planar_pose* machine,
                                                           pose_wall_planar_pose* base) {
-  if (machine == nullptr || base == nullptr) return POSE_WALL_E_NULL;
-  Pose2 in_base;
-  const std::int32_t status = machine_in_base(config, centre_m, &in_base);
-  if (status != POSE_WALL_OK) return status;
-  if (!is_pose(*machine)) return POSE_WALL_PLANAR_E_POSE;
-  const Pose2 base_in_machine = between(in_base, Pose2{});
-  *base = pose_for_caller(compose(pose_of(*machine), base_in_machine));
-  return POSE_WALL_OK;
+  return change_frame(config, centre_m, machine, base,
+                      [](const Pose2& given, const Pose2& in_base) { return compose(given, inverse(in_base)); });
 }
 
 }  // extern "C"

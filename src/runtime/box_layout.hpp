@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -74,11 +75,19 @@ T get(const unsigned char* from) {
   return value;
 }
 
-inline bool machine_is_little_endian() {
-  const std::uint32_t probe = 1;
-  unsigned char first;
-  std::memcpy(&first, &probe, 1);
-  return first == 1;
+// What a build writes into its header, and asks of one that it reads.
+struct HeaderWord {
+  std::uint32_t at, word;
+};
+inline std::array<HeaderWord, 8> header_words() {
+  return {{{kAtVersion, POSE_WALL_BOX_VERSION},
+           {kAtHeaderBytes, kHeaderBytes},
+           {kAtConfigBytes, sizeof(pose_wall_config)},
+           {kAtResultBytes, sizeof(pose_wall_result)},
+           {kAtMementoBytes, static_cast<std::uint32_t>(pose_wall_memento_bytes())},
+           {kAtAbi, POSE_WALL_ABI_VERSION},
+           {kAtInputsBytes, sizeof(pose_wall_inputs)},
+           {kAtMotionBytes, sizeof(pose_wall_motion_result)}}};
 }
 
 }  // namespace pose_wall::runtime

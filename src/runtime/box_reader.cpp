@@ -6,6 +6,7 @@
 #include "base/math/crc32.hpp"
 #include "box_layout.hpp"
 #include "finish_result.hpp"
+#include "lidar/cloud_fields.hpp"
 #include "part/export.hpp"
 #include "part/status.hpp"
 #include "pose_wall_box.h"
@@ -48,12 +49,7 @@ void read_body(const unsigned char* head, pose_wall_box_record* record) {
   record->big_endian = get<std::uint32_t>(description + kAtBigEndian);
   record->left_out_not_finite = get<std::uint32_t>(description + kAtNotFinite);
   record->left_out_zero = get<std::uint32_t>(description + kAtZero);
-  record->x = field_at(description, 0);
-  record->y = field_at(description, 1);
-  record->z = field_at(description, 2);
-  record->intensity = field_at(description, 3);
-  record->time = field_at(description, 4);
-  record->ring = field_at(description, 5);
+  for (std::uint32_t k = 0; k < kFields; ++k) *fields_of(record)[k] = field_at(description, k);
   const unsigned char* const inputs = description + kAtInputs;
   record->inputs = get<std::uint32_t>(inputs) != 0 ? inputs : nullptr;
   record->memento = description + kAtMemento;
@@ -110,21 +106,10 @@ std::uint64_t read_record(const unsigned char* bytes, std::uint64_t count, std::
 }
 
 pose_wall_cloud cloud_of(const pose_wall_box_record& record) {
-  pose_wall_cloud cloud{};
-  cloud.struct_size = sizeof(cloud);
+  pose_wall_cloud cloud = cloud_in_a_row(record.points, record.point_count, record.point_bytes, record.stamp_ns);
   cloud.big_endian = record.big_endian;
-  cloud.data = record.points;
-  cloud.data_bytes = static_cast<std::uint64_t>(record.point_count) * record.point_bytes;
-  cloud.width = record.point_count;
-  cloud.height = 1;
-  cloud.point_step = record.point_bytes;
-  cloud.stamp_ns = record.stamp_ns;
-  cloud.x = record.x;
-  cloud.y = record.y;
-  cloud.z = record.z;
-  cloud.intensity = record.intensity;
-  cloud.time = record.time;
-  cloud.ring = record.ring;
+  pose_wall_box_record copy = record;
+  for (std::uint32_t k = 0; k < kFields; ++k) *fields_of(&cloud)[k] = *fields_of(&copy)[k];
   return cloud;
 }
 
@@ -136,14 +121,8 @@ bool is_header(const unsigned char* header, std::uint64_t count) {
 
 std::int32_t check_header(const unsigned char* header, std::uint64_t count) {
   if (!is_header(header, count)) return POSE_WALL_BOX_E_FORMAT;
-  const bool same = get<std::uint32_t>(header + kAtVersion) == POSE_WALL_BOX_VERSION &&
-                    get<std::uint32_t>(header + kAtHeaderBytes) == kHeaderBytes &&
-                    get<std::uint32_t>(header + kAtConfigBytes) == sizeof(pose_wall_config) &&
-                    get<std::uint32_t>(header + kAtResultBytes) == sizeof(pose_wall_result) &&
-                    get<std::uint32_t>(header + kAtMementoBytes) == pose_wall_memento_bytes() &&
-                    get<std::uint32_t>(header + kAtInputsBytes) == sizeof(pose_wall_inputs) &&
-                    get<std::uint32_t>(header + kAtMotionBytes) == sizeof(pose_wall_motion_result) &&
-                    get<std::uint32_t>(header + kAtAbi) == POSE_WALL_ABI_VERSION;
+  bool same = true;
+  for (const HeaderWord& one : header_words()) same = same && get<std::uint32_t>(header + one.at) == one.word;
   return ok_if(same, POSE_WALL_BOX_E_VERSION);
 }
 

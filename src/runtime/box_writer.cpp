@@ -50,15 +50,8 @@ bool BoxWriter::begin(const pose_wall_config& config, std::uint16_t run) {
   unsigned char* const header = scratch_;
   std::memset(header, 0, kHeaderBytes);
   std::memcpy(header, kBoxMagic, 8);
-  put<std::uint32_t>(POSE_WALL_BOX_VERSION, header + kAtVersion);
-  put<std::uint32_t>(kHeaderBytes, header + kAtHeaderBytes);
+  for (const HeaderWord& one : header_words()) put<std::uint32_t>(one.word, header + one.at);
   put<std::uint64_t>(box_bytes_, header + kAtBoxBytes);
-  put<std::uint32_t>(sizeof(pose_wall_config), header + kAtConfigBytes);
-  put<std::uint32_t>(sizeof(pose_wall_result), header + kAtResultBytes);
-  put<std::uint32_t>(static_cast<std::uint32_t>(pose_wall_memento_bytes()), header + kAtMementoBytes);
-  put<std::uint32_t>(POSE_WALL_ABI_VERSION, header + kAtAbi);
-  put<std::uint32_t>(sizeof(pose_wall_inputs), header + kAtInputsBytes);
-  put<std::uint32_t>(sizeof(pose_wall_motion_result), header + kAtMotionBytes);
   const char* const version = pose_wall_version();
   for (std::uint32_t i = 0; i + 1 < kLibraryBytes && version[i] != '\0'; ++i) {
     header[kAtLibrary + i] = static_cast<unsigned char>(version[i]);

@@ -25,8 +25,6 @@ Point judge(const pose_wall_cloud& cloud, const unsigned char* point) {
   return x == 0.0F && y == 0.0F && z == 0.0F ? Point::kZero : Point::kReturn;
 }
 
-constexpr std::uint32_t kFields = 6;  // x, y, z, intensity, time, ring
-
 // Of the points that hold no return, those that were measured first and last: times count from the cloud's first to its
 // last point, whether they hold a return or not. NaN is neither.
 struct Ends {
@@ -80,16 +78,10 @@ Copier copier_of(const pose_wall_cloud& cloud, const CopiedFields& fields) {
 
 pose_wall_cloud packed(const Copier& c, const unsigned char* data, std::uint64_t bytes) {
   const std::uint32_t point_bytes = c.point_bytes();
-  pose_wall_cloud cloud{};
-  cloud.struct_size = sizeof(cloud);
+  const auto points = static_cast<std::uint32_t>(bytes / point_bytes);
+  pose_wall_cloud cloud = cloud_in_a_row(data, points, point_bytes, c.from.stamp_ns);
   cloud.big_endian = c.from.big_endian;
-  cloud.data = data;
-  cloud.data_bytes = bytes;
-  cloud.point_step = point_bytes;
-  cloud.width = static_cast<std::uint32_t>(bytes / point_bytes);
-  cloud.height = 1;
-  cloud.stamp_ns = c.from.stamp_ns;
-  pose_wall_field* const to[kFields] = {&cloud.x, &cloud.y, &cloud.z, &cloud.intensity, &cloud.time, &cloud.ring};
+  const auto to = fields_of(&cloud);
   std::uint32_t offset = 0;
   for (std::uint32_t k = 0; k < kFields; ++k) {
     if (c.bytes[k] > 0) *to[k] = {offset, c.field[k].type};

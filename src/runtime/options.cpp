@@ -7,6 +7,7 @@
 #include "box_layout.hpp"
 #include "box_writer.hpp"
 #include "frame_slot.hpp"
+#include "lidar/cloud_fields.hpp"
 #include "struct_versions.hpp"
 
 namespace pose_wall::runtime {
@@ -82,7 +83,7 @@ std::int32_t read_options(const pose_wall_runtime_options& options, const char**
       {within(o.frame_period_max_ns, kMillisecond_ns, kHour_ns), "frame_period_max_ns"},
       {within<std::int64_t>(o.watchdog_ns, 0, kHour_ns), "watchdog_ns"},
       {within(o.watchdog_every_ns, kMillisecond_ns, kHour_ns), "watchdog_every_ns"},
-      {o.sink == nullptr || machine_is_little_endian(), "sink"},
+      {o.sink == nullptr || !machine_is_big_endian(), "sink"},
       {box_is_large_enough(o), "box_bytes"},
       {o.reserved_2 == 0, "reserved_2"},
       {is_motion(o.motion), "motion"},
