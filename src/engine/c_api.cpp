@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The calls of pose_wall.h but for names.cpp: checks arguments, translates, calls.
+// The calls of pose_wall.h but for those of config.cpp and names.cpp: checks arguments, translates, calls.
 
 #include <cstring>
 
@@ -83,57 +83,6 @@ POSE_WALL_EXPORT uint32_t pose_wall_abi_version(void) {
   return POSE_WALL_ABI_VERSION;
 }
 
-#undef pose_wall_config_init
-POSE_WALL_EXPORT int32_t pose_wall_config_init(pose_wall_config* /*config*/) {
-  return POSE_WALL_E_ABI;
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_config_init_2(pose_wall_config* config) {
-  return config != nullptr ? config_init(config) : POSE_WALL_E_NULL;
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value) {
-  if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
-  return config_set(config, key, value);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value) {
-  if (config == nullptr || key == nullptr) return POSE_WALL_E_NULL;
-  return config_set_number(config, key, value);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_config_get_number(const pose_wall_config* config, const char* key, double* value) {
-  if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
-  return config_get_number(*config, key, value);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_config_get_box(const pose_wall_config* config, const char* key, double value[6]) {
-  if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
-  return config_get_box(*config, key, value);
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* key, char* buffer,
-                                                   uint64_t bytes) {
-  if (config == nullptr || key == nullptr || buffer == nullptr) return POSE_WALL_E_NULL;
-  return config_get_text(*config, key, buffer, bytes);
-}
-
-POSE_WALL_EXPORT uint32_t pose_wall_config_key_count(void) {
-  return config_key_count();
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info) {
-  return info != nullptr ? config_key(index, info) : POSE_WALL_E_NULL;
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault) {
-  return config != nullptr ? check_config(*config, fault) : POSE_WALL_E_NULL;
-}
-
-POSE_WALL_EXPORT int32_t pose_wall_config_crc(const pose_wall_config* config, uint32_t* crc) {
-  return config != nullptr && crc != nullptr ? config_crc(*config, crc) : POSE_WALL_E_NULL;
-}
-
 #undef pose_wall_cloud_xyz32
 POSE_WALL_EXPORT int32_t pose_wall_cloud_xyz32(pose_wall_cloud* /*cloud*/, const void* /*data*/, uint32_t /*count*/,
                                                uint32_t /*point_step*/, int64_t /*stamp_ns*/) {
@@ -167,7 +116,7 @@ POSE_WALL_EXPORT int32_t pose_wall_cloud_check(const pose_wall_cloud* cloud) {
 
 POSE_WALL_EXPORT int32_t pose_wall_memory_needed(const pose_wall_config* config, uint64_t* bytes) {
   if (config == nullptr || bytes == nullptr) return POSE_WALL_E_NULL;
-  const int32_t status = check_config(*config, nullptr);
+  const int32_t status = pose_wall_config_check(config, nullptr);
   if (status != POSE_WALL_OK) return status;
   *bytes = Engine::lay_out(nullptr, read_settings(*config), nullptr);
   return POSE_WALL_OK;
@@ -188,7 +137,7 @@ POSE_WALL_EXPORT int32_t pose_wall_open(const pose_wall_config* config, void* bl
   Engine* placed = nullptr;
   Engine::lay_out(block, settings, &placed);
   uint32_t crc = 0;
-  config_crc(*config, &crc);
+  (void)pose_wall_config_crc(config, &crc);
   placed->open(settings, crc);
   *engine = reinterpret_cast<pose_wall_engine*>(placed);
   return POSE_WALL_OK;

@@ -9,6 +9,7 @@
 #include "base/estimation/protection.hpp"
 #include "base/math/crc32.hpp"
 #include "base/math/elementary.hpp"
+#include "part/export.hpp"
 #include "part/number_text.hpp"
 
 namespace pose_wall {
@@ -228,41 +229,12 @@ bool all_in_range(const pose_wall_config& config, pose_wall_rule_fault* fault) {
   return true;
 }
 
-}  // namespace
-
-std::int32_t check_config(const pose_wall_config& config, pose_wall_rule_fault* fault) {
-  pose_wall_rule_fault unused;
-  pose_wall_rule_fault* out = fault != nullptr ? fault : &unused;
-  if (!is_initialised(config)) return POSE_WALL_E_STRUCT_SIZE;
-  if (!all_in_range(config, out)) return POSE_WALL_E_CONFIG_RULE;
-  const Settings s = read_settings(config);
-  struct Rule {
-    bool holds;
-    pose_wall_rule_fault fault;
-  };
-  const Rule rules[] = {
-      {s.s_front > s.s_back, {"s_front", "s_back", "s_front must be greater than s_back"}},
-      {s.range_min < s.range_max, {"range_min", "range_max", "range_min must be smaller than range_max"}},
-      {s.voxel_leaf <= s.outlier_radius,
-       {"voxel_leaf", "outlier_radius", "outlier_radius must be at least voxel_leaf, or every voxel is an outlier"}},
-      {s.ground_roi_radius <= s.ground_roi_radius_max,
-       {"ground_roi_radius", "ground_roi_radius_max", "ground_roi_radius must not exceed ground_roi_radius_max"}},
-      {s.floor_region_max - s.floor_region_min >= 1.0,
-       {"floor_region_min", "floor_region_max", "the floor's region must be at least 1 m long"}},
-      {s.ground_height_min < s.ground_height_max,
-       {"ground_height_min", "ground_height_max", "ground_height_min must be smaller than ground_height_max"}},
-      {s.wall_z_min < s.wall_z_max, {"wall_z_min", "wall_z_max", "wall_z_min must be smaller than wall_z_max"}},
-      {s.wall_z_max - s.wall_z_min >= 0.3,
-       {"wall_z_min", "wall_z_max", "the wall band from wall_z_min to wall_z_max must be at least 0.3 m high"}},
-  };
-  for (const Rule& rule : rules) {
-    if (!rule.holds) {
-      *out = rule.fault;
-      return POSE_WALL_E_CONFIG_RULE;
-    }
-  }
-  return POSE_WALL_OK;
+void add_text(const char* text, Crc32* sum) {
+  for (; *text != '\0'; ++text) sum->add_byte(static_cast<std::uint8_t>(*text));
+  sum->add_byte(0);
 }
+
+}  // namespace
 
 Settings read_settings(const pose_wall_config& config) {
   Settings s{};
@@ -301,35 +273,74 @@ double alert_limit(std::uint32_t quantity, const Settings& settings) {
   return quantity <= POSE_WALL_YAW ? radians(settings.alert_limit_angle_deg) : settings.alert_limit_distance;
 }
 
-static void add_text(const char* text, Crc32* sum) {
-  for (; *text != '\0'; ++text) sum->add_byte(static_cast<std::uint8_t>(*text));
-  sum->add_byte(0);
+extern "C" {
+
+POSE_WALL_EXPORT int32_t pose_wall_config_check(const pose_wall_config* config, pose_wall_rule_fault* fault) {
+  if (config == nullptr) return POSE_WALL_E_NULL;
+  pose_wall_rule_fault unused;
+  pose_wall_rule_fault* out = fault != nullptr ? fault : &unused;
+  if (!is_initialised(*config)) return POSE_WALL_E_STRUCT_SIZE;
+  if (!all_in_range(*config, out)) return POSE_WALL_E_CONFIG_RULE;
+  const Settings s = read_settings(*config);
+  struct Rule {
+    bool holds;
+    pose_wall_rule_fault fault;
+  };
+  const Rule rules[] = {
+      {s.s_front > s.s_back, {"s_front", "s_back", "s_front must be greater than s_back"}},
+      {s.range_min < s.range_max, {"range_min", "range_max", "range_min must be smaller than range_max"}},
+      {s.voxel_leaf <= s.outlier_radius,
+       {"voxel_leaf", "outlier_radius", "outlier_radius must be at least voxel_leaf, or every voxel is an outlier"}},
+      {s.ground_roi_radius <= s.ground_roi_radius_max,
+       {"ground_roi_radius", "ground_roi_radius_max", "ground_roi_radius must not exceed ground_roi_radius_max"}},
+      {s.floor_region_max - s.floor_region_min >= 1.0,
+       {"floor_region_min", "floor_region_max", "the floor's region must be at least 1 m long"}},
+      {s.ground_height_min < s.ground_height_max,
+       {"ground_height_min", "ground_height_max", "ground_height_min must be smaller than ground_height_max"}},
+      {s.wall_z_min < s.wall_z_max, {"wall_z_min", "wall_z_max", "wall_z_min must be smaller than wall_z_max"}},
+      {s.wall_z_max - s.wall_z_min >= 0.3,
+       {"wall_z_min", "wall_z_max", "the wall band from wall_z_min to wall_z_max must be at least 0.3 m high"}},
+  };
+  for (const Rule& rule : rules) {
+    if (!rule.holds) {
+      *out = rule.fault;
+      return POSE_WALL_E_CONFIG_RULE;
+    }
+  }
+  return POSE_WALL_OK;
 }
 
-std::int32_t config_crc(const pose_wall_config& config, std::uint32_t* crc) {
-  if (!is_initialised(config)) return POSE_WALL_E_STRUCT_SIZE;
+POSE_WALL_EXPORT int32_t pose_wall_config_crc(const pose_wall_config* config, uint32_t* crc) {
+  if (config == nullptr || crc == nullptr) return POSE_WALL_E_NULL;
+  if (!is_initialised(*config)) return POSE_WALL_E_STRUCT_SIZE;
   Crc32 sum;
-  sum.add_word(config.layout);
+  sum.add_word(config->layout);
   // The names and units of the numbers: a build that names, orders or measures them otherwise has other settings.
   for (const Row& row : kRows) {
     add_text(row.info.name, &sum);
     add_text(row.info.unit, &sum);
   }
-  for (const double number : config.number) {
+  for (const double number : config->number) {
     const double one_zero = number + 0.0;  // -0 and 0 are the same setting
     std::uint64_t bits;
     std::memcpy(&bits, &one_zero, sizeof(bits));
     sum.add_word(static_cast<std::uint32_t>(bits & 0xFFFFFFFFU));
     sum.add_word(static_cast<std::uint32_t>(bits >> 32U));
   }
-  for (const auto& text : config.text) {
+  for (const auto& text : config->text) {
     for (const char c : text) sum.add_byte(static_cast<std::uint8_t>(c));
   }
   *crc = sum.value();
   return POSE_WALL_OK;
 }
 
-std::int32_t config_init(pose_wall_config* config) {
+#undef pose_wall_config_init
+POSE_WALL_EXPORT int32_t pose_wall_config_init(pose_wall_config* /*config*/) {
+  return POSE_WALL_E_ABI;
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_config_init_2(pose_wall_config* config) {
+  if (config == nullptr) return POSE_WALL_E_NULL;
   std::memset(config, 0, sizeof(*config));
   config->struct_size = sizeof(*config);
   config->layout = kLayout;
@@ -337,7 +348,8 @@ std::int32_t config_init(pose_wall_config* config) {
   return POSE_WALL_OK;
 }
 
-std::int32_t config_set(pose_wall_config* config, const char* key, const char* value) {
+POSE_WALL_EXPORT int32_t pose_wall_config_set(pose_wall_config* config, const char* key, const char* value) {
+  if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
   const Row* row = nullptr;
   const std::int32_t status = find_row(*config, key, &row);
   if (status != POSE_WALL_OK) return status;
@@ -355,42 +367,47 @@ std::int32_t config_set(pose_wall_config* config, const char* key, const char* v
   }
 }
 
-std::int32_t config_set_number(pose_wall_config* config, const char* key, double value) {
+POSE_WALL_EXPORT int32_t pose_wall_config_set_number(pose_wall_config* config, const char* key, double value) {
+  if (config == nullptr || key == nullptr) return POSE_WALL_E_NULL;
   const Row* row = nullptr;
   const std::int32_t status = find_row(*config, key, &row);
   if (status != POSE_WALL_OK) return status;
   return is_one_number(*row) ? set_number(config, *row, value) : POSE_WALL_E_VALUE_TYPE;
 }
 
-std::int32_t config_get_number(const pose_wall_config& config, const char* key, double* value) {
+POSE_WALL_EXPORT int32_t pose_wall_config_get_number(const pose_wall_config* config, const char* key, double* value) {
+  if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
   const Row* row = nullptr;
-  const std::int32_t status = find_row(config, key, &row);
+  const std::int32_t status = find_row(*config, key, &row);
   if (status != POSE_WALL_OK) return status;
   if (!is_one_number(*row)) return POSE_WALL_E_VALUE_TYPE;
-  *value = config.number[row->slot];
+  *value = config->number[row->slot];
   return POSE_WALL_OK;
 }
 
-std::int32_t config_get_box(const pose_wall_config& config, const char* key, double* value) {
+POSE_WALL_EXPORT int32_t pose_wall_config_get_box(const pose_wall_config* config, const char* key, double value[6]) {
+  if (config == nullptr || key == nullptr || value == nullptr) return POSE_WALL_E_NULL;
   const Row* row = nullptr;
-  const std::int32_t status = find_row(config, key, &row);
+  const std::int32_t status = find_row(*config, key, &row);
   if (status != POSE_WALL_OK) return status;
   if (row->info.type != POSE_WALL_KEY_BOX) return POSE_WALL_E_VALUE_TYPE;
-  std::memcpy(value, &config.number[row->slot], kNumbersOfBox * sizeof(double));
+  std::memcpy(value, &config->number[row->slot], kNumbersOfBox * sizeof(double));
   return POSE_WALL_OK;
 }
 
-std::int32_t config_get_text(const pose_wall_config& config, const char* key, char* buffer, std::uint64_t bytes) {
+POSE_WALL_EXPORT int32_t pose_wall_config_get_text(const pose_wall_config* config, const char* key, char* buffer,
+                                                   uint64_t bytes) {
+  if (config == nullptr || key == nullptr || buffer == nullptr) return POSE_WALL_E_NULL;
   const Row* row = nullptr;
-  const std::int32_t status = find_row(config, key, &row);
+  const std::int32_t status = find_row(*config, key, &row);
   if (status != POSE_WALL_OK) return status;
   const char* text = nullptr;
   std::size_t length = 0;
   if (row->info.type == POSE_WALL_KEY_TEXT) {
-    text = config.text[row->slot];
-    length = text_length(config.text[row->slot]);
+    text = config->text[row->slot];
+    length = text_length(config->text[row->slot]);
   } else if (row->info.type == POSE_WALL_KEY_CHOICE) {
-    text = choice_held(*row, config);
+    text = choice_held(*row, *config);
     if (text != nullptr) length = choice_length(text);
   }
   if (text == nullptr) return POSE_WALL_E_VALUE_TYPE;
@@ -400,14 +417,17 @@ std::int32_t config_get_text(const pose_wall_config& config, const char* key, ch
   return POSE_WALL_OK;
 }
 
-std::uint32_t config_key_count() {
+POSE_WALL_EXPORT uint32_t pose_wall_config_key_count(void) {
   return kRowCount;
 }
 
-std::int32_t config_key(std::uint32_t index, pose_wall_key_info* info) {
+POSE_WALL_EXPORT int32_t pose_wall_config_key(uint32_t index, pose_wall_key_info* info) {
+  if (info == nullptr) return POSE_WALL_E_NULL;
   if (index >= kRowCount) return POSE_WALL_E_INDEX;
   *info = kRows[index].info;
   return POSE_WALL_OK;
 }
+
+}  // extern "C"
 
 }  // namespace pose_wall

@@ -32,9 +32,7 @@ struct Settings {
 constexpr std::int32_t kRegionOn = 1;  // of the choices of the key `region`
 constexpr std::int32_t kMotionOn = 0;  // of the choices of the key `motion`
 
-// POSE_WALL_OK, or why this is no usable config (struct_size, or a broken rule over several keys).
-std::int32_t check_config(const pose_wall_config& config, pose_wall_rule_fault* fault);
-
+// Of a config that pose_wall_config_check() takes.
 Settings read_settings(const pose_wall_config& config);
 
 // No point of a frame lies further than this from the origin of base.
@@ -46,16 +44,5 @@ std::uint64_t work_most(const Settings& settings, std::uint64_t returns, std::ui
 
 // The alert limit of one of the seven quantities, in its own unit (rad or m).
 double alert_limit(std::uint32_t quantity, const Settings& settings);
-
-// The work of the C ABI's pose_wall_config_* functions, after their pointers are checked.
-std::int32_t config_crc(const pose_wall_config& config, std::uint32_t* crc);
-std::int32_t config_init(pose_wall_config* config);
-std::int32_t config_set(pose_wall_config* config, const char* key, const char* value);
-std::int32_t config_set_number(pose_wall_config* config, const char* key, double value);
-std::int32_t config_get_number(const pose_wall_config& config, const char* key, double* value);
-std::int32_t config_get_box(const pose_wall_config& config, const char* key, double* value);
-std::int32_t config_get_text(const pose_wall_config& config, const char* key, char* buffer, std::uint64_t bytes);
-std::uint32_t config_key_count();
-std::int32_t config_key(std::uint32_t index, pose_wall_key_info* info);
 
 }  // namespace pose_wall

@@ -93,9 +93,9 @@ TEST(VoxelColumns, OfAGridThatWasOnlyBegunThereAreNone) {
 
 TEST(VoxelColumns, TheConfigsExtremesAreWithinTheirReach) {
   double radius_most = 0.0, leaf_least = 0.0;
-  for (std::uint32_t i = 0; i < config_key_count(); ++i) {
+  for (std::uint32_t i = 0; i < pose_wall_config_key_count(); ++i) {
     pose_wall_key_info key;
-    ASSERT_EQ(config_key(i, &key), POSE_WALL_OK);
+    ASSERT_EQ(pose_wall_config_key(i, &key), POSE_WALL_OK);
     if (key.name == std::string("outlier_radius")) radius_most = key.maximum;
     if (key.name == std::string("voxel_leaf")) leaf_least = key.minimum;
   }

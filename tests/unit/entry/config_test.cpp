@@ -22,8 +22,8 @@ namespace pose_wall {
 namespace {
 
 std::vector<pose_wall_key_info> keys() {
-  std::vector<pose_wall_key_info> all(config_key_count());
-  for (std::uint32_t i = 0; i < all.size(); ++i) EXPECT_EQ(config_key(i, &all[i]), POSE_WALL_OK);
+  std::vector<pose_wall_key_info> all(pose_wall_config_key_count());
+  for (std::uint32_t i = 0; i < all.size(); ++i) EXPECT_EQ(pose_wall_config_key(i, &all[i]), POSE_WALL_OK);
   return all;
 }
 
@@ -43,7 +43,7 @@ std::int32_t refused(pose_wall_config* config, const Call& call) {
 
 std::int32_t refused_set(const char* key, const std::string& value) {
   pose_wall_config config = test::config_with();
-  return refused(&config, [&] { return config_set(&config, key, value.c_str()); });
+  return refused(&config, [&] { return pose_wall_config_set(&config, key, value.c_str()); });
 }
 
 TEST(Config, TheTableIsConsistent) {
@@ -60,7 +60,7 @@ TEST(Config, TheTableIsConsistent) {
     }
   }
   pose_wall_key_info info;
-  EXPECT_EQ(config_key(config_key_count(), &info), POSE_WALL_E_INDEX);
+  EXPECT_EQ(pose_wall_config_key(pose_wall_config_key_count(), &info), POSE_WALL_E_INDEX);
 }
 
 TEST(Config, HoldsAllTheKeysThatWereAskedForWithTheirDefaults) {
@@ -82,16 +82,16 @@ TEST(Config, HoldsAllTheKeysThatWereAskedForWithTheirDefaults) {
                                                              {"wall_parallel_cos", 0.90}};
   for (const auto& [key, expected] : asked) {
     double value = -1;
-    ASSERT_EQ(config_get_number(config, key, &value), POSE_WALL_OK) << key;
+    ASSERT_EQ(pose_wall_config_get_number(&config, key, &value), POSE_WALL_OK) << key;
     EXPECT_EQ(value, expected) << key;
   }
   for (const char* key : {"pointcloud_topic", "lidar_frame", "base_frame", "forward_axis", "z_axis"}) {
     char text[POSE_WALL_TEXT_MAX];
-    EXPECT_EQ(config_get_text(config, key, text, sizeof text), POSE_WALL_OK) << key;
+    EXPECT_EQ(pose_wall_config_get_text(&config, key, text, sizeof text), POSE_WALL_OK) << key;
   }
   double unused = 0.0;
   for (const char* key : {"outlier_min_neighbors", "temporal_smoothing_tau"}) {
-    EXPECT_EQ(config_get_number(config, key, &unused), POSE_WALL_OK) << key;
+    EXPECT_EQ(pose_wall_config_get_number(&config, key, &unused), POSE_WALL_OK) << key;
   }
 }
 
@@ -101,12 +101,12 @@ TEST(Config, EveryDefaultTextSetsTheDefaultValue) {
     pose_wall_config config = defaults;
     // Away from the default first, where the key has another value.
     if (is_number(key)) {
-      ASSERT_EQ(config_set_number(&config, key.name, key.maximum), POSE_WALL_OK) << key.name;
+      ASSERT_EQ(pose_wall_config_set_number(&config, key.name, key.maximum), POSE_WALL_OK) << key.name;
     }
-    ASSERT_EQ(config_set(&config, key.name, key.default_text), POSE_WALL_OK) << key.name;
+    ASSERT_EQ(pose_wall_config_set(&config, key.name, key.default_text), POSE_WALL_OK) << key.name;
     EXPECT_EQ(std::memcmp(&config, &defaults, sizeof config), 0) << key.name;
   }
-  EXPECT_EQ(check_config(defaults, nullptr), POSE_WALL_OK);
+  EXPECT_EQ(pose_wall_config_check(&defaults, nullptr), POSE_WALL_OK);
 }
 
 TEST(Config, NumbersTakeTheirLimitsAndNothingBeyond) {
@@ -114,15 +114,16 @@ TEST(Config, NumbersTakeTheirLimitsAndNothingBeyond) {
     if (!is_number(key)) continue;
     pose_wall_config config = test::config_with();
     for (const double limit : {key.minimum, key.maximum}) {
-      EXPECT_EQ(config_set_number(&config, key.name, limit), POSE_WALL_OK) << key.name;
+      EXPECT_EQ(pose_wall_config_set_number(&config, key.name, limit), POSE_WALL_OK) << key.name;
       double got = 0.0;
-      ASSERT_EQ(config_get_number(config, key.name, &got), POSE_WALL_OK);
+      ASSERT_EQ(pose_wall_config_get_number(&config, key.name, &got), POSE_WALL_OK);
       EXPECT_EQ(got, limit) << key.name;
     }
     const double beyond = 1.0 + std::fabs(key.maximum) + std::fabs(key.minimum);
     for (const double wrong : {beyond, -beyond, std::nan(""), std::numeric_limits<double>::infinity(),
                                -std::numeric_limits<double>::infinity(), 1e300}) {
-      EXPECT_EQ(refused(&config, [&] { return config_set_number(&config, key.name, wrong); }), POSE_WALL_E_VALUE_RANGE)
+      EXPECT_EQ(refused(&config, [&] { return pose_wall_config_set_number(&config, key.name, wrong); }),
+                POSE_WALL_E_VALUE_RANGE)
           << key.name << " " << wrong;
     }
   }
@@ -150,9 +151,9 @@ TEST(Config, ChoicesTakeTheirWordsOnly) {
       const std::size_t bar = words.find('|', at);
       const std::string word = words.substr(at, bar - at);
       pose_wall_config config = test::config_with();
-      ASSERT_EQ(config_set(&config, key.name, word.c_str()), POSE_WALL_OK) << key.name;
+      ASSERT_EQ(pose_wall_config_set(&config, key.name, word.c_str()), POSE_WALL_OK) << key.name;
       char text[POSE_WALL_TEXT_MAX];
-      ASSERT_EQ(config_get_text(config, key.name, text, sizeof text), POSE_WALL_OK);
+      ASSERT_EQ(pose_wall_config_get_text(&config, key.name, text, sizeof text), POSE_WALL_OK);
       EXPECT_EQ(word, text);
       at = bar == std::string::npos ? bar : bar + 1;
     }
@@ -167,14 +168,15 @@ TEST(Config, BoxesTakeSixNumbersInOrder) {
   for (const char* text : {"-2.3 2.3 -0.6 0.6 -1.5 0.4", "[-2.3, 2.3, -0.6, 0.6, -1.5, 0.4]",
                            " -2.3,2.3,-.6,.6,-1.5,.4 ", " [ -2.3 , 2.3\t-0.6,0.6  -1.5 , 0.4 ] "}) {
     pose_wall_config config = test::config_with();
-    ASSERT_EQ(config_set(&config, "body_box_2", text), POSE_WALL_OK) << text;
+    ASSERT_EQ(pose_wall_config_set(&config, "body_box_2", text), POSE_WALL_OK) << text;
     double box[6];
-    ASSERT_EQ(config_get_box(config, "body_box_2", box), POSE_WALL_OK);
+    ASSERT_EQ(pose_wall_config_get_box(&config, "body_box_2", box), POSE_WALL_OK);
     EXPECT_EQ(std::memcmp(box, expected, sizeof box), 0) << text;
     for (const char* nothing : {"", " ", "[]", " [ ] "}) {
       pose_wall_config without = config;
-      ASSERT_EQ(config_set(&without, "body_box_2", nothing), POSE_WALL_OK) << "takes the box away: " << nothing;
-      ASSERT_EQ(config_get_box(without, "body_box_2", box), POSE_WALL_OK);
+      ASSERT_EQ(pose_wall_config_set(&without, "body_box_2", nothing), POSE_WALL_OK)
+          << "takes the box away: " << nothing;
+      ASSERT_EQ(pose_wall_config_get_box(&without, "body_box_2", box), POSE_WALL_OK);
       for (const double number : box) EXPECT_EQ(number, 0.0);
     }
   }
@@ -194,12 +196,12 @@ TEST(Config, BoxesTakeSixNumbersInOrder) {
 TEST(Config, TextsUpToTheirLength) {
   pose_wall_config config = test::config_with();
   const std::string longest(POSE_WALL_TEXT_MAX - 1, 'a');
-  ASSERT_EQ(config_set(&config, "lidar_frame", longest.c_str()), POSE_WALL_OK);
+  ASSERT_EQ(pose_wall_config_set(&config, "lidar_frame", longest.c_str()), POSE_WALL_OK);
   char buffer[POSE_WALL_TEXT_MAX];
-  ASSERT_EQ(config_get_text(config, "lidar_frame", buffer, sizeof buffer), POSE_WALL_OK);
+  ASSERT_EQ(pose_wall_config_get_text(&config, "lidar_frame", buffer, sizeof buffer), POSE_WALL_OK);
   EXPECT_EQ(longest, buffer);
-  EXPECT_EQ(config_get_text(config, "lidar_frame", buffer, sizeof buffer - 1), POSE_WALL_E_BUFFER_SMALL);
-  EXPECT_EQ(config_get_text(config, "lidar_frame", buffer, 0), POSE_WALL_E_BUFFER_SMALL);
+  EXPECT_EQ(pose_wall_config_get_text(&config, "lidar_frame", buffer, sizeof buffer - 1), POSE_WALL_E_BUFFER_SMALL);
+  EXPECT_EQ(pose_wall_config_get_text(&config, "lidar_frame", buffer, 0), POSE_WALL_E_BUFFER_SMALL);
   EXPECT_EQ(refused_set("lidar_frame", longest + "a"), POSE_WALL_E_TEXT_LONG);
   EXPECT_EQ(refused_set("lidar_frame", std::string(100000, 'a')), POSE_WALL_E_TEXT_LONG);
 }
@@ -209,14 +211,15 @@ TEST(Config, UnknownKeysAndWrongKindsOfKeys) {
   double value = 7.0;
   for (const char* key : {"", "range_minimum", "RANGE_MIN", "range_min ", "range"}) {
     EXPECT_EQ(refused_set(key, "1"), POSE_WALL_E_KEY_UNKNOWN) << key;
-    EXPECT_EQ(config_get_number(config, key, &value), POSE_WALL_E_KEY_UNKNOWN) << key;
+    EXPECT_EQ(pose_wall_config_get_number(&config, key, &value), POSE_WALL_E_KEY_UNKNOWN) << key;
   }
-  EXPECT_EQ(config_get_number(config, "forward_axis", &value), POSE_WALL_E_VALUE_TYPE);
-  EXPECT_EQ(config_get_number(config, "body_box_1", &value), POSE_WALL_E_VALUE_TYPE);
-  EXPECT_EQ(config_get_box(config, "range_min", &value), POSE_WALL_E_VALUE_TYPE);
-  EXPECT_EQ(refused(&config, [&] { return config_set_number(&config, "forward_axis", 1.0); }), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_get_number(&config, "forward_axis", &value), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_get_number(&config, "body_box_1", &value), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_get_box(&config, "range_min", &value), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(refused(&config, [&] { return pose_wall_config_set_number(&config, "forward_axis", 1.0); }),
+            POSE_WALL_E_VALUE_TYPE);
   char text[8];
-  EXPECT_EQ(config_get_text(config, "range_min", text, sizeof text), POSE_WALL_E_VALUE_TYPE);
+  EXPECT_EQ(pose_wall_config_get_text(&config, "range_min", text, sizeof text), POSE_WALL_E_VALUE_TYPE);
   EXPECT_EQ(value, 7.0);
 }
 
@@ -230,7 +233,7 @@ TEST(Config, TheRiskSetsTheFactorOfTheLevels) {
   }
   EXPECT_EQ(refused_set("integrity_risk", "nan"), POSE_WALL_E_VALUE_TYPE);
   pose_wall_config config = test::config_with();
-  EXPECT_EQ(refused(&config, [&] { return config_set_number(&config, "integrity_risk", std::nan("")); }),
+  EXPECT_EQ(refused(&config, [&] { return pose_wall_config_set_number(&config, "integrity_risk", std::nan("")); }),
             POSE_WALL_E_VALUE_RANGE);
   EXPECT_EQ(refused_set("protection_factor", "5.0"), POSE_WALL_E_KEY_UNKNOWN);
 }
@@ -249,8 +252,8 @@ TEST(Config, RulesOverTwoKeysNameBoth) {
                                  {"wall_z_min", "1", "wall_z_max", "1.2"}}) {
     const pose_wall_config config = test::config_with({{rule.key, rule.value}, {rule.other_key, rule.other_value}});
     pose_wall_rule_fault fault{};
-    EXPECT_EQ(check_config(config, &fault), POSE_WALL_E_CONFIG_RULE) << rule.key;
-    EXPECT_EQ(check_config(config, nullptr), POSE_WALL_E_CONFIG_RULE) << rule.key;
+    EXPECT_EQ(pose_wall_config_check(&config, &fault), POSE_WALL_E_CONFIG_RULE) << rule.key;
+    EXPECT_EQ(pose_wall_config_check(&config, nullptr), POSE_WALL_E_CONFIG_RULE) << rule.key;
     const std::set<std::string> named = {fault.key, fault.other_key};
     EXPECT_EQ(named, (std::set<std::string>{rule.key, rule.other_key}));
     EXPECT_NE(std::string(fault.rule).find(rule.key), std::string::npos);
@@ -263,7 +266,7 @@ TEST(Config, MembersWrittenPastTheFunctionsAreCaught) {
     for (const double wrong : {1e30, -1e30, std::nan("")}) {
       pose_wall_config config = good;
       config.number[i] = wrong;
-      const std::int32_t status = check_config(config, nullptr);
+      const std::int32_t status = pose_wall_config_check(&config, nullptr);
       EXPECT_TRUE(status == POSE_WALL_OK || status == POSE_WALL_E_CONFIG_RULE);
       // Slots that no key uses may hold anything; used ones may not.
       const bool used = std::memcmp(&config.number[i], &good.number[i], sizeof(double)) != 0 && good.number[i] != 0.0;
@@ -279,17 +282,18 @@ TEST(Config, TextsAndChoicesWrittenPastTheFunctionsAreCaught) {
     pose_wall_config config = good;
     std::memset(config.text[member], 'A', POSE_WALL_TEXT_MAX);
     pose_wall_rule_fault fault{};
-    EXPECT_EQ(check_config(config, &fault), POSE_WALL_E_CONFIG_RULE);
+    EXPECT_EQ(pose_wall_config_check(&config, &fault), POSE_WALL_E_CONFIG_RULE);
     EXPECT_STREQ(fault.rule, "text without an end");
-    EXPECT_EQ(config_get_text(config, fault.key, text, POSE_WALL_TEXT_MAX), POSE_WALL_E_BUFFER_SMALL);
-    EXPECT_EQ(config_get_text(config, fault.key, text, sizeof text), POSE_WALL_OK);
+    EXPECT_EQ(pose_wall_config_get_text(&config, fault.key, text, POSE_WALL_TEXT_MAX), POSE_WALL_E_BUFFER_SMALL);
+    EXPECT_EQ(pose_wall_config_get_text(&config, fault.key, text, sizeof text), POSE_WALL_OK);
     EXPECT_EQ(std::string(text), std::string(POSE_WALL_TEXT_MAX, 'A')) << "and nothing of what lies behind";
   }
   for (const double no_choice : {std::nan(""), -1.0, 4.0, 1e300}) {
     pose_wall_config config = good;
     config.number[0] = no_choice;
-    EXPECT_EQ(check_config(config, nullptr), POSE_WALL_E_CONFIG_RULE);
-    EXPECT_EQ(config_get_text(config, "forward_axis", text, sizeof text), POSE_WALL_E_VALUE_TYPE) << no_choice;
+    EXPECT_EQ(pose_wall_config_check(&config, nullptr), POSE_WALL_E_CONFIG_RULE);
+    EXPECT_EQ(pose_wall_config_get_text(&config, "forward_axis", text, sizeof text), POSE_WALL_E_VALUE_TYPE)
+        << no_choice;
   }
 }
 
@@ -299,15 +303,16 @@ TEST(Config, NotInitialisedIsRefused) {
     std::memset(&config, garbage, sizeof config);
     double number = 0.0;
     char text[POSE_WALL_TEXT_MAX];
-    EXPECT_EQ(refused(&config, [&] { return config_set(&config, "range_min", "1"); }), POSE_WALL_E_STRUCT_SIZE);
-    EXPECT_EQ(config_set_number(&config, "range_min", 1.0), POSE_WALL_E_STRUCT_SIZE);
-    EXPECT_EQ(config_get_number(config, "range_min", &number), POSE_WALL_E_STRUCT_SIZE);
-    EXPECT_EQ(config_get_text(config, "lidar_frame", text, sizeof text), POSE_WALL_E_STRUCT_SIZE);
-    EXPECT_EQ(check_config(config, nullptr), POSE_WALL_E_STRUCT_SIZE);
+    EXPECT_EQ(refused(&config, [&] { return pose_wall_config_set(&config, "range_min", "1"); }),
+              POSE_WALL_E_STRUCT_SIZE);
+    EXPECT_EQ(pose_wall_config_set_number(&config, "range_min", 1.0), POSE_WALL_E_STRUCT_SIZE);
+    EXPECT_EQ(pose_wall_config_get_number(&config, "range_min", &number), POSE_WALL_E_STRUCT_SIZE);
+    EXPECT_EQ(pose_wall_config_get_text(&config, "lidar_frame", text, sizeof text), POSE_WALL_E_STRUCT_SIZE);
+    EXPECT_EQ(pose_wall_config_check(&config, nullptr), POSE_WALL_E_STRUCT_SIZE);
   }
   config = test::config_with();
   config.layout ^= 1U;  // a config of another build's table
-  EXPECT_EQ(check_config(config, nullptr), POSE_WALL_E_STRUCT_SIZE);
+  EXPECT_EQ(pose_wall_config_check(&config, nullptr), POSE_WALL_E_STRUCT_SIZE);
 }
 
 TEST(Config, SettingsAndAlertLimitsAreThoseSet) {
