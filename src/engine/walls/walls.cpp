@@ -9,7 +9,6 @@
 #include "engine/walls/direction.hpp"
 #include "engine/walls/doubts/doubts.hpp"
 #include "engine/walls/sample/measure.hpp"
-#include "engine/walls/sample/sigmas.hpp"
 
 namespace pose_wall {
 namespace {

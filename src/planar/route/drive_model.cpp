@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "planar/route/clamped.hpp"
 #include "planar/route/footprint.hpp"
 
 namespace pose_wall::planar::route {

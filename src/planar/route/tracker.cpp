@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "base/math/finite.hpp"
-#include "planar/route/clamped.hpp"
 
 namespace pose_wall::planar::route {
 namespace {

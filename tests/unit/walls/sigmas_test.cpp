@@ -6,7 +6,7 @@
 // shows of the rock; one that may bend does not, and a refused one lends nothing. Does not prove that the errors of a
 // surface are true: wave_models_test and patch_fit_test do.
 
-#include "engine/walls/sample/sigmas.hpp"
+#include "engine/walls/sample/measure.hpp"
 
 #include <gtest/gtest.h>
 
