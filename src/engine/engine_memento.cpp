@@ -7,6 +7,7 @@
 
 #include "base/math/elementary.hpp"
 #include "base/math/fnv1a.hpp"
+#include "part/saved_bytes.hpp"
 
 namespace pose_wall {
 namespace {
@@ -15,17 +16,7 @@ namespace {
 constexpr std::uint64_t kVersion = 0x706F73652D6D0009ULL;
 constexpr std::uint64_t kHeadWords = 2;  // version and checksum stand first
 
-// Every member is one word of eight bytes, least significant first.
-void put_word(std::uint64_t word, unsigned char* to) {
-  for (int i = 0; i < 8; ++i) to[i] = static_cast<unsigned char>(word >> (8 * i));
-}
-
-std::uint64_t word_at(const unsigned char* from) {
-  std::uint64_t word = 0;
-  for (int i = 0; i < 8; ++i) word |= static_cast<std::uint64_t>(from[i]) << (8 * i);
-  return word;
-}
-
+// Every member is one word of eight bytes.
 class Counter {
  public:
   void word(std::uint64_t* /*word*/) { ++words_; }
@@ -39,28 +30,22 @@ class Counter {
 class Writer {
  public:
   explicit Writer(unsigned char* to) : to_(to) {}
-  void word(const std::uint64_t* word) {
-    put_word(*word, to_);
-    to_ += 8;
-  }
+  void word(const std::uint64_t* word) { to_.put(*word); }
   void failed() {}
 
  private:
-  unsigned char* to_;
+  SavedWriter to_;
 };
 
 class Reader {
  public:
   explicit Reader(const unsigned char* from) : from_(from) {}
-  void word(std::uint64_t* word) {
-    *word = word_at(from_);
-    from_ += 8;
-  }
+  void word(std::uint64_t* word) { *word = from_.get<std::uint64_t>(); }
   void failed() { good_ = false; }
   bool good() const { return good_; }
 
  private:
-  const unsigned char* from_;
+  SavedReader from_;
   bool good_ = true;
 };
 
@@ -234,14 +219,16 @@ void save_memory(const Memory& memory, const pose_wall_moment& now, std::uint32_
   Writer writer(bytes + 8 * kHeadWords);
   visit(&writer, &moment);
   visit(&writer, &copy);
-  put_word(kVersion, bytes);
-  put_word(checksum(config_crc32, bytes + 8 * kHeadWords, body_bytes()), bytes + 8);
+  SavedWriter head(bytes);
+  head.put(kVersion);
+  head.put(checksum(config_crc32, bytes + 8 * kHeadWords, body_bytes()));
 }
 
 bool load_memory(const void* from, std::uint32_t config_crc32, pose_wall_moment* then, Memory* memory) {
   const unsigned char* const bytes = static_cast<const unsigned char*>(from);
-  if (word_at(bytes) != kVersion) return false;
-  if (word_at(bytes + 8) != checksum(config_crc32, bytes + 8 * kHeadWords, body_bytes())) return false;
+  SavedReader head(bytes);
+  if (head.get<std::uint64_t>() != kVersion) return false;
+  if (head.get<std::uint64_t>() != checksum(config_crc32, bytes + 8 * kHeadWords, body_bytes())) return false;
   Reader reader(bytes + 8 * kHeadWords);
   visit(&reader, then);
   visit(&reader, memory);
