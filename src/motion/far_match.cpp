@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "motion/frame_steps.hpp"
 
 namespace pose_wall::motion {

@@ -39,4 +39,20 @@ std::int32_t check_scan(const pose_wall_planar_scan* scan);
 // A checked scan. `beams` has room for POSE_WALL_PLANAR_BEAMS_MAX.
 BeamScan read_beams(const pose_wall_planar_scan& scan, Span<Beam> beams);
 
+// The points of a scan that are matched: spread evenly along what the scan saw, each the mean of its neighbours.
+
+constexpr std::uint32_t kMatchPointsMost = 720;  // a scanner of half a degree whole; denser ones err alike
+constexpr double kMatchSpacing_m = 0.05;         // along a surface: half a cell of surface.hpp
+
+struct ScanPoint {
+  float x_m, y_m;  // in base
+};
+
+inline Eigen::Vector2d as_double(const ScanPoint& point) {
+  return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
+}
+
+// At most kMatchPointsMost points that are about spacing_m apart. Where more are needed, the spacing grows.
+Span<const ScanPoint> even_points(const BeamScan& scan, double spacing_m, Span<ScanPoint> room);
+
 }  // namespace pose_wall::planar

@@ -14,8 +14,8 @@
 #include <cstdint>
 
 #include "base/containers/span.hpp"
+#include "place/beams.hpp"
 #include "place/pose2.hpp"
-#include "place/scan_points.hpp"
 #include "place/surface.hpp"
 
 namespace pose_wall::planar {

@@ -5,11 +5,11 @@
 
 #include "base/math/crc32.hpp"
 #include "box_layout.hpp"
-#include "finish_result.hpp"
 #include "lidar/cloud_fields.hpp"
 #include "part/export.hpp"
 #include "part/status.hpp"
 #include "pose_wall_box.h"
+#include "thinning.hpp"
 
 namespace pose_wall::runtime {
 namespace {

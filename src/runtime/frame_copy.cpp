@@ -7,8 +7,8 @@
 #include <initializer_list>
 
 #include "lidar/cloud_fields.hpp"
-#include "overload.hpp"
 #include "part/struct_sizes.hpp"
+#include "thinning.hpp"
 
 namespace pose_wall::runtime {
 namespace {

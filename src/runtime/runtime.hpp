@@ -12,11 +12,10 @@
 #include "box_writer.hpp"
 #include "frame_copy.hpp"
 #include "frame_slot.hpp"
-#include "held_thinning.hpp"
 #include "histogram.hpp"
 #include "latest_value.hpp"
-#include "overload.hpp"
 #include "pose_wall_runtime.h"
+#include "thinning.hpp"
 #include "threads.hpp"
 #include "watchdog.hpp"
 

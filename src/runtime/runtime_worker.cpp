@@ -6,11 +6,11 @@
 #include <cstring>
 
 #include "base/math/time_units.hpp"
-#include "finish_result.hpp"
 #include "freshness.hpp"
 #include "pose_wall_box.h"
 #include "runtime.hpp"
 #include "saturated.hpp"
+#include "thinning.hpp"
 
 namespace pose_wall::runtime {
 namespace {

@@ -4,7 +4,7 @@
 // Proves: behind a held value stands the thinning of the frame that it may come from, until a whole cloud gave a good
 // one.
 
-#include "runtime/held_thinning.hpp"
+#include "runtime/thinning.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: points are left out only after frames were dropped and the period was still too long, step by step and no
 // further than allowed; it does not swing; and what is left out is an even share of every line of a sensor.
 
-#include "runtime/overload.hpp"
+#include "runtime/thinning.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include "base/estimation/near_plane.hpp"
 #include "base/math/elementary.hpp"
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "base/simd/four_floats.hpp"
 
 namespace pose_wall {

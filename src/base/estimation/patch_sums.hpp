@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "base/simd/four_floats.hpp"
 
 namespace pose_wall {

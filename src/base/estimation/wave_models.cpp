@@ -8,7 +8,7 @@
 
 #include "base/estimation/protection.hpp"
 #include "base/math/elementary.hpp"
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 
 namespace pose_wall {
 namespace {

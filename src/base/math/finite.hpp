@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
+//
+// Numbers that may be none: NaN and infinity.
 
 #pragma once
 
@@ -30,6 +32,17 @@ inline double not_a_number() {
   double value;
   std::memcpy(&value, &bits, sizeof(value));
   return value;
+}
+
+// b where a is not a number.
+constexpr double larger(double a, double b) {
+  return a > b ? a : b;
+}
+
+// The number itself, or the end of the range that it lies beyond. Not a number becomes `most`.
+inline double clamped(double number, double least, double most) {
+  if (number < least) return least;
+  return number < most ? number : most;
 }
 
 }  // namespace pose_wall

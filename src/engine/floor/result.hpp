@@ -6,7 +6,7 @@
 #pragma once
 
 #include "base/estimation/protection.hpp"
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "engine/config.hpp"
 #include "engine/types.hpp"
 

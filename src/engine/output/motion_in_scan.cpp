@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "base/math/finite.hpp"
-#include "base/math/larger.hpp"
 #include "engine/output/standing_surfaces.hpp"
 
 namespace pose_wall {

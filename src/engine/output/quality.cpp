@@ -8,7 +8,6 @@
 #include "base/estimation/protection.hpp"
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
-#include "base/math/larger.hpp"
 #include "engine/gates/gate.hpp"
 #include "engine/region/region_plane.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 
 namespace pose_wall {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "engine/output/standing_surfaces.hpp"
 
 namespace pose_wall {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/math/elementary.hpp"
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 
 namespace pose_wall {
 namespace {

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "base/estimation/patch_fit.hpp"
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "engine/types.hpp"
 
 namespace pose_wall {

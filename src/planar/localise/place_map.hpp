@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "place/beams.hpp"
 #include "place/pose2.hpp"
-#include "place/scan_points.hpp"
 #include "place/surface.hpp"
 
 namespace pose_wall::planar {

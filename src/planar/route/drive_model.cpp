@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/math/finite.hpp"
 #include "planar/route/footprint.hpp"
 
 namespace pose_wall::planar::route {

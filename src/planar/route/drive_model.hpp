@@ -11,12 +11,6 @@
 
 namespace pose_wall::planar::route {
 
-// The number itself, or the end of the range that it lies beyond. Not a number becomes `most`.
-inline double clamped(double number, double least, double most) {
-  if (number < least) return least;
-  return number < most ? number : most;
-}
-
 struct Rates {
   double speed_m_s = 0.0, turn_rad_s = 0.0;
 };

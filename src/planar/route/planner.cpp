@@ -4,7 +4,6 @@
 #include "planar/route/planner.hpp"
 
 #include "base/math/finite.hpp"
-#include "base/math/larger.hpp"
 #include "planar/route/taut.hpp"
 
 namespace pose_wall::planar::route {

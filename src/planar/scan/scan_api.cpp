@@ -3,7 +3,7 @@
 //
 // The extern "C" file of the planar scan: checks arguments, translates, calls.
 
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "part/shell.hpp"
 #include "part/struct_versions.hpp"
 #include "place/beams.hpp"

@@ -8,7 +8,6 @@
 
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
-#include "base/math/larger.hpp"
 #include "place/pose2.hpp"
 #include "planar/stop/stop_image.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "base/estimation/near_plane.hpp"
 #include "base/math/bits.hpp"
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "engine/walls/doubts/sight_lines.hpp"
 
 namespace pose_wall {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/math/bits.hpp"
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 
 namespace pose_wall {
 namespace {

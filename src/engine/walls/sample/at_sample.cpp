@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/estimation/near_plane.hpp"
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "engine/walls/sample/distances.hpp"
 #include "engine/walls/sample/step_profile.hpp"
 

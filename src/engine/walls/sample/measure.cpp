@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/estimation/near_plane.hpp"
-#include "base/math/larger.hpp"
+#include "base/math/finite.hpp"
 #include "engine/gates/gate.hpp"
 #include "engine/walls/sample/at_sample.hpp"
 

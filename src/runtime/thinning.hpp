@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// When points are left out, and how many. Frames go first: points only when frames were dropped while those that were
-// worked took, several in a row, longer than the longest period that is wanted between them.
+// Clouds of which points are left out: when and how many, which ones, and what becomes of the results.
 
 #pragma once
 
 #include <cstdint>
 
+#include "pose_wall.h"
+
 namespace pose_wall::runtime {
 
+// When points are left out, and how many. Frames go first: points only when frames were dropped while those that were
+// worked took, several in a row, longer than the longest period that is wanted between them.
 class Overload {
  public:
   Overload(std::uint32_t thinning_max, std::int64_t frame_period_max_ns)
@@ -73,5 +76,49 @@ class EvenChoice {
   std::uint32_t limit_;
   std::uint32_t number_ = 0;
 };
+
+// Held values may come from a thinned frame: the engine does not know that returns are missing, and holds its
+// measurements. This keeps the thinning of the cloud behind each of them. A value that became invalid may be held
+// again: the engine still has the good one beside an unconfirmed jump.
+class HeldThinning {
+ public:
+  // Call after each result, with the engine's states. Returns the largest thinning behind its held values; 1: none.
+  // thinning: of the frame; 1 for silence.
+  std::uint32_t note(const pose_wall_result& result, std::uint32_t thinning) {
+    std::uint32_t held = 1;
+    for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+      const std::uint32_t state = result.quantity[q].state;
+      std::uint32_t& past = past_[q];
+      if (state == POSE_WALL_HELD && past > held) held = past;
+      if (state == POSE_WALL_VALID) past = thinning;
+      // A degraded value replaces no good one: either may be held later.
+      if (state == POSE_WALL_DEGRADED && past < thinning) past = thinning;
+    }
+    return held;
+  }
+
+  void forget() { *this = HeldThinning(); }
+  // For an unknown past, the worst.
+  void assume(std::uint32_t thinning) {
+    for (std::uint32_t& past : past_) past = thinning;
+  }
+
+ private:
+  std::uint32_t past_[POSE_WALL_QUANTITIES] = {1, 1, 1, 1, 1, 1, 1};
+};
+
+// From the engine's result on its frame to the published result on the frame that came.
+inline void finish_result(std::uint32_t left_out_not_finite, std::uint32_t left_out_zero, std::uint32_t thinning,
+                          pose_wall_result* result) {
+  result->points_in += left_out_not_finite + left_out_zero;
+  result->dropped_not_finite += left_out_not_finite;
+  result->dropped_zero += left_out_zero;
+  if (thinning <= 1) return;
+  // The engine cannot know that returns were left out; a gap in a wall may have gone unnoticed.
+  for (pose_wall_value& v : result->quantity) {
+    if (v.state == POSE_WALL_VALID) v.state = POSE_WALL_DEGRADED;
+    if (v.raw_state == POSE_WALL_VALID) v.raw_state = POSE_WALL_DEGRADED;
+  }
+}
 
 }  // namespace pose_wall::runtime
