@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/math/fnv1a.hpp"
 #include "base/math/golden_ratio.hpp"
 #include "base/simd/four_floats.hpp"
 
@@ -46,9 +47,17 @@ class CloudPrint {
   }
 
   std::uint32_t returns(std::uint32_t sector) const { return static_cast<std::uint32_t>(sum_[sector]); }
-  std::uint32_t returns() const;
+  std::uint32_t returns() const {
+    std::uint32_t sum = 0;
+    for (std::uint32_t s = 0; s < kSectors; ++s) sum += returns(s);
+    return sum;
+  }
   std::uint32_t of(std::uint32_t sector) const { return static_cast<std::uint32_t>(sum_[sector] >> kCountBits); }
-  std::uint64_t whole() const;
+  std::uint64_t whole() const {
+    std::uint64_t whole = kFnv1aOfNothing;
+    for (std::uint32_t s = 0; s < kSectors; ++s) whole = fnv1a_with(whole, sum_[s]);
+    return whole;
+  }
 
  private:
   static constexpr int kCountBits = 32;  // the lower half of a sum counts its returns

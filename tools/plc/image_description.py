@@ -72,7 +72,7 @@ def crc_bytes(raw, version):
 
 
 def crc_of(data, polynomial):
-    """By bits, as src/base/math/crc32.cpp: begun and ended with all ones."""
+    """By bits, as src/base/math/crc32.hpp: begun and ended with all ones."""
     crc = 0xFFFFFFFF
     for byte in data:
         crc ^= byte

@@ -23,7 +23,15 @@ inline double share_beyond(double sigmas) {
 
 // Normal quantile: beyond so many standard deviations, on both sides, lies the risk. For risks from 1e-12 to 0.5,
 // within 1e-3, and never too small.
-double sigmas_at_risk(double risk);
+inline double sigmas_at_risk(double risk) {
+  constexpr int kHalvings = 56;  // 8 / 2^56 is less than a double resolves at 1
+  double low = 0.0, high = 8.0;  // 1.2e-15 is left beyond
+  for (int step = 0; step < kHalvings; ++step) {
+    const double middle = 0.5 * (low + high);
+    (share_beyond(middle) > risk ? low : high) = middle;
+  }
+  return high;
+}
 
 // How many standard deviations the protection level spans when the standard deviation itself comes from only so many
 // independent patches: the normal quantile k stretched to Student's t (Fisher and Cornish 1960, first term).

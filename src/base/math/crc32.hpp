@@ -22,7 +22,10 @@ class Crc32 {
   std::uint32_t value() const { return ~crc_; }
 
  private:
-  void add_low_bits(std::uint32_t word, int bits);
+  void add_low_bits(std::uint32_t word, int bits) {
+    crc_ ^= word;  // bits go in from the low end: four bytes, low byte first, can be put in at once
+    for (int bit = 0; bit < bits; ++bit) crc_ = (crc_ >> 1U) ^ ((crc_ & 1U) != 0 ? polynomial_ : 0U);
+  }
 
   std::uint32_t polynomial_;
   std::uint32_t crc_ = 0xFFFFFFFFU;
