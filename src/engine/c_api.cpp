@@ -13,6 +13,7 @@
 #include "engine/self_test_digest.hpp"
 #include "lidar/cloud_reader.hpp"
 #include "part/export.hpp"
+#include "part/image_words.hpp"
 #include "part/status.hpp"
 #include "part/struct_sizes.hpp"
 #include "part/struct_versions.hpp"
@@ -250,11 +251,11 @@ POSE_WALL_EXPORT int32_t pose_wall_image2_fill(const pose_wall_result* result, c
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_image_check(const pose_wall_image* image) {
-  return image != nullptr ? check_image(*image) : POSE_WALL_E_NULL;
+  return check_image(image, POSE_WALL_IMAGE_VERSION, &pose_wall_image::crc32, kCrcIeee);
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_image2_check(const pose_wall_image2* image) {
-  return image != nullptr ? check_image(*image) : POSE_WALL_E_NULL;
+  return check_image(image, POSE_WALL_IMAGE2_VERSION, &pose_wall_image2::crc32c, kCrcCastagnoli);
 }
 
 }  // extern "C"

@@ -144,12 +144,4 @@ void fill_image(const pose_wall_result& result, const pose_wall_image_source& so
   image->crc32c = image_crc(*image, &pose_wall_image2::crc32c, kCrcCastagnoli);
 }
 
-std::int32_t check_image(const pose_wall_image& image) {
-  return check_image(image, POSE_WALL_IMAGE_VERSION, &pose_wall_image::crc32, kCrcIeee);
-}
-
-std::int32_t check_image(const pose_wall_image2& image) {
-  return check_image(image, POSE_WALL_IMAGE2_VERSION, &pose_wall_image2::crc32c, kCrcCastagnoli);
-}
-
 }  // namespace pose_wall

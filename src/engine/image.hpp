@@ -18,8 +18,4 @@ void fill_image(const pose_wall_result& result, const pose_wall_image_source& so
 // The source of a result, from the result alone.
 pose_wall_image_source source_of(const pose_wall_result& result);
 
-// POSE_WALL_OK, or the status of its fault.
-std::int32_t check_image(const pose_wall_image& image);
-std::int32_t check_image(const pose_wall_image2& image);
-
 }  // namespace pose_wall

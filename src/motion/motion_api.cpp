@@ -10,6 +10,7 @@
 #include "motion/motion_image.hpp"
 #include "motion/motion_report.hpp"
 #include "motion/odometry.hpp"
+#include "part/image_words.hpp"
 #include "part/shell.hpp"
 #include "part/struct_versions.hpp"
 #include "pose_wall_motion.h"
@@ -220,7 +221,7 @@ POSE_WALL_EXPORT int32_t pose_wall_motion_image_fill(const pose_wall_motion_resu
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_motion_image_check(const pose_wall_motion_image* image) {
-  return image != nullptr ? check_image(*image) : POSE_WALL_E_NULL;
+  return check_image(image, POSE_WALL_MOTION_IMAGE_VERSION, &pose_wall_motion_image::crc32c, kCrcCastagnoli);
 }
 
 POSE_WALL_EXPORT const pose_wall_motion_functions* pose_wall_motion_functions_get(void) {

@@ -157,8 +157,4 @@ void fill_image(const pose_wall_motion_result& r, const pose_wall_image_source& 
   image->crc32c = image_crc(*image, &pose_wall_motion_image::crc32c, kCrcCastagnoli);
 }
 
-std::int32_t check_image(const pose_wall_motion_image& image) {
-  return pose_wall::check_image(image, POSE_WALL_MOTION_IMAGE_VERSION, &pose_wall_motion_image::crc32c, kCrcCastagnoli);
-}
-
 }  // namespace pose_wall::motion

@@ -14,6 +14,4 @@ namespace pose_wall::motion {
 void fill_image(const pose_wall_motion_result& result, const pose_wall_image_source& source,
                 pose_wall_motion_image* image);
 
-std::int32_t check_image(const pose_wall_motion_image& image);
-
 }  // namespace pose_wall::motion

@@ -73,11 +73,13 @@ std::uint32_t image_crc(const Image& image, std::uint32_t Image::*member, std::u
   return crc.value();
 }
 
+// A caller's image, by its version and its sum.
 template <typename Image>
-std::int32_t check_image(const Image& image, std::uint32_t version, std::uint32_t Image::*member,
+std::int32_t check_image(const Image* image, std::uint32_t version, std::uint32_t Image::*member,
                          std::uint32_t polynomial) {
-  if (image.struct_size != sizeof(image) || image.version != version) return POSE_WALL_E_IMAGE_VERSION;
-  return ok_if(image.*member == image_crc(image, member, polynomial), POSE_WALL_E_IMAGE_CRC);
+  if (image == nullptr) return POSE_WALL_E_NULL;
+  if (image->struct_size != sizeof(*image) || image->version != version) return POSE_WALL_E_IMAGE_VERSION;
+  return ok_if(image->*member == image_crc(*image, member, polynomial), POSE_WALL_E_IMAGE_CRC);
 }
 
 }  // namespace pose_wall

@@ -4,6 +4,7 @@
 // The C ABI of the stop: pointers and sizes are checked here, once.
 
 #include "lidar/mount.hpp"
+#include "part/image_words.hpp"
 #include "part/shell.hpp"
 #include "planar/stop/stop.hpp"
 #include "planar/stop/stop_image.hpp"
@@ -137,7 +138,7 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_image_fill(const pose_wall_planar
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_image_check(const pose_wall_planar_stop_image* image) {
-  return image != nullptr ? check_image(*image) : std::int32_t{POSE_WALL_E_NULL};
+  return check_image(image, POSE_WALL_PLANAR_STOP_IMAGE_VERSION, &pose_wall_planar_stop_image::crc32c, kCrcCastagnoli);
 }
 
 }  // extern "C"

@@ -79,9 +79,4 @@ void fill_image(const pose_wall_planar_stop_result& result, pose_wall_planar_sto
   image->crc32c = image_crc(*image, &pose_wall_planar_stop_image::crc32c, kCrcCastagnoli);
 }
 
-std::int32_t check_image(const pose_wall_planar_stop_image& image) {
-  return pose_wall::check_image(image, POSE_WALL_PLANAR_STOP_IMAGE_VERSION, &pose_wall_planar_stop_image::crc32c,
-                                kCrcCastagnoli);
-}
-
 }  // namespace pose_wall::planar

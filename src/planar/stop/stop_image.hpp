@@ -20,7 +20,4 @@ std::uint32_t settings_crc(const pose_wall_config& config, const pose_wall_plana
 // Everything but struct_size and the CRC is written, then the CRC.
 void fill_image(const pose_wall_planar_stop_result& result, pose_wall_planar_stop_image* image);
 
-// POSE_WALL_OK, or the status of its fault.
-std::int32_t check_image(const pose_wall_planar_stop_image& image);
-
 }  // namespace pose_wall::planar
