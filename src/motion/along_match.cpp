@@ -12,7 +12,6 @@
 namespace pose_wall::motion {
 namespace {
 
-constexpr float kCap = kOutlier * kOutlier;  // squared deviations: more is of another surface
 // Of the curve against the rows' levels. Levels and curve follow from each other, and settle in a few rounds: with 6
 // the sweep measured as many frames as with 1.
 constexpr int kRounds = 3;
@@ -28,6 +27,11 @@ float unknown() {
 }
 bool is_known(float value) {
   return value == value;
+}
+
+// Squared deviations: more is of another surface.
+float outlier2() {
+  return static_cast<float>(limit_of<gate::OUTLIER>());
 }
 
 float incidence_of(const Eigen::Vector3f& ray, const Eigen::Vector3f& normal) {
@@ -115,10 +119,11 @@ class CurveBuilder {
   }
 
   void square() {
+    const float most = outlier2();
     for (std::uint32_t k = 0; k < shifts_; ++k) {
       for (std::uint32_t row = 0; row < rows_; ++row) {
         float& c = s_->misfit[k * kRowsMost + row];
-        if (is_known(c)) c = c * c < kCap ? c * c : kCap;
+        if (is_known(c)) c = c * c < most ? c * c : most;
       }
     }
   }
@@ -190,12 +195,13 @@ class CurveBuilder {
   // Normal equations of the rest at one shift, four rows at once.
   void sum_up(const float* misfits, RestByRest* A, Rest* b) const {
     const FourFloats zero = all_four(0.0F);
+    const float most = outlier2();
     FourFloats squares[kRest * (kRest + 1) / 2], pulls[kRest];
     for (FourFloats& four : squares) four = zero;
     for (FourFloats& four : pulls) four = zero;
     for (std::uint32_t row = 0; row < rows_; row += kFour) {
       const FourFloats misfit = load_four(misfits + row);
-      const FourTruths counts = misfit * misfit < kCap;
+      const FourTruths counts = misfit * misfit < most;
       const FourFloats known = counts ? misfit : zero;
       FourFloats J[kRest];
       for (int i = 0, n = 0; i < kRest; ++i) {
@@ -274,7 +280,7 @@ class CurveBuilder {
     // A surface facing along gives the way by its plane alone. Along a road there is none, and surfaces that look so
     // are relief.
     const bool faces = faces_along(fit.normal, axis[0]);
-    if (faces && alignment_.axes.hold < kHoldOfRoad) return false;
+    if (faces && passes<gate::ROAD>(alignment_.axes.hold)) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
     const Eigen::Vector3f lever = (fit.p - local.t).cross(fit.normal);
     for (int k = 0; k < 3; ++k) jacobian(k)[rows_] = axis[k].dot(lever) * weight;
@@ -339,7 +345,7 @@ void find_second(const double (&f)[kShiftsMost], std::uint32_t shifts, std::uint
 }  // namespace
 
 bool is_evidence(const Curve& curve) {
-  return curve.told && !curve.open && curve.patches > kClaim;
+  return curve.told && !curve.open && passes<gate::EVIDENCE>(curve.patches);
 }
 
 void CurveScratch::lay_out(Arena& arena) {
@@ -359,7 +365,7 @@ void find_rivals(CurveBuilder* builder, std::uint32_t best, std::uint32_t shifts
     bool apart = false;
     for (std::int32_t k = static_cast<std::int32_t>(best) + side; k >= 0 && k < static_cast<std::int32_t>(shifts);
          k += side) {
-      if (builder->agreement(best, static_cast<std::uint32_t>(k)) > kExcluded) {
+      if (passes<gate::EXCLUDED>(builder->agreement(best, static_cast<std::uint32_t>(k)))) {
         apart = true;
         continue;
       }
@@ -378,7 +384,7 @@ Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, 
   Curve out;
   CurveBuilder builder(scan, alignment, reach_m, shifts, scratch);
   builder.measure(rows_most);
-  if (builder.rows() * kRowsMost < kRowsLeast * rows_most) return out;
+  if (!passes_of<gate::ROWS>(builder.rows() * kRowsMost, rows_most)) return out;
   builder.fit_the_rest();
   builder.square();
   double f[kShiftsMost];

@@ -68,7 +68,7 @@ FarPlace match_far(const Scan& scan, double far_m, bool placed, const Alignment&
   double apart_m = 0.0;
   for (int k = 0; k < count; ++k) {
     const double away_m = Windows::way_m(k > best ? k - best : best - k);
-    const bool rivals = found[k].told && found[k].bottom < kRivalMisfit * found[best].bottom;
+    const bool rivals = found[k].told && passes_of<gate::RIVAL_MISFIT>(found[k].bottom, found[best].bottom);
     if (rivals && away_m > 2.0 * kReachMost_m) apart_m = away_m + kReachMost_m;
   }
   FarPlace out = {in_full ? found[best] : draw_window.draw(best - windows, kFull), middle.pose.t};

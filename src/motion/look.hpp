@@ -19,7 +19,7 @@ struct Seen {
   FeatureCounts features;
   Span<Observation> observations;  // their facings follow the attitude that they were last faced by
 
-  bool suffices() const { return observations.size() >= kObservationsLeast; }
+  bool suffices() const { return passes<gate::OBSERVATIONS>(observations.size()); }
 };
 
 // Owns the image of the last scan.

@@ -158,7 +158,7 @@ void Odometry::begin_map_here() {
 void Odometry::take(const Frame& frame, const Placed& placed, const Concluded& concluded) {
   model_.learn(course_, concluded.course.axes, settings_, concluded.step, frame.dt_s);
   course_ = concluded.course;
-  if (course_.slipped_m > kSlipMost_m) {  // the place of the relief is lost
+  if (!passes<gate::SLIP>(course_.slipped_m)) {  // the place of the relief is lost
     keyframes_.forget_relief();
     take_in_scan();
     course_.travel.slip(course_.slipped_m, keyframes_.map().unevenness());

@@ -53,9 +53,10 @@ class Placing {
   // The expected place, or after a gap the one that a wide search finds.
   Entry enter(const Pose& expected) {
     const std::uint32_t stride = observations_.size() / kAskedOfGuess + 1;
-    const bool gap = frame_.dt_s > kGap_s;
+    const bool in_time = passes<gate::IN_TIME>(frame_.dt_s);
     const double share = share_on_map(road_.map, observations_, expected, stride);
-    if (share > (gap ? kOnMapAfterGap : kOnMapInTime)) return {expected, false, true};
+    const bool on_map = in_time ? passes<gate::ON_MAP_IN_TIME>(share) : passes<gate::ON_MAP_AFTER_GAP>(share);
+    if (on_map) return {expected, false, true};
     Pose at = expected;
     at.R = orthonormal(upright(observations_, at.R, road_.sensor_base_m) * at.R);
     face(at.R, observations_);
@@ -72,7 +73,7 @@ class Placing {
     const Eigen::Vector3d forward = at.R * road_.settings.forward_base;
     a->axes = find_axes(scan_, a->pose, forward, a->axes);
     StepOptions coarse;
-    coarse.with_along = a->axes.hold > kHoldOfHall;
+    coarse.with_along = passes<gate::HALL>(a->axes.hold);
     coarse.every = 4;
     bool moves = true;
     for (int pass = 0; pass < kPassesMost && moves; ++pass) {
@@ -85,7 +86,7 @@ class Placing {
   // The place along the road and its uncertainty.
   Way match_way(const Alignment& a, bool wide) {
     // Where planes face along, the wide start has placed the scan; along a road nothing has yet.
-    const bool far = frame_.dt_s > kGap_s && a.axes.hold < kHoldOfRoad;
+    const bool far = !passes<gate::IN_TIME>(frame_.dt_s) && passes<gate::ROAD>(a.axes.hold);
     const FarPlace place =
         far ? match_far(scan_, road_.settings.speed_max_m_s * frame_.dt_s, wide, a, &s_.curve, &work_)
             : FarPlace{match_near(a), a.pose.t};
@@ -93,12 +94,12 @@ class Placing {
     out.curve = place.curve;
     out.t = place.t;
     if (!is_evidence(out.curve)) {
-      const bool smooth = !(out.curve.contrast > kContrastLeast);
+      const bool smooth = !passes<gate::CONTRAST>(out.curve.contrast);
       out.reasons = smooth ? POSE_WALL_MOTION_R_SMOOTH : POSE_WALL_MOTION_R_FEW_PATCHES;
       out.state = POSE_WALL_ALONG_UNOBSERVABLE;
       // Not worth a claim, but a better guess than the last speed: without it a sparse sensor that starts on the move
       // never gets a map to claim by.
-      out.is_guessed = !smooth && out.curve.patches > kGuess;
+      out.is_guessed = !smooth && passes<gate::GUESS>(out.curve.patches);
       if (!out.is_guessed) return out;
     } else if (out.curve.apart_m > 0.0) {
       out.reasons = POSE_WALL_MOTION_R_SECOND_PEAK;
@@ -128,15 +129,15 @@ class Placing {
     const Pose& last = road_.course.pose;
     const Eigen::Vector3d moved_m = a.pose.t - last.t, beside_m = moved_m - a.axes.along * a.axes.along.dot(moved_m);
     const double turned_rad = std::sqrt(turn_of(last.R.transpose() * a.pose.R).squaredNorm());
-    const double reach_s = kReachMargin * frame_.dt_s;
-    return std::sqrt(beside_m.squaredNorm()) <= road_.settings.speed_max_m_s * reach_s &&
-           turned_rad <= road_.settings.turn_max_rad_s * reach_s;
+    return passes_of<gate::REACH>(std::sqrt(beside_m.squaredNorm()), road_.settings.speed_max_m_s * frame_.dt_s) &&
+           passes_of<gate::REACH>(turned_rad, road_.settings.turn_max_rad_s * frame_.dt_s);
   }
 
  private:
   // The curve about the expected place.
   Curve match_near(const Alignment& a) {
-    const double start_m = road_.course.frames == 0 ? kReachMargin * road_.settings.speed_max_m_s * frame_.dt_s : 0.0;
+    const double start_m =
+        road_.course.frames == 0 ? limit_of<gate::REACH>() * road_.settings.speed_max_m_s * frame_.dt_s : 0.0;
     double reach = road_.course.slipped_m + start_m;
     reach = reach < kReachLeast_m ? kReachLeast_m : reach > kReachMost_m ? kReachMost_m : reach;
     const std::uint32_t shifts = 2 * static_cast<std::uint32_t>(reach / kCurveStep_m + 0.5) + 1;
@@ -187,7 +188,7 @@ void PlaceScratch::lay_out(Arena& arena) {
 Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, const Seen& seen, PlaceScratch* scratch,
                   Work* work) {
   Placed out;
-  out.reasons = bit(frame.dt_s > kGap_s && frame.is_late, POSE_WALL_MOTION_R_GAP);
+  out.reasons = bit(!passes<gate::IN_TIME>(frame.dt_s) && frame.is_late, POSE_WALL_MOTION_R_GAP);
   out.rock_variance_m2 = road.course.rock_variance_m2;
   Placing placing(road, frame, seen, scratch, work);
   const Entry entry = placing.enter(expected);
@@ -208,7 +209,7 @@ Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, co
   placing.fit_relief(&a);
   if (!out.is(POSE_WALL_ALONG_UNOBSERVABLE)) {
     const FinePlace fine = placing.refine(a);
-    if (fine.told && fine.halves_m < kHalvesMost_m) {
+    if (fine.told && passes<gate::HALVES>(fine.halves_m)) {
       a.pose.t += fine.best_m * a.axes.along;
       out.rock_variance_m2 = pooled(fine.sigma_m * fine.sigma_m, out.rock_variance_m2);
       a.covariance(0, 0) = variance_along(road, out.curve, out.rock_variance_m2);
@@ -218,7 +219,7 @@ Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, co
       out.state = POSE_WALL_ALONG_UNOBSERVABLE;
     }
   }
-  const bool few = a.matched < kMatchedLeast, far = !placing.is_in_reach(a);
+  const bool few = !passes<gate::MATCHED>(a.matched), far = !placing.is_in_reach(a);
   out.reasons |= bit(!a.ground_alone, POSE_WALL_MOTION_R_NO_GROUND) | bit(few, POSE_WALL_MOTION_R_FEW_MATCHES) |
                  bit(far, POSE_WALL_MOTION_R_AT_EDGE);
   if (few || far) out.state = POSE_WALL_ALONG_LOST;

@@ -52,7 +52,7 @@ class Equations {
  public:
   Equations(const Scan& scan, const Alignment& a, std::uint32_t every, StepScratch* scratch) : s_(*scratch) {
     const LocalPose local(a.pose, scan.map->corner());
-    const bool is_road = a.axes.hold < kHoldOfRoad;
+    const bool is_road = passes<gate::ROAD>(a.axes.hold);
     const Eigen::Vector3f axis[3] = {a.axes.along.cast<float>(), a.axes.left.cast<float>(), a.axes.up.cast<float>()};
     for (std::uint32_t part = kOfGround; part < kParts; ++part) {
       begin_[part] = count_;
@@ -92,6 +92,7 @@ class Equations {
   Sums sum_up(Part first, std::uint32_t last, const int (&free)[3], const float (&by)[6], const Scales& scales,
               bool use_relief) const {
     const FourFloats zero = all_four(0.0F), one = all_four(1.0F);
+    const auto outlier2 = static_cast<float>(limit_of<gate::OUTLIER>());
     LaneSums lanes;
     for (std::uint32_t i = begin_[first]; i < begin_[last]; i += kFour) {
       FourFloats distance = load_four(&s_.distance[i]);
@@ -100,8 +101,7 @@ class Equations {
       const FourTruths known = known_share > zero;
       const FourFloats variance =
           load_four(&s_.variance[i]) * (known ? all_four(scales.variance[1]) : all_four(scales.variance[0]));
-      const FourFloats cut2 =
-          use_relief ? kOutlier * kOutlier * variance + all_four(1e-4F) : all_four(kNear_m * kNear_m);
+      const FourFloats cut2 = use_relief ? outlier2 * variance + all_four(1e-4F) : all_four(kNear_m * kNear_m);
       const FourFloats squared = distance * distance;
       const FourFloats left = larger_of(one - squared / cut2, zero), trust = left * left;
       const FourFloats weight = trust / variance, pull = weight * distance;
@@ -214,7 +214,7 @@ bool iterate(const Equations& equations, const Step& step, const StepOptions& op
   double damping = kDamping;
   *sums = at(by);
   for (int round = 0; round < options.rounds; ++round) {
-    if (sums->count < kCountLeast) return false;
+    if (!passes<gate::EQUATIONS>(sums->count)) return false;
     const Eigen::Vector3d move = solve(*sums, damping, step.asked);
     float trial[6];
     for (int k = 0; k < 6; ++k) trial[k] = by[k];
@@ -229,7 +229,7 @@ bool iterate(const Equations& equations, const Step& step, const StepOptions& op
     }
     if (!(move.squaredNorm() > kStepLeast2)) break;
   }
-  return sums->count >= kCountLeast;
+  return passes<gate::EQUATIONS>(sums->count);
 }
 
 void take_step(const Equations& equations, const Step& step, const StepOptions& options, std::uint32_t tiles,
@@ -279,7 +279,7 @@ void StepScratch::lay_out(Arena& arena) {
 bool take_steps(const Scan& scan, const StepOptions& options, StepScratch* scratch, Alignment* a) {
   std::uint32_t ground = 0;
   for (const Observation& o : scan.observation) ground += o.ground;
-  a->ground_alone = ground >= kGroundLeast;
+  a->ground_alone = passes<gate::GROUND>(ground);
   const Equations equations(scan, *a, options.every, scratch);
   const std::uint32_t tiles = scan.map->tiles();
   float by[6] = {};

@@ -19,7 +19,8 @@ void ScanMotion::learn(const Six& rate, const Six& variance) {
   changed_ = rate - rate_;
   if (frames_ > 0.0) {
     frames_ = frames_ < kFramesMost ? frames_ + 1.0 : kFramesMost;
-    const Six scatter = rate - measured_, most = kClaim * kClaim * noise_.cwiseMax(kLeastOfAlignment * variance);
+    const Six scatter = rate - measured_;
+    const Six most = limit_of<gate::MOVES>() * noise_.cwiseMax(kLeastOfAlignment * variance);
     noise_ += ((0.5 * scatter.cwiseProduct(scatter)).cwiseMin(most) - noise_) / frames_;
     variance_ += (changed_.cwiseProduct(changed_) - variance_) / frames_;
   } else {
@@ -29,7 +30,7 @@ void ScanMotion::learn(const Six& rate, const Six& variance) {
   measured_ = rate;
   limit_.setZero();
   for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
-    rate_[k] = rate[k] * rate[k] > kClaim * kClaim * noise_[k] ? rate[k] : 0.0;
+    rate_[k] = passes_of<gate::MOVES>(rate[k] * rate[k], noise_[k]) ? rate[k] : 0.0;
   }
 }
 

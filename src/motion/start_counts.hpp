@@ -16,7 +16,8 @@ constexpr int kStartsMost = 24;                    // to each side, of yaw and o
 constexpr int kStartsInRow = 2 * kStartsMost + 1;  // fits a word of bits
 constexpr double kPlaceStep_m = 0.3;               // of the grid: a layer is 0.35 m thick to each side
 // Shares that a squared step costs, so that of starts that fit alike the nearest is taken. At the end of the grid that
-// is 0.29 for place and 0.06 for yaw: about what a scan of the place has more than one of another (kOnMapFound).
+// is 0.29 for place and 0.06 for yaw: about what a scan of the place has more than one of another (the gate
+// on_map_found).
 constexpr double kPlaceCost = 5e-4, kYawCost = 1e-4;
 constexpr std::uint32_t kAskedMost = 250;  // observations that answer
 

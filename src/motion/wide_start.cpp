@@ -182,7 +182,7 @@ bool search_wide(const ReliefMap& map, Span<Observation> observations, const Wid
   search_all(map, asked, {0.03, 0.01, 0.2, 0.1}, scratch, work, pose);
   const double best = search_all(map, asked, {0.008, 0.004, 0.05, 0.05}, scratch, work, pose);
   face(pose->R, observations);
-  return best > kOnMapFound;
+  return passes<gate::ON_MAP_FOUND>(best);
 }
 
 }  // namespace pose_wall::motion

@@ -14,15 +14,15 @@ import sys
 
 # From the ground up: a room includes itself and what stands before it in its own row, and the trunk. A room is a
 # folder below src/, or a file and those whose names go on with a _; the longest name that fits a file is its room.
-TRUNK = ["base/math", "base/simd", "base/containers", "base/estimation", "part", "lidar", "place"]
+TRUNK = ["base/math", "base/simd", "base/containers", "base/gates", "base/estimation", "part", "lidar", "place"]
 WALLS = ["wall", "scene", "propose", "choose", "fit", "sample", "doubts", "scratch", "doubts/doubts"]
 ROWS = [
     ["config", "types", "trace", "gates", "cloud", "region", "floor",
      *[f"walls/{step}" for step in WALLS], "walls", "output", "report", "image", "engine"],
-    ["pose", "gates", "frame_steps", "range_image", "segmentation", "relief_map", "features", "surface_fit",
+    ["pose", "trace", "gates", "frame_steps", "range_image", "segmentation", "relief_map", "features", "surface_fit",
      "road_axes", "registration", "along_match", "far_match", "start_counts", "wide_start", "machine_prior", "travel",
      "scan_motion", "frame", "frame_clock", "expect", "look", "keyframes", "place_scan", "conclude", "motion_report",
-     "motion_image", "odometry", "motion_api"],
+     "motion_image", "odometry", "motion_api", "trace_api"],
 ]
 MAY_INCLUDE = {room: set(TRUNK[:k]) for k, room in enumerate(TRUNK)}
 for library, row in zip(("engine", "motion"), ROWS):
@@ -47,7 +47,7 @@ PUBLIC = {
     "lidar": {"pose_wall.h"},
     "place": {"pose_wall.h", "pose_wall_planar_types.h"},
     "engine": {"pose_wall.h", "pose_wall.hpp", "pose_wall_trace.h"},
-    "motion": {"pose_wall.h", "pose_wall_motion.h", "pose_wall_motion_settings.def"},
+    "motion": {"pose_wall.h", "pose_wall_motion.h", "pose_wall_motion_settings.def", "pose_wall_motion_trace.h"},
     "planar": {"pose_wall.h", "pose_wall_motion.h", "pose_wall_planar*.h", "pose_wall_planar*.def"},
     # Of motion the types alone: its functions come through the options.
     "runtime": {"pose_wall.h", "pose_wall_runtime.h", "pose_wall_box.h", "pose_wall_motion.h"},
@@ -161,6 +161,7 @@ def faults(root):
                             (include / "pose_wall_motion.h",
                              C_HEADERS | {"pose_wall.h", "pose_wall_motion_settings.def"}),
                             (include / "pose_wall_trace.h", C_HEADERS | {"pose_wall.h"}),
+                            (include / "pose_wall_motion_trace.h", C_HEADERS | {"pose_wall_motion.h"}),
                             (include / "pose_wall_box.h", C_HEADERS | MOTION_PUBLIC)):
         for bracket, name in includes(header) if header.exists() else ():
             if name not in allowed:

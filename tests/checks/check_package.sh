@@ -91,7 +91,8 @@ for file in lib/libpose_wall.a lib/libpose_wall_motion.a lib/libpose_wall_planar
   share/doc/libpose-wall-dev/pose_wall.spdx.json share/doc/libpose-wall-dev/plc/FB_PoseWall.st; do
   [ -s "$work/a/b/moved/$file" ] || complain "the package has no $file"
 done
-for file in lib/libpose_wall_traced.a include/pose_wall_trace.h; do
+for file in lib/libpose_wall_traced.a include/pose_wall_trace.h \
+  lib/libpose_wall_motion_traced.a include/pose_wall_motion_trace.h; do
   [ ! -e "$work/a/b/moved/$file" ] || complain "the package has $file, which is for the command alone"
 done
 case $architecture in

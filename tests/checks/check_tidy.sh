@@ -17,7 +17,7 @@ cmake --preset release -B build/tidy -DPOSE_WALL_BUILD_TESTS=OFF -DPOSE_WALL_QUI
 # Most files are compiled twice: as delivered, and with the notes of a traced frame, which has all of the other.
 python3 - build/tidy/compile_commands.json << 'END'
 import json, sys
-commands = sorted(json.load(open(sys.argv[1])), key=lambda c: "pose_wall_traced_objects" in c["command"])
+commands = sorted(json.load(open(sys.argv[1])), key=lambda c: "_traced_objects" in c["command"])
 json.dump(list({c["file"]: c for c in commands}.values()), open(sys.argv[1], "w"))
 END
 

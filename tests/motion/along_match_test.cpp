@@ -95,7 +95,8 @@ class AlongTheRoad : public ::testing::Test {
     there.pose.t += curve.best_m * there.axes.along;
     const FinePlace fine = refine_along(pipeline_->scan(), there, pipeline_->curve.get());
     const double level_m = std::max({0.03, 5.0 * fine.sigma_m, curve.around_m});
-    return !fine.told || fine.halves_m > kHalvesMost_m || std::fabs(curve.best_m + fine.best_m - ahead_m) < level_m;
+    return !fine.told || !passes<gate::HALVES>(fine.halves_m) ||
+           std::fabs(curve.best_m + fine.best_m - ahead_m) < level_m;
   }
 
   BoxRoom room_;

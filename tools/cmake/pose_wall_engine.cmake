@@ -54,26 +54,28 @@ function(pose_wall_precompile_eigen target)
   target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <Eigen/LU>)
 endfunction()
 
-# pose_wall_traced_library(SOURCES more.cpp ...)
+# pose_wall_traced_library(ARCHIVE SOURCES more.cpp ...)
 #
-# pose_wall_traced: the same sources and these, compiled so that they take notes (src/engine/trace). Only
-# pose_wall_trace_* is global in it, so a program may link it beside the plain archive. Not installed.
-# pose_wall_traced_objects: its objects.
-function(pose_wall_traced_library)
-  cmake_parse_arguments(PARSE_ARGV 0 traced "" "" "SOURCES")
-  get_target_property(engine_sources pose_wall_objects SOURCES)
-  pose_wall_engine_objects(pose_wall_traced_objects ${engine_sources} ${traced_SOURCES})
-  target_compile_definitions(pose_wall_traced_objects PRIVATE POSE_WALL_TRACE=1)
+# ARCHIVE_traced: the sources of ARCHIVE_objects and these, compiled so that they take notes (src/base/gates). Only
+# ARCHIVE_trace_* is global in it, so a program may link it beside the plain archive. Not installed.
+# ARCHIVE_traced_objects: its objects.
+function(pose_wall_traced_library archive)
+  cmake_parse_arguments(PARSE_ARGV 1 traced "" "" "SOURCES")
+  set(objects ${archive}_traced_objects)
+  set(object ${CMAKE_CURRENT_BINARY_DIR}/${archive}_traced.o)
+  get_target_property(plain_sources ${archive}_objects SOURCES)
+  pose_wall_engine_objects(${objects} ${plain_sources} ${traced_SOURCES})
+  target_compile_definitions(${objects} PRIVATE POSE_WALL_TRACE=1)
   # A frame at a time: rather compiled quickly than quick. The bits are the same, as digest.traced_as_noted shows.
-  target_compile_options(pose_wall_traced_objects PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${objects} PRIVATE $<$<CONFIG:Release>:-O1>)
   if(POSE_WALL_QUICK_BUILD)
-    pose_wall_precompile_eigen(pose_wall_traced_objects)
+    pose_wall_precompile_eigen(${objects})
   endif()
-  pose_wall_one_object(pose_wall_traced_objects ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_traced.o pose_wall_trace_*)
-  add_library(pose_wall_traced STATIC ${CMAKE_CURRENT_BINARY_DIR}/pose_wall_traced.o)
-  set_target_properties(pose_wall_traced PROPERTIES LINKER_LANGUAGE C)
-  target_include_directories(pose_wall_traced INTERFACE ${PROJECT_SOURCE_DIR}/include)
-  target_link_libraries(pose_wall_traced INTERFACE m)
+  pose_wall_one_object(${objects} ${object} ${archive}_trace_*)
+  add_library(${archive}_traced STATIC ${object})
+  set_target_properties(${archive}_traced PROPERTIES LINKER_LANGUAGE C)
+  target_include_directories(${archive}_traced INTERFACE ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(${archive}_traced INTERFACE m)
 endfunction()
 
 # A release, and a subproject of a build without a build type: it gets a quick engine, too.

@@ -12,7 +12,7 @@ set(pose_wall_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pose_wall)
 set(pose_wall_pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(GLOB pose_wall_public_headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/pose_wall*.h*
   ${PROJECT_SOURCE_DIR}/include/pose_wall*.def)
-list(FILTER pose_wall_public_headers EXCLUDE REGEX "pose_wall_trace\\.h$")  # of a library that stays in the build
+list(FILTER pose_wall_public_headers EXCLUDE REGEX "_trace\\.h$")  # of libraries that stay in the build
 install(FILES ${pose_wall_public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 set(pose_wall_archives pose_wall pose_wall_motion pose_wall_planar)
 if(TARGET pose_wall_runtime)

@@ -3,6 +3,8 @@
 
 #include "engine/trace/trace.hpp"
 
+#include "base/gates/overrides.hpp"
+
 namespace pose_wall::trace {
 namespace {
 
@@ -18,13 +20,7 @@ struct Writer {
 // The stages are free functions of their arguments, and notes must change none of these.
 thread_local Writer writer = {nullptr, 0, 0, false, false, nullptr};
 
-// Of all threads: they are set before the frames, as a sweep does.
-struct Limit {
-  bool is_set;
-  bool lets_pass;
-  double limit;
-};
-Limit limits[POSE_WALL_TRACE_GATES];
+GateOverrides<POSE_WALL_TRACE_GATES> overrides;
 
 // Used if there is no room or no trace.
 thread_local pose_wall_trace_candidate nowhere;
@@ -79,24 +75,23 @@ void answered(std::uint32_t effect) {
 }
 
 void set_limit(std::uint32_t id, double limit) {
-  limits[id].is_set = true;
-  limits[id].limit = limit;
+  overrides.set(id, limit);
 }
 
 void let_pass(std::uint32_t id) {
-  limits[id].lets_pass = true;
+  overrides.let_pass(id);
 }
 
 bool lets_pass(std::uint32_t id) {
-  return limits[id].lets_pass;
+  return overrides.lets_pass(id);
 }
 
 void forget_limits() {
-  for (Limit& l : limits) l = Limit{false, false, 0.0};
+  overrides.forget();
 }
 
 double limit_or(std::uint32_t id, double of_table) {
-  return limits[id].is_set ? limits[id].limit : of_table;
+  return overrides.limit_or(id, of_table);
 }
 
 void floor_radius(std::uint32_t attempt, double radius_m) {

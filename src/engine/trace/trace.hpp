@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// Notes on the reasons for a frame's result. Only the traced library takes them (POSE_WALL_TRACE). In the delivered
-// engine a note is nothing at all, and not even its arguments are computed. No note changes a result.
+// Notes on the reasons for a frame's result, of the traced library alone (base/gates/note.hpp).
 
 #pragma once
 
-#ifdef POSE_WALL_TRACE
-#define POSE_WALL_NOTE(...) __VA_ARGS__
+#include "base/gates/note.hpp"
 
+#ifdef POSE_WALL_TRACE
 #include <cstdint>
 
 #include "base/estimation/plane.hpp"
@@ -69,7 +68,4 @@ inline std::uint32_t side_subject(int side) {
 }
 
 }  // namespace pose_wall::trace
-
-#else
-#define POSE_WALL_NOTE(...) static_cast<void>(0)
 #endif
