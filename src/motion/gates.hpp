@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "base/gates/gate.hpp"
+#include "base/gates/constant_row.hpp"
 #include "motion/trace.hpp"
 
 namespace pose_wall {
@@ -22,14 +22,7 @@ enum Id : std::uint32_t {
 
 }  // namespace motion::gate
 
-// The rows as types. The caller knows the limit of none of them.
-#define GATE(id, name, sense_, limit_, ...)                                 \
-  template <>                                                               \
-  struct GateRow<motion::gate::id> {                                        \
-    static constexpr GateSense sense = GateSense::sense_;                   \
-    static constexpr bool by_caller = false; /* each limit is in its row */ \
-    static constexpr auto limit() { return limit_; }                        \
-  };
+#define GATE(id, name, sense, limit, ...) POSE_WALL_CONSTANT_GATE(motion::gate::id, sense, limit)
 #include "motion/gates.def"
 #undef GATE
 

@@ -86,7 +86,6 @@ PatchVerdict judge_patches(const Map& map, const PatchedPoints& view, const Pose
 }
 
 // By how many of its standard errors the mean patch fits worse at `other`.
-constexpr double kExcludedBy = 4.0;  // a place that fits worse by more is not it: one in 30,000 by chance
 double worse_by(const PatchedPoints& view, const PatchCosts& best, const PatchCosts& other);
 
 }  // namespace pose_wall::planar

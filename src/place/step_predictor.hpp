@@ -34,8 +34,6 @@ class StepPredictor {
   std::uint32_t predict(const Pose2& from, const Pose2* odometry, Prediction* out) const;
   // What became of it. `agrees`: the first prediction did.
   void follow(const Pose2& from, const Pose2& to, const Pose2* odometry, bool agrees);
-  // Of a squared distance of place and yaw: the scan agrees with what was predicted.
-  static constexpr double kAgrees = 11.3;  // 99 % of a chi-square of three
 
  private:
   Prediction by(const Pose2& from, const Pose2& step, double sigma_m, double sigma_rad) const;

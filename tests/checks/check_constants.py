@@ -8,15 +8,14 @@ a colon, for the row of declarations below it, up to a blank line, another comme
 Looked at is what is declared constexpr with an arithmetic type, or as an array of one, in any scope. What gates.def
 lists needs no constant in C++ and is not looked at.
 
-usage: check_constants.py ROOT [FOLDER...]      folders and files below src/, all but three of planar if none is given;
+usage: check_constants.py ROOT [FOLDER...]      folders and files below src/, all of it if none is given;
                                                 exit status 1 and one line per constant without a reason"""
 
 import pathlib
 import re
 import sys
 
-ROOMS = ("base", "part", "lidar", "place", "engine", "motion", "planar/map", "planar/scan", "planar/route",
-         "planar/stop", "runtime")
+ALL = ("*",)
 WORDS_MIN = 3
 NUMBER = (r"(?:double|float|auto|bool|char|short|(?:unsigned|signed|long|int)(?:\s+(?:long|int|char|short))*"
           r"|(?:std::)?(?:u?int(?:_fast|_least)?\d+_t|u?intptr_t|size_t|ptrdiff_t)"
@@ -90,11 +89,11 @@ def constants(text):
 def sources(src, places):
     paths = (path for place in places for path in sorted(src.glob(place)))
     for path in paths:
-        yield from [path] if path.is_file() else sorted(p for p in path.rglob("*") if p.suffix in {".cpp", ".hpp"})
+        yield from sorted(p for p in [path, *path.rglob("*")] if p.suffix in {".cpp", ".hpp"})
 
 
 def main():
-    root, places = pathlib.Path(sys.argv[1]), sys.argv[2:] or ROOMS
+    root, places = pathlib.Path(sys.argv[1]), sys.argv[2:] or ALL
     looked_at, found = 0, []
     for place in places:
         paths = list(sources(root / "src", [place]))

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "place/slide.hpp"
+#include "planar/gates.hpp"
 #include "planar/localise/surroundings.hpp"
 
 namespace pose_wall::planar {
@@ -114,7 +115,7 @@ TEST(LocaliseFit, FindsAPoseAndPatchesTellPlacesApart) {
   EXPECT_LT(there.fits, 0.7);
   EXPECT_GT(worse_by(around, right, wrong), 3.0);
   EXPECT_EQ(worse_by(around, right, right), 0.0);
-  EXPECT_LE(slide_of(opened.map(), around, fit, kExcludedBy, kRefit).reach_m, 0.4);
+  EXPECT_LE(slide_of(opened.map(), around, fit, limit_of<gate::EXCLUDED>(), kRefit).reach_m, 0.4);
 }
 
 TEST(LocaliseFit, SmoothWallsSlide) {
@@ -126,7 +127,7 @@ TEST(LocaliseFit, SmoothWallsSlide) {
   std::vector<ScanPoint> scan = road(-5, 5, 0.0);
   around.take(span_of(scan), {0.0, 0.0}, 0.02);
   const Fit fit = fit_pose(opened.map(), around.points, Pose2(), {0.02});
-  const Slide slid = slide_of(opened.map(), around, fit, kExcludedBy, kRefit);
+  const Slide slid = slide_of(opened.map(), around, fit, limit_of<gate::EXCLUDED>(), kRefit);
   EXPECT_EQ(slid.reach_m, 3.2);
   EXPECT_NEAR(std::abs(slid.direction.x()), 1.0, 1e-2);
 }

@@ -10,11 +10,15 @@
 
 #include "base/math/random.hpp"
 #include "place/slide.hpp"
+#include "planar/gates.hpp"
 
 namespace {
 
+namespace gate = pose_wall::planar::gate;
+
 using pose_wall::Arena;
 using pose_wall::kPi;
+using pose_wall::limit_of;
 using pose_wall::Random;
 using pose_wall::Span;
 using pose_wall::planar::between;
@@ -22,7 +26,6 @@ using pose_wall::planar::compose;
 using pose_wall::planar::Fit;
 using pose_wall::planar::fit_pose;
 using pose_wall::planar::Found;
-using pose_wall::planar::kExcludedBy;
 using pose_wall::planar::kRefit;
 using pose_wall::planar::Matcher;
 using pose_wall::planar::Pose2;
@@ -124,7 +127,8 @@ TEST(Matcher, ASmoothRoadSlidesAndARoughOneDoesNot) {
     bench.map.finish();
     const Points scan = road(-8.0, 8.0, 2, bump);
     const Fit fit = fit_pose(bench.map, span(scan), Pose2(), {0.02});
-    const Slide slide = slide_of(bench.map, bench.matcher.sort(span(scan), 0.02), fit, kExcludedBy, kRefit);
+    const Slide slide =
+        slide_of(bench.map, bench.matcher.sort(span(scan), 0.02), fit, limit_of<gate::EXCLUDED>(), kRefit);
     if (is_rough) {
       EXPECT_LE(slide.reach_m, 0.1);
       continue;

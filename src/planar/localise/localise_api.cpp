@@ -15,7 +15,7 @@ namespace {
 
 using Opened = Held<Localiser, 0x65736C6163636F6CULL>;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // what is not known, as the header says
 
 constexpr SettingRow kRows[] = {
 #define POSE_WALL_SETTING(...) POSE_WALL_SETTING_ROW(pose_wall_planar_localise_settings, __VA_ARGS__)

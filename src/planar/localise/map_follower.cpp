@@ -12,10 +12,6 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kFits = 0.75, kContradicts = 0.5;  // share of the seen patches
-constexpr std::uint32_t kPatchesLeast = 8;
-constexpr double kSlid_m = 0.4;  // README.md, tracking: so far the fit is no better than odometry
-
 // The place's direction of most variance.
 struct Uncertain {
   Eigen::Vector2d direction;
@@ -103,9 +99,9 @@ MapFollower::Placed MapFollower::place(const PlaceMap& map, const Surroundings& 
     if (one.cost < best.cost) best = one;
   };
   const Uncertain along(predictions.first().covariance);
-  constexpr double kCertain_m = 0.12,
-                   kStep_m = 0.25;  // about a cell of the map; what a fit reaches to each side of a start
-  constexpr int kStepsMost = 6;     // to 1.5 m: a place that is less certain is lost
+  constexpr double kCertain_m = 0.12;  // about a cell of the map
+  constexpr double kStep_m = 0.25;     // what a fit reaches to each side of a start
+  constexpr int kStepsMost = 6;        // to 1.5 m: a place that is less certain is lost
   for (int k = 1; k <= kStepsMost && along.sigma_m > kCertain_m && (k - 1) * kStep_m < 2.0 * along.sigma_m; ++k) {
     for (const double sign : {1.0, -1.0}) {
       Pose2 start = predictions.first().pose;
@@ -117,7 +113,7 @@ MapFollower::Placed MapFollower::place(const PlaceMap& map, const Surroundings& 
   for (const Predicted& one : predictions) {
     if (&one != &predictions.first() && !one.agrees(best.fit.pose)) offer(one.pose, one);
   }
-  if (best.verdict.fits >= kFits) return best;
+  if (passes<gate::TRACKED>(best.verdict.fits)) return best;
   constexpr double kWide_m = 0.2;  // two cells: ten times the noise, so that what is near still pulls
   for (const Predicted& about : predictions) {
     for (const double turn_rad : {0.0, 0.1, -0.1}) {
@@ -135,15 +131,10 @@ MapFollower::Placed MapFollower::place(const PlaceMap& map, const Surroundings& 
 // by all of the way between, until a later scan has looked along it.
 void MapFollower::update(const PlaceMap& map, const Surroundings& around, const Predictions& predictions,
                          const Predicted& likeliest) {
-  // Standard errors: less than after a restart, for the place is known about. Of 19,084 scans in smooth roads with
-  // odometry that fails, 1.5 left 98 to 100 % unique and none wrong, 2 left 91 to 98 % and 6 wrong, 2.5 left 73 to 90 %
-  // and 15: where more is asked for, odometry decides (localise_trial --faulty-odometry --places 96 --per-network 24,
-  // seeds 7 and 8).
-  constexpr double kExcluded = 1.5;
-  const Slide slid = slide_of(map, around, fit_, kExcluded, kRefit);
+  const Slide slid = slide_of(map, around, fit_, limit_of<gate::EXCLUDED_NEAR>(), kRefit);
   slide_m_ = slid.reach_m;
   Eigen::Matrix3d told = fit_.information / kAlike;
-  const bool slides = slid.reach_m >= kSlid_m;
+  const bool slides = passes<gate::SLIDES>(slid.reach_m);
   const Eigen::Vector3d d(slid.direction.x(), slid.direction.y(), 0.0);
   const double known_m2 = d.dot(covariance_ * d);
   if (slides) {
@@ -177,15 +168,13 @@ void MapFollower::update(const PlaceMap& map, const Surroundings& around, const 
 }
 
 TrackingState MapFollower::judge(double step_m) {
-  constexpr std::uint32_t kContradictions = 3;        // scans in a row (README.md, lost is a state)
-  constexpr double kPatience_m = 8.0, kLost_m = 1.5;  // of doubt, of standard deviation (README.md, lost is a state)
-  const bool sees = verdict_.seen >= kPatchesLeast && 2 * verdict_.seen >= verdict_.judged;
+  const bool sees = passes<gate::SAW>(verdict_.seen) && 2 * verdict_.seen >= verdict_.judged;
   TrackingState track = TrackingState::tracked;
   if (!sees) {
     track = TrackingState::blind;
-  } else if (!(verdict_.fits >= kContradicts)) {
+  } else if (!passes<gate::BEARABLE>(verdict_.fits)) {
     track = TrackingState::contradicted;
-  } else if (!(verdict_.fits >= kFits)) {
+  } else if (!passes<gate::TRACKED>(verdict_.fits)) {
     track = TrackingState::doubtful;
   }
   contradicted_ = track == TrackingState::contradicted ? contradicted_ + 1
@@ -194,7 +183,7 @@ TrackingState MapFollower::judge(double step_m) {
   doubtful_m_ = track == TrackingState::tracked ? 0.0 : doubtful_m_ + step_m;
   const double place_m2 = covariance_(0, 0) + covariance_(1, 1);
   const bool is_lost =
-      contradicted_ >= kContradictions || !(doubtful_m_ < kPatience_m) || !(place_m2 < kLost_m * kLost_m);
+      !passes<gate::IN_A_ROW>(contradicted_) || !passes<gate::PATIENCE>(doubtful_m_) || !passes<gate::KNOWN>(place_m2);
   return is_lost ? TrackingState::lost : track;
 }
 
@@ -227,9 +216,8 @@ TrackingState MapFollower::follow_to(const PlaceMap& map, const Surroundings& ar
   // The first fit corrects where base was said to stand, which tells nothing of how it moves.
   has_followed_ ? predictor_.follow(before, pose_, odometry, agrees) : predictor_.start(odometry);
   has_followed_ = true;
-  constexpr double kPlaced_m = 0.2;  // a place that is less certain is not one place
-  return track == TrackingState::tracked && !(Uncertain(covariance_).sigma_m < kPlaced_m) ? TrackingState::loose
-                                                                                          : track;
+  const bool is_placed = track != TrackingState::tracked || passes<gate::PLACED>(Uncertain(covariance_).sigma_m);
+  return is_placed ? track : TrackingState::loose;
 }
 
 }  // namespace pose_wall::planar

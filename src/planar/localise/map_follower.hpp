@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "place/step_predictor.hpp"
+#include "planar/gates.hpp"
 #include "planar/localise/surroundings.hpp"
 
 namespace pose_wall::planar {
@@ -41,7 +42,7 @@ class MapFollower {
     bool is_odometry = false;
 
     Prior prior() const { return {pose, information}; }
-    bool agrees(const Pose2& to) const { return squared_distance(to) < StepPredictor::kAgrees; }
+    bool agrees(const Pose2& to) const { return passes<gate::AGREES>(squared_distance(to)); }
   };
 
   struct Predictions {

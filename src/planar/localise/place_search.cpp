@@ -9,13 +9,16 @@
 
 #include "base/containers/heap_sort.hpp"
 #include "base/math/golden_ratio.hpp"
+#include "planar/gates.hpp"
 
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kFarthest_m = 24.0;     // of the points that search: inside a block's margin
-constexpr double kLeast = 0.62;          // of the most likely, that a seed needs: a fifth may have changed
-constexpr double kSteps = 2500.0;        // of work that a seed takes at most
+constexpr double kFarthest_m = 24.0;  // of the points that search: inside a block's margin
+constexpr double kSteps = 2500.0;     // of work that a seed takes at most
+// Places so near are one: a coarse step of yaw, and what it moves points 4 m away by. With half and with twice of each
+// the sweep's restarts were the same.
+constexpr double kSame_m = 0.15, kSame_rad = 0.04;
 constexpr double kPeakApart_rad = 0.15;  // some steps of yaw: nearer directions end in one fit
 
 }  // namespace
@@ -65,7 +68,7 @@ void PlaceSearch::begin(const PlaceMap& map, const Surroundings& around) {
   choose_points(around);
   seed_count_ = hypothesis_count_ = 0;
   is_whole_ = true;
-  least_ = static_cast<std::uint32_t>(kLeast * PlaceMap::kLikely * chosen_count_) + 1;
+  least_ = static_cast<std::uint32_t>(limit_of<gate::SEED>() * PlaceMap::kLikely * chosen_count_) + 1;
   yaw_ = seed_ = 0;
   bins_.fill(0);
   blocks_done_ = blocks_all_ = 0;
@@ -101,6 +104,7 @@ bool PlaceSearch::next_block(const PlaceMap& map) {
 }
 
 void PlaceSearch::draw_block(const PlaceMap& map) {
+  // The margin in whole tiles, and cells along a tile: the window is copied tile by tile.
   constexpr std::int32_t kMarginTiles = kMargin / PlaceMap::kTileCoarse, kCells = PlaceMap::kTileCoarse;
   const std::int32_t x = block_ % kBlocks * kBlockTiles, y = block_ / kBlocks * kBlockTiles;
   for (std::int32_t row = 0; row < kWide; ++row) {
@@ -227,10 +231,9 @@ void PlaceSearch::plant(const Seed& seed) {
 
 // Seeds end in the same places: each is looked at once.
 bool PlaceSearch::is_new(const Pose2& pose) {
-  constexpr double kPlace_m = 0.15, kYaw_rad = 0.04;
-  const auto x = static_cast<std::int64_t>(std::floor(pose.x_m / kPlace_m));
-  const auto y = static_cast<std::int64_t>(std::floor(pose.y_m / kPlace_m));
-  const auto yaw = static_cast<std::int64_t>(std::floor((wrapped(pose.yaw_rad) + kPi) / kYaw_rad));
+  const auto x = static_cast<std::int64_t>(std::floor(pose.x_m / kSame_m));
+  const auto y = static_cast<std::int64_t>(std::floor(pose.y_m / kSame_m));
+  const auto yaw = static_cast<std::int64_t>(std::floor((wrapped(pose.yaw_rad) + kPi) / kSame_rad));
   constexpr std::int64_t kHalf = 1 << 20;  // bins to each side: 157 km, so that the key is positive
   const std::uint64_t key = (static_cast<std::uint64_t>(x + kHalf) << 40U) ^
                             (static_cast<std::uint64_t>(y + kHalf) << 16U) ^ static_cast<std::uint64_t>(yaw);
@@ -248,7 +251,6 @@ bool PlaceSearch::is_new(const Pose2& pose) {
 }
 
 void PlaceSearch::keep(const Hypothesis& hypothesis) {
-  constexpr double kSame_m = 0.15, kSame_rad = 0.04;
   std::uint32_t worst = 0;
   for (std::uint32_t k = 0; k < hypothesis_count_; ++k) {
     Hypothesis& other = hypotheses_[k];
@@ -267,9 +269,13 @@ void PlaceSearch::keep(const Hypothesis& hypothesis) {
 }
 
 void PlaceSearch::refine(const PlaceMap& map, const Surroundings& around, const Seed& seed) {
+  // A cheap look before each dearer one: residuals of half a coarse cell, then of a cell of the map; as many points as
+  // searched, then more. With half and with twice of each the sweep had 105 or 106 restarts unique, and 106 as it is:
   constexpr double kWide_m = 0.25, kNarrow_m = 0.08;
   constexpr std::uint32_t kRounds = 4;
   constexpr std::uint32_t kFewPoints = 64, kSomePoints = 128, kMorePoints = 320;
+
+  // Coarse cells from the corner of the square to its middle.
   constexpr std::int32_t kMiddle = PlaceMap::kAcross * PlaceMap::kTileCoarse / 2;
   const Pose2 seeded{(seed.x - kMiddle + 0.5) * kSight_m + map.middle_m().x(),
                      (seed.y - kMiddle + 0.5) * kSight_m + map.middle_m().y(), yaw_of(seed.yaw)};
@@ -279,10 +285,9 @@ void PlaceSearch::refine(const PlaceMap& map, const Surroundings& around, const 
   const Fit wide = fit_from(seeded, kWide_m, kFewPoints);
   if (!is_new(wide.pose)) return;
   const Fit narrow = fit_from(wide.pose, kNarrow_m, kSomePoints);
-  constexpr double kHopeful = 0.5, kPlausible = 0.45;  // shares explained; README.md: 45 % make a hypothesis
-  if (!(narrow.explained >= kHopeful)) return;
+  if (!passes<gate::HOPEFUL>(narrow.explained)) return;
   const Fit first = fit_from(narrow.pose, around.sigma_m, kSomePoints);
-  if (!(first.explained >= kPlausible)) return;
+  if (!passes<gate::HYPOTHESIS>(first.explained)) return;
   const Fit fine = fit_from(first.pose, around.sigma_m, kMorePoints);
   Hypothesis hypothesis;
   hypothesis.pose = fine.pose;

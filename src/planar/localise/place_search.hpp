@@ -46,15 +46,15 @@ class PlaceSearch {
  private:
   enum class Stage : std::uint32_t { kIdle, kCoarse, kFine, kEnded };
   static constexpr std::int32_t kBlockTiles = 8;                             // own tiles of a block, a side
-  static constexpr std::int32_t kOwn = kBlockTiles * PlaceMap::kTileCoarse;  // coarse cells
+  static constexpr std::int32_t kOwn = kBlockTiles * PlaceMap::kTileCoarse;  // a block's own side in coarse cells
   static constexpr std::int32_t kMargin = 64;                                // coarse cells about them
-  static constexpr std::int32_t kWide = kOwn + 2 * kMargin;
-  static constexpr std::int32_t kBlocks = PlaceMap::kAcross / kBlockTiles;
-  static constexpr std::uint32_t kPointsMost = 64;  // by kLikely at most 192 in all, which a byte holds
-  static constexpr std::uint32_t kPeaks = 4;        // directions of a cell
-  static constexpr std::uint32_t kSeedsMost = 24576;
-  static constexpr std::uint32_t kLanes = 16;    // bytes of a vector register of SSE and NEON
-  static constexpr std::uint32_t kBins = 65536;  // more than twice the seeds: few collide
+  static constexpr std::int32_t kWide = kOwn + 2 * kMargin;                  // with the margin on both sides
+  static constexpr std::int32_t kBlocks = PlaceMap::kAcross / kBlockTiles;   // along the side of the square
+  static constexpr std::uint32_t kPointsMost = 64;    // by kLikely at most 192 in all, which a byte holds
+  static constexpr std::uint32_t kPeaks = 4;          // directions of a cell
+  static constexpr std::uint32_t kSeedsMost = 24576;  // 0.2 MB; is_whole says whether they were too few
+  static constexpr std::uint32_t kLanes = 16;         // bytes of a vector register of SSE and NEON
+  static constexpr std::uint32_t kBins = 65536;       // more than twice the seeds: few collide
 
   struct Seed {
     std::int16_t x, y;  // coarse cells of the square

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planar/gates.hpp"
+
 namespace pose_wall::planar {
 namespace {
 
@@ -47,11 +49,10 @@ double Recent::look_back_m() const {
 }
 
 bool Recent::follow(Span<const ScanPoint> points, const BeamScan& scan, const Pose2* odometry, Matcher& matcher) {
-  constexpr double kContinues = 0.5;
   bool continues = true;
   if (count_ > 0) {
     const Fit placed = follower_.follow(pose_, points, near_, scan.sigma_m, odometry, matcher).match;
-    continues = placed.is_valid && placed.explained >= kContinues;
+    continues = placed.is_valid && passes<gate::RECENT>(placed.explained);
     if (continues) {
       const Pose2 step = between(pose_, placed.pose);
       pose_ = placed.pose;

@@ -8,6 +8,7 @@
 
 #include "base/math/elementary.hpp"
 #include "place/slide.hpp"
+#include "planar/gates.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -15,15 +16,10 @@ namespace {
 // Rounds of a new fit where the place is shifted. 10,000 restarts were judged without one (README.md); with it smooth
 // roads would need 3 standard errors instead of 4.
 constexpr std::uint32_t kAsFitted = 0;
-constexpr double kPlausible = 0.6;  // share of patches that fit, of a place that may be right
-// Of the one place: what share of patches fits, lies in seen parts; how many; how far it may slide.
-constexpr double kFits = 0.85, kSeen = 0.75, kThroughMost = 0.1, kHolds_m = 0.3;
-constexpr std::uint32_t kPatchesLeast = 16;
-// Patches with relief, and their share: rock has 0.4 to 0.9 of them, smooth walls up to 0.36, at corners and niches.
-constexpr std::uint32_t kReliefLeast = 8;
-constexpr double kRelief = 0.4;  // share of the patches: smooth walls have up to 0.36, rock 0.4 to 0.9 (README.md)
 
 bool is_same(const CandidatePlace& candidate, const Pose2& pose) {
+  // Fits along a road that slides are one place, drawn out. With half and with twice of each the sweep's restarts were
+  // the same.
   constexpr double kChain_m = 0.7, kYaw_rad = 0.2;
   const double apart_m = (candidate.pose.place() - pose.place()).norm();
   return apart_m < candidate.spread_m + kChain_m && std::abs(wrapped(candidate.pose.yaw_rad - pose.yaw_rad)) < kYaw_rad;
@@ -45,7 +41,8 @@ void add(const Hypothesis& hypothesis, double worse, SearchVerdict* out) {
 bool has_relief(const Surroundings& around, const Evidence& best) {
   std::uint32_t judged = 0;
   for (std::uint32_t at = 0; at < around.patches; ++at) judged += around.is_judged(at) ? 1U : 0U;
-  return best.relief >= kReliefLeast && best.relief >= kRelief * judged;
+  return passes<gate::RELIEF_PATCHES>(best.relief) &&
+         passes_of<gate::RELIEF>(static_cast<double>(best.relief), static_cast<double>(judged));
 }
 
 // none: it is the one place.
@@ -53,11 +50,12 @@ Why doubt_of(const SearchVerdict& verdict, const PlaceSearch& search) {
   const Evidence& best = verdict.best;
   if (verdict.all != 1) return Why::several;
   if (!search.is_whole()) return Why::crowded;
-  if (best.patches < kPatchesLeast) return Why::few;
-  if (!(best.fits >= kFits)) return Why::misfit;
-  if (!(best.seen >= kSeen)) return Why::unseen;
-  if (!(best.through <= kThroughMost)) return Why::through;
-  return best.slide_m <= kHolds_m && verdict.candidates[0].spread_m <= kHolds_m ? Why::none : Why::slides;
+  if (!passes<gate::PATCHES>(best.patches)) return Why::few;
+  if (!passes<gate::FITS>(best.fits)) return Why::misfit;
+  if (!passes<gate::SEEN>(best.seen)) return Why::unseen;
+  if (!passes<gate::THROUGH>(best.through)) return Why::through;
+  const bool holds = passes<gate::HOLDS>(best.slide_m) && passes<gate::HOLDS>(verdict.candidates[0].spread_m);
+  return holds ? Why::none : Why::slides;
 }
 
 }  // namespace
@@ -77,7 +75,7 @@ void judge(const PlaceMap& map, const Surroundings& around, const PlaceSearch& s
   out->best.through = seen_through(map, around, best.pose);
   const FitRule rule{around.sigma_m};
   const Fit fit = fit_of(fit_sums(map, around.points, best.pose, rule), best.pose);
-  out->best.slide_m = slide_of(map, around, fit, kExcludedBy, kAsFitted).reach_m;
+  out->best.slide_m = slide_of(map, around, fit, limit_of<gate::EXCLUDED>(), kAsFitted).reach_m;
   out->best.relief = relief_patches(map, around, best.pose, walls);
   constexpr double kNoRival = 99.0;  // standard errors: beyond every limit
   out->best.rival = kNoRival;
@@ -86,13 +84,13 @@ void judge(const PlaceMap& map, const Surroundings& around, const PlaceSearch& s
     if (k > 0 && out->count > 0 && !is_same(out->candidates[0], all[k].pose)) {
       out->best.rival = std::min(out->best.rival, worse);
     }
-    if (worse <= kExcludedBy && all[k].verdict.fits >= (k == 0 ? 0.0 : 0.5 * best.verdict.fits))
+    if (!passes<gate::EXCLUDED>(worse) && all[k].verdict.fits >= (k == 0 ? 0.0 : 0.5 * best.verdict.fits))
       add(all[k], worse, out);
   }
   double sum = 0.0;
   for (std::uint32_t k = 0; k < out->count; ++k) sum += out->candidates[k].weight;
   for (std::uint32_t k = 0; k < out->count; ++k) out->candidates[k].weight /= sum;
-  if (!(best.verdict.fits >= kPlausible)) {
+  if (!passes<gate::PLAUSIBLE>(best.verdict.fits)) {
     out->finding = Finding::unknown;
     return;
   }

@@ -9,6 +9,7 @@
 #include "base/math/finite.hpp"
 #include "part/shell.hpp"
 #include "place/slide.hpp"
+#include "planar/gates.hpp"
 #include "planar/match/matcher.hpp"
 #include "pose_wall_planar_match.h"
 
@@ -44,7 +45,7 @@ bool is_covariance(const double (&c)[9]) {
     const double off = c[at] - c[across];
     if (!is_within(off, -1e-9 * most, 1e-9 * most)) return false;
   }
-  constexpr double kLeast = 1e-12;  // a micrometre, squared
+  constexpr double kLeast = 1e-12;  // a micrometre, squared: nobody knows a pose better
   const double minor = c[0] * c[4] - c[1] * c[3];
   const double all =
       c[0] * (c[4] * c[8] - c[5] * c[7]) - c[1] * (c[3] * c[8] - c[5] * c[6]) + c[2] * (c[3] * c[7] - c[4] * c[6]);
@@ -112,7 +113,8 @@ pose_wall_planar_match_result match(Body& body, const BeamScan& scan, const pose
   out.explained = fit.explained;
   out.points = fit.points;
   if (!fit.is_valid) return out;
-  const Slide slide = slide_of(body.map, body.matcher.sort(points, scan.sigma_m), fit, kExcludedBy, kRefit);
+  const Slide slide = slide_of(body.map, body.matcher.sort(points, scan.sigma_m), fit,
+                               pose_wall::limit_of<pose_wall::planar::gate::EXCLUDED>(), kRefit);
   const Eigen::Matrix3d covariance = covariance_of(fit, slide, prior, input);
   out.state = POSE_WALL_PLANAR_MATCH_FOUND;
   out.pose = pose_for_caller(fit.pose);

@@ -12,8 +12,10 @@ namespace pose_wall::planar {
 namespace {
 
 constexpr std::uint32_t kCoarsest = 2;  // level: blocks of 1.6 m, the last of surface_map.hpp
+// Finest cells along the side of a level's cell, by the definition of the levels.
 constexpr std::int32_t kFineInCoarse[kCoarsest + 1] = {1, SurfaceMap::kShrink,
                                                        SurfaceMap::kShrink* SurfaceMap::kShrink};
+constexpr std::int32_t kStep = kFineInCoarse[kCoarsest];  // from coarsest cell to coarsest cell
 
 }  // namespace
 
@@ -97,7 +99,6 @@ void Matcher::offer(const Grid& grid, const Node& node, std::uint32_t* kept, std
 
 std::uint32_t Matcher::look_coarse(const Grid& grid, std::uint32_t* dropped) const {
   std::uint32_t kept = 0;
-  constexpr std::int32_t kStep = kFineInCoarse[kCoarsest];
   for (std::int32_t yaw = -grid.yaws; yaw <= grid.yaws; ++yaw) {
     rotate(grid, yaw);
     for (std::int32_t y = -grid.cells; y < grid.cells; y += kStep) {
@@ -185,7 +186,6 @@ Found Matcher::search(Span<const ScanPoint> points, const SurfaceMap& map, const
   grid.yaw_step_rad = std::min(kYawStepMost_rad, std::max(kYawStepLeast_rad, 2.0 * kSurfaceCell_m / farthest_m));
   constexpr std::int32_t kYawsMost = 700, kCoarseMost = 24;  // half a turn to each side; 38 m
   grid.yaws = std::min(kYawsMost, static_cast<std::int32_t>(std::ceil(window.reach_rad / grid.yaw_step_rad)));
-  constexpr std::int32_t kStep = kFineInCoarse[kCoarsest];
   const auto coarse = static_cast<std::int32_t>(std::ceil(window.reach_m / (kSurfaceCell_m * kStep)));
   grid.cells = kStep * std::min(kCoarseMost, std::max(1, coarse));
   grid.reach = static_cast<std::int32_t>(std::ceil(window.reach_m / kSurfaceCell_m));

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "planar/gates.hpp"
+
 namespace pose_wall::planar {
 
 void ScanFollower::open(double odometry_m, double odometry_rad) {
@@ -34,7 +36,6 @@ std::uint32_t ScanFollower::predict(const Pose2& from, const Pose2* odometry, Pr
 // Where no prediction explains the scan, the best place that the machine can have reached joins in.
 ScanFollower::Followed ScanFollower::follow(const Pose2& from, Span<const ScanPoint> points, const SurfaceMap& near,
                                             double noise_m, const Pose2* odometry, Matcher& matcher) {
-  constexpr double kGood = 0.9;  // share of explained points
   // What a machine may move from scan to scan; what it costs to believe such a place without a prediction: more than
   // that odometry lies.
   constexpr double kFar_m = 0.6, kFar_rad = 0.6, kAnywhere = 24.0;
@@ -56,7 +57,7 @@ ScanFollower::Followed ScanFollower::follow(const Pose2& from, Span<const ScanPo
     best = match;
     least = cost;
   };
-  const auto is_good = [&] { return best.is_valid && best.explained > kGood; };
+  const auto is_good = [&] { return best.is_valid && passes<gate::SCAN_EXPLAINED>(best.explained); };
   for (std::uint32_t k = 0; k < count && !is_good(); ++k) offer(predicted[k].prior.pose, predicted[k].prior);
   if (!is_good()) {
     const Prior around = best.is_valid ? Prior{best.pose, Eigen::Matrix3d::Zero()} : predicted[0].prior;
@@ -66,7 +67,7 @@ ScanFollower::Followed ScanFollower::follow(const Pose2& from, Span<const ScanPo
     offer(found.pose, loose);
   }
   if (!best.is_valid) best.pose = predicted[0].prior.pose;
-  predictor_.follow(from, best.pose, odometry, predicted[0].prior.squared_distance(best.pose) < StepPredictor::kAgrees);
+  predictor_.follow(from, best.pose, odometry, passes<gate::AGREES>(predicted[0].prior.squared_distance(best.pose)));
   return {best, predicted[0].prior};
 }
 

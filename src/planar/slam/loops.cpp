@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "place/slide.hpp"
+#include "planar/gates.hpp"
 
 namespace pose_wall::planar {
 namespace {
@@ -21,7 +22,6 @@ constexpr double kNoise_m = 0.03;           // range noise and drift within a gr
 constexpr double kDrift = 0.02, kDriftYaw_rad = 0.002;
 constexpr std::uint32_t kBearings = 360;  // bins of a whole turn: a degree, as scanners of recorded logs have
 constexpr double kConfirm_m = 3.0;        // travel between two long looks
-constexpr double kConfirmed = 0.85;       // share of a long stretch's points that is explained
 
 }  // namespace
 
@@ -57,11 +57,16 @@ void Loops::assume(const Trail& trail) {
 
 // A doubt about yaw turns what was driven since then about the place of the doubt.
 double Drift::place_m() const {
+  // At least what a match is off by; the travel that a doubt turns; a bound on the window. With half and with twice of
+  // each the sweep's maps had no wrong closure. A twelfth of the log errs by 0.095 and 0.082 m with a lever of 7.5 and
+  // 30 m, by 0.089 m as it is.
   constexpr double kLeast_m = 0.5, kLever_m = 15.0, kMost_m = 20.0;
   return std::min(kMost_m, kLeast_m + kDrift * travel_m + doubt_rad * std::min(travel_m, kLever_m));
 }
 
 double Drift::yaw_rad() const {
+  // At least what a match is off by, and a bound on the window: with half and with twice of each the sweep's maps were
+  // the same to 0.1 mm.
   constexpr double kLeast_rad = 0.1, kMost_rad = 0.8;
   return std::min(kMost_rad, kLeast_rad + kDriftYaw_rad * travel_m + doubt_rad);
 }
@@ -152,18 +157,17 @@ bool Loops::match(const Trail& trail, Matcher& matcher, const Revisit& visit, Ca
   const Found found = matcher.search(points, old_, {visit.guess, reach_m, reach_rad});
   const Fit fit = fit_pose(old_, points, found.pose, {kNoise_m});
   if (!fit.is_valid) return false;
-  const Slide slide = slide_of(old_, matcher.sort(points, kNoise_m), fit, kExcludedBy, kRefit);
+  const Slide slide = slide_of(old_, matcher.sort(points, kNoise_m), fit, limit_of<gate::EXCLUDED>(), kRefit);
   candidate->explained = fit.explained;
   candidate->second = found.score > 0.0 ? found.second_score / found.score : 1.0;
   candidate->slide_m = slide.reach_m;
   const Pose2 step = between(trail.pose(old), fit.pose);
   candidate->edge = {old, now, step, in_frame_of(trail.pose(old), told_by(fit, slide)), true};
   candidate->seen_through = seen_through(trail, old, now, step);
-  // README.md, what makes a closure: found on the failures of the recorded logs, with one set for all of them.
-  constexpr double kExplained = 0.75, kThrough = 0.1, kSecond = 0.9, kHolds_m = 0.25;
-  candidate->is_distinct = slide.reach_m <= kHolds_m && candidate->second < kSecond;
+  candidate->is_distinct = passes<gate::LOOP_HOLDS>(slide.reach_m) && passes<gate::LOOP_SECOND>(candidate->second);
   const bool is_inside = (fit.pose.place() - visit.guess.place()).norm() < 1.5 * reach_m + 0.2;
-  return is_inside && candidate->explained >= kExplained && candidate->seen_through <= kThrough;
+  return is_inside && passes<gate::LOOP_EXPLAINED>(candidate->explained) &&
+         passes<gate::LOOP_THROUGH>(candidate->seen_through);
 }
 
 // Around the loop that two candidates and the trail between their ends make, all steps end where they began.
@@ -200,16 +204,12 @@ bool Loops::is_confirmed(const Trail& trail, Matcher& matcher, const Candidate& 
   Candidate whole;
   const double reach_m = 1.0 + newest.slide_m;
   const bool fits = match(trail, matcher, {old, now, guess, reach_m, kLong_m}, &whole);
-  return fits && whole.is_distinct && whole.explained > kConfirmed;
+  return fits && whole.is_distinct && passes<gate::STRETCH_EXPLAINED>(whole.explained);
 }
 
 std::uint32_t Loops::believe(Trail* trail, Matcher& matcher, const Candidate& newest) {
-  // Travel over which candidates agree, and after which they count no more. Single matches folded logs by 5 and 13 m.
-  constexpr double kSpan_m = 3.0, kPool_m = 12.0;
-  // Two roads do not go through one another: where drift is less than half a road's width, the place is the same.
-  constexpr double kSameSpace_m = 1.5;
-  // With one distinct candidate among four, corridors agreed with anything: Killian was folded by 3 m (README.md).
-  constexpr std::uint32_t kAgree = 4, kDistinct = 3;
+  constexpr double kPool_m =
+      12.0;  // travel after which candidates count no more: four times that over which they agree
   std::uint32_t agree = 0, differ = 0, distinct = 0;
   double span_m = 0.0;
   for (std::uint32_t k = 0; k < pool_count_; ++k) {
@@ -222,8 +222,9 @@ std::uint32_t Loops::believe(Trail* trail, Matcher& matcher, const Candidate& ne
     distinct += pool_[k].is_distinct ? 1U : 0U;
     span_m = std::max(span_m, trail->travel_between_m(pool_[k].edge.to, newest.edge.to));
   }
-  if (agree < kAgree || differ > agree / 3 || span_m < kSpan_m) return 0;
-  if (distinct < kDistinct && !(newest.reach_m < kSameSpace_m) && !is_confirmed(*trail, matcher, newest)) return 0;
+  if (!passes<gate::LOOP_AGREE>(agree) || differ > agree / 3 || !passes<gate::LOOP_SPAN>(span_m)) return 0;
+  const bool same_space = passes<gate::SAME_SPACE>(newest.reach_m);
+  if (!passes<gate::LOOP_DISTINCT>(distinct) && !same_space && !is_confirmed(*trail, matcher, newest)) return 0;
   std::uint32_t tied = 0;
   ++groups_;
   for (std::uint32_t k = 0; k < pool_count_;) {
@@ -238,7 +239,7 @@ std::uint32_t Loops::believe(Trail* trail, Matcher& matcher, const Candidate& ne
     }
     pool_[k] = pool_[--pool_count_];
   }
-  if (!(newest.reach_m < kSameSpace_m)) fits_ = contradictions_ = 0;
+  if (!same_space) fits_ = contradictions_ = 0;
   believed_at_m_ = (*trail)[newest.edge.to].travel_m;
   return tied;
 }
@@ -246,15 +247,13 @@ std::uint32_t Loops::believe(Trail* trail, Matcher& matcher, const Candidate& ne
 // A belief predicts that the next looks fit. Where they contradict it instead, the last group is taken back.
 bool Loops::doubt(Trail* trail, const Candidate& newest) {
   constexpr double kProbation_m = 10.0;  // travel in which the next looks test a belief (README.md)
-  constexpr std::uint32_t kEnough = 6;   // looks of the 20 in probation (README.md)
   if (groups_ == 0 || (*trail)[newest.edge.to].travel_m - believed_at_m_ > kProbation_m) return false;
-  constexpr double kContradicted = 0.6, kThrough = 0.3;
-  if (newest.explained < kContradicted && newest.seen_through > kThrough) {
+  if (passes<gate::LOOK_MISFITS>(newest.explained) && passes<gate::LOOK_THROUGH>(newest.seen_through)) {
     ++contradictions_;
-  } else if (newest.explained > kContradicted) {
+  } else if (newest.explained > limit_of<gate::LOOK_MISFITS>()) {
     ++fits_;
   }
-  if (contradictions_ < kEnough || contradictions_ < 2 * fits_) return false;
+  if (!passes<gate::LOOKS_AGAINST>(contradictions_) || contradictions_ < 2 * fits_) return false;
   while (believed_count_ > 0 && groups_ > 0 && believed_[believed_count_ - 1].group == groups_) {
     trail->untie(believed_[--believed_count_].edge);
     ++taken_back_;

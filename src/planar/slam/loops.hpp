@@ -69,6 +69,7 @@ class Loops {
   std::uint32_t believe(Trail* trail, Matcher& matcher, const Candidate& newest);
   bool doubt(Trail* trail, const Candidate& newest);
 
+  // Those of the last 12 m count, and looks are 0.5 m apart: 24 of them, and as many that wait to be dropped.
   static constexpr std::uint32_t kPoolMost = 48;
   SurfaceMap old_;
   Span<ScanPoint> group_;

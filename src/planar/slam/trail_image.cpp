@@ -13,8 +13,9 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x4C545750U;  // "PWTL"
-constexpr std::uint32_t kVersion = POSE_WALL_PLANAR_TRAIL_VERSION;
+constexpr std::uint32_t kMagic = 0x4C545750U;                       // "PWTL", by the format
+constexpr std::uint32_t kVersion = POSE_WALL_PLANAR_TRAIL_VERSION;  // of the format, as the header says
+// Bytes of the format's parts, field by field as they are written below.
 constexpr std::uint64_t kHead = 5 * 4, kKeyframe = 8 + 4 + 5 * 8, kPoint = 2 * 4, kEdge = 3 * 4 + 9 * 8, kTail = 4;
 
 void put_pose(const Pose2& pose, SavedWriter* writer) {
@@ -73,6 +74,7 @@ bool is_trail(const Head& head, SavedReader reader) {
   return true;
 }
 
+// Row and column of what a symmetric matrix is written as: its upper triangle, by the format.
 constexpr int kUpper[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
 
 void read_keyframes(SavedReader* reader, Span<Keyframe> keyframes, Span<Pose2> poses) {

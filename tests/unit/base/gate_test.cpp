@@ -10,6 +10,7 @@
 
 #include <cstdint>
 
+#include "base/gates/constant_row.hpp"
 #include "base/gates/overrides.hpp"
 #include "base/math/finite.hpp"
 
@@ -23,13 +24,7 @@ struct Settings {
 
 }  // namespace gate_test
 
-#define GATE(id, sense_, limit_)                          \
-  template <>                                             \
-  struct GateRow<gate_test::id> {                         \
-    static constexpr GateSense sense = GateSense::sense_; \
-    static constexpr bool by_caller = false;              \
-    static constexpr auto limit() { return limit_; }      \
-  };
+#define GATE(id, sense, limit) POSE_WALL_CONSTANT_GATE(gate_test::id, sense, limit)
 GATE(LEAST, AT_LEAST, 2.0)
 GATE(MOST, AT_MOST, 2.0)
 GATE(OVER, ABOVE, 2.0)
