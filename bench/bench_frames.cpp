@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "sim/run_files.hpp"
-#include "sim/scenes.hpp"
+#include "lab/sim/run_files.hpp"
+#include "lab/sim/scenes.hpp"
 
 namespace pose_wall::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "lab/sim/simulator.hpp"
 #include "pose_wall.hpp"
-#include "sim/simulator.hpp"
 
 namespace pose_wall::bench {
 

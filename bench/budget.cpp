@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "bench_frames.hpp"
-#include "frames/text_cursor.hpp"
+#include "io/frames/text_cursor.hpp"
+#include "io/terminal/did_you_mean.hpp"
+#include "lab/sim/sensors.hpp"
 #include "quantiles.hpp"
-#include "sim/sensors.hpp"
-#include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/simulator.hpp"
+#include "lab/sim/simulator.hpp"
 
 namespace pose_wall::bench {
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "frames/text_cursor.hpp"
+#include "io/frames/text_cursor.hpp"
+#include "io/terminal/did_you_mean.hpp"
+#include "lab/sim/sensors.hpp"
 #include "peer_contest.hpp"
 #include "peer_table.hpp"
-#include "sim/sensors.hpp"
-#include "terminal/did_you_mean.hpp"
 
 namespace pose_wall::bench {
 namespace {

@@ -7,10 +7,10 @@
 #include <deque>
 #include <stdexcept>
 
-#include "config_file/load_config.hpp"
-#include "frames/input_list.hpp"
-#include "frames/load_frame.hpp"
-#include "frames/point_position.hpp"
+#include "io/config_file/load_config.hpp"
+#include "io/frames/input_list.hpp"
+#include "io/frames/load_frame.hpp"
+#include "io/frames/point_position.hpp"
 
 namespace pose_wall::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/engine.hpp"
-#include "sim/simulator.hpp"
+#include "lab/sim/simulator.hpp"
 
 namespace pose_wall::bench {
 

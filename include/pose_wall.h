@@ -768,7 +768,7 @@ POSE_WALL_CHECKED int32_t pose_wall_self_test(void* block, uint64_t bytes, pose_
 #define POSE_WALL_IMAGE_NO_VALUE (-2147483647 - 1)
 #define POSE_WALL_IMAGE_NO_BOUND 2147483647
 
-/* From here on written by tools/plc/generate.py from tools/plc/image.def. */
+/* From here on written by tools/apps/plc/generate.py from tools/apps/plc/image.def. */
 
 #define POSE_WALL_IMAGE_BYTES 240
 #define POSE_WALL_IMAGE2_BYTES 248

@@ -242,7 +242,7 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_blank(const pose_wall_motion* motion,
  * 0 and 1 identify every image. */
 #define POSE_WALL_MOTION_IMAGE_VERSION 3
 
-/* From here on written by tools/plc/generate.py from tools/plc/image.def. */
+/* From here on written by tools/apps/plc/generate.py from tools/apps/plc/image.def. */
 
 #define POSE_WALL_MOTION_IMAGE_BYTES 132
 

@@ -218,7 +218,7 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_tick(pose_wall_planar_stop* stop
  * WORSE      you may make a result worse before you fill the image: state, allowed_speed_m_s, reasons, heartbeat. */
 #define POSE_WALL_PLANAR_STOP_IMAGE_VERSION 4
 
-/* From here on written by tools/plc/generate.py from tools/plc/image.def. */
+/* From here on written by tools/apps/plc/generate.py from tools/apps/plc/image.def. */
 
 #define POSE_WALL_PLANAR_STOP_IMAGE_BYTES 52
 

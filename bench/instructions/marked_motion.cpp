@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
+#include "lab/sim/run_files.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
 #include "pose_wall.h"
 #include "pose_wall_motion.h"
-#include "sim/run_files.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
 #include "support/motion_under_test.hpp"
 
 namespace pose_wall::bench {

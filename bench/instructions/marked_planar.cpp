@@ -23,11 +23,11 @@
 #include <vector>
 
 #include "cpu_time.hpp"
+#include "lab/sim/run_files.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
 #include "pose_wall.h"
 #include "pose_wall_planar.h"
-#include "sim/run_files.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
 
 namespace pose_wall::bench {
 namespace {

@@ -16,7 +16,7 @@
 
 namespace pose_wall {
 
-// The units of an image's integers, by tools/plc/image.def and the motion image:
+// The units of an image's integers, by tools/apps/plc/image.def and the motion image:
 constexpr double kMilliDegreesPerRadian = 180000.0 / kPi;
 constexpr double kMillimetresPerMetre = 1000.0;
 constexpr double kMillisecondsPerSecond = 1000.0;

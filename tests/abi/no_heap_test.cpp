@@ -10,7 +10,7 @@
 #include <new>
 #include <vector>
 
-#include "soak/heap_count.hpp"
+#include "apps/soak/heap_count.hpp"
 #include "support/clouds.hpp"
 #include "support/engine_under_test.hpp"
 #include "support/garbage.hpp"

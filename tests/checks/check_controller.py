@@ -16,7 +16,7 @@ import zlib
 
 sys.dont_write_bytecode = True  # the sources stay as they are
 ROOT = pathlib.Path(sys.argv[1])
-sys.path.insert(0, str(ROOT / "tools/plc"))
+sys.path.insert(0, str(ROOT / "tools/apps/plc"))
 
 import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
 

@@ -20,7 +20,7 @@ UNMARKED = re.compile(r"pose_wall_(motion_settings_init|runtime_options_init\w*|
                       r"cloud_xyz32\w*|set_clock|(?:motion_)?trace_\w+)$")
 CONSTANT = re.compile(r"^(?:#define |  )(POSE_WALL_\w+)(?= =|,$| [^=]|$|\n)", re.M)
 POINTER = re.compile(r"\b((?:src|tools|tests|bench|include)/[\w./]*|[\w/]+\.md)\b")
-GENERATED = "written by tools/plc/generate.py"  # a word to who changes the header
+GENERATED = "written by tools/apps/plc/generate.py"  # a word to who changes the header
 NOT_PACKAGED = {"pose_wall_trace.h", "pose_wall_motion_trace.h"}
 
 

@@ -4,7 +4,8 @@
 """Includes go one way. A trunk carries all libraries: base <- part <- lidar <- place. Engine, motion, planar and
 runtime stand on it side by side, and inside each of them the rooms stand one on the other as a frame goes through them.
 All take nothing but Eigen and small parts of the standard library; tools and the runtime see them by their headers.
-Folders of tools/ form no circle, and the daemon takes nothing of the command's verbs.
+Tools stand on each other, too: io <- study <- lab <- apps. Their folders form no circle, and the daemon takes nothing
+of the command's verbs.
 
 usage: check_layers.py ROOT        exit status 1 and one line per broken rule"""
 
@@ -61,6 +62,8 @@ SMALL_HEADERS = {
 EIGEN = {f"Eigen/{part}" for part in ("Core", "Cholesky", "Dense", "Eigenvalues", "Geometry", "LU", "SVD")}
 # The threads around the engine: no part of it, no Eigen.
 THREAD_HEADERS = {"atomic", "pthread.h", "sched.h", "errno.h", "time.h", "sys/mman.h"}
+# What a part of tools/ may include beside itself, from the ground up.
+PARTS = {"io": set(), "study": {"io"}, "lab": {"io", "study"}, "apps": {"io", "study", "lab"}}
 MOTION_PUBLIC = {"pose_wall.h", "pose_wall_motion.h"}
 C_HEADERS = {"stddef.h", "stdint.h"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
@@ -109,8 +112,8 @@ def fault_of(src, path, bracket, name):
 
 
 def folder_of(relative):
-    """A folder of tools/, or a file beside them."""
-    return relative.parts[0] if len(relative.parts) > 1 else relative.stem
+    """A folder of a part of tools/, or a file beside such folders."""
+    return relative.with_suffix("") if len(relative.parts) < 3 else pathlib.PurePath(*relative.parts[:2])
 
 
 def folder_includes(tools):
@@ -140,12 +143,20 @@ def folders_in_circles(pairs):
 
 
 def folder_faults(tools):
+    for path in sources(tools):
+        part = path.relative_to(tools).parts[0]
+        if part not in PARTS:
+            yield path, f"belongs to no part of tools/; parts are {', '.join(PARTS)}"
     pairs = folder_includes(tools)
     circle = folders_in_circles(pairs)
     for (here, there), (path, name) in pairs.items():
+        part, other = here.parts[0], there.parts[0]
+        if part in PARTS and other in PARTS and other not in PARTS[part] | {part}:
+            allowed = ", ".join(sorted(PARTS[part])) or "nothing"
+            yield path, f'tools/{part} includes "{name}"; it may include {allowed}'
         if here in circle and there in circle:
             yield path, f'tools/{here} includes "{name}" of {there}, and these stand in a circle of folders'
-        if (here, there) == ("live", "verbs"):
+        if (str(here), str(there)) == ("apps/live", "apps/verbs"):
             yield path, f'the daemon includes "{name}" of the command\'s verbs'
 
 

@@ -111,5 +111,5 @@ done
 [ -n "${POSE_WALL:-}" ] || exit 0
 export PKG_CONFIG_LIBDIR="$work/a/b/moved/lib/pkgconfig"
 # shellcheck disable=SC2046  # words
-"$cc" -std=c99 -O2 "$source/tools/plc/controller.c" $(pkg-config --cflags --libs pose_wall) -o "$work/controller"
+"$cc" -std=c99 -O2 "$source/tools/apps/plc/controller.c" $(pkg-config --cflags --libs pose_wall) -o "$work/controller"
 python3 "$source/tests/checks/check_controller.py" "$source" "$POSE_WALL" "$work/controller" "$@"

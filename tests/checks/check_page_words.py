@@ -94,7 +94,7 @@ def faults_of_use(folder, sources, english):
 
 def faults_of_daemon(root, chinese):
     """Whole sentences and names of facts. Sentences that are put together from parts stay English."""
-    for path in sorted((root / "tools/live").rglob("*.cpp")):
+    for path in sorted((root / "tools/apps/live").rglob("*.cpp")):
         source = path.read_text(encoding="utf-8")
         for statement in re.findall(r'health(?:\.|->)summary \+?= ((?:"[^"]*"|[^;"])*);', source):
             if "fmt::format" in statement or "+" in statement:
@@ -128,7 +128,7 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     root = pathlib.Path(sys.argv[1]).resolve()
-    folder = root / "tools/report/page"
+    folder = root / "tools/study/report/page"
     browser = Browser()
     try:
         found = list(faults(browser, root, folder))

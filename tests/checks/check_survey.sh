@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 #
-# tools/survey/trial.sh in a box of four faces: all values are valid and none is wrong, and the table says so. The same
-# box as a class of a campaign, on its card by name. Its rock is flat, and a blasted road beside it is not.
+# tools/lab/survey/trial.sh in a box of four faces: all values are valid and none is wrong, and the table says so. The
+# same box as a class of a campaign, on its card by name. Its rock is flat, and a blasted road beside it is not.
 # usage: check_survey.sh SOURCE_DIR POSE_WALL; 77: this build reads no surfaces
 set -eu
 source=$1
@@ -20,7 +20,7 @@ done > "$work/box.obj"
 printf 'f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\n' >> "$work/box.obj"
 printf '%s\n' '0 0 0.2 1.3 0 0 0 1' '1 3 -0.2 1.4 0 0 0.0349995 0.9993873' > "$work/path.tum"
 
-trial=$source/tools/survey/trial.sh
+trial=$source/tools/lab/survey/trial.sh
 if ! table=$("$trial" "$work/box.obj" "$work/path.tum" "$work/trial" vlp16 2> "$work/errors"); then
   cat "$work/errors"
   ! grep -q libembree "$work/errors" || exit 77

@@ -5,9 +5,9 @@
 
 usage: check_translations.py ROOT     exit status 1 and one line per text that
   - is marked in tools/ (say("..."), tr("..."), translatable("...")), or stands in a table that tools print, and is in
-    no tools/language/zh/*.po. Tables are, in src/engine, keys' help in config_keys.def; states, parts, senses, reasons
-    and statuses of values in names.def; rules over two keys in config.cpp; and those of include/ whose rows a verb
-    takes as settings
+    no tools/io/language/zh/*.po. Tables are, in src/engine, keys' help in config_keys.def; states, parts, senses,
+    reasons and statuses of values in names.def; rules over two keys in config.cpp; and those of include/ whose rows a
+    verb takes as settings
   - stands in a catalogue and is marked nowhere, or stands there twice
   - fills in other arguments than the English one or gives one another type ({:d} for {:.2f}), or holds no Chinese"""
 
@@ -87,7 +87,7 @@ def faults(root):
     if not texts:
         yield "tools/ marks no text: nothing was checked"
     seen = collections.Counter()
-    for path in sorted((root / "tools/language/zh").glob("*.po")):
+    for path in sorted((root / "tools/io/language/zh").glob("*.po")):
         name = path.relative_to(root)
         for line, msgid, msgstr in entries(path):
             seen[msgid] += 1

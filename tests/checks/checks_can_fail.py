@@ -116,24 +116,33 @@ class Layers(BrokenProject):
 
     def test_tool_includes_engine(self):
         self.include("src/base/math/angles.hpp", "")
-        self.include("tools/main.cpp", '#include "base/math/angles.hpp"')
+        self.include("tools/apps/main.cpp", '#include "base/math/angles.hpp"')
         self.fails("tools see the engine only through", *self.check())
 
     def test_tool_includes_engine_by_path(self):
-        self.include("tools/main.cpp", '#include "../src/engine/engine.hpp"')
+        self.include("tools/apps/main.cpp", '#include "../src/engine/engine.hpp"')
         self.fails("tools see the engine only through", *self.check())
 
     def test_folders_of_tools_stand_in_a_circle(self):
-        for here, there in (("planar", "options"), ("options", "command_line"), ("command_line", "planar")):
+        for here, there in (("io/bags", "io/csv"), ("io/csv", "io/frames"), ("io/frames", "io/bags")):
             self.include(f"tools/{here}/all.hpp", f'#include "{there}/all.hpp"')
-        self.include("tools/verbs/scan.cpp", '#include "planar/all.hpp"')
-        self.fails('tools/options includes "command_line/all.hpp" of command_line, and these stand in a circle',
-                   *self.check())
+        self.include("tools/apps/verbs/scan.cpp", '#include "io/bags/all.hpp"')
+        self.fails('tools/io/csv includes "io/frames/all.hpp" of io/frames, and these stand in a circle', *self.check())
+
+    def test_tools_include_what_stands_on_them(self):
+        for here, there in (("io", "study"), ("study", "lab"), ("lab", "apps")):
+            self.include(f"tools/{there}/above/all.hpp", "")
+            self.include(f"tools/{here}/below/all.hpp", f'#include "{there}/above/all.hpp"')
+            self.fails(f'tools/{here} includes "{there}/above/all.hpp"; it may include', *self.check())
+
+    def test_tools_outside_of_their_parts(self):
+        self.include("tools/helpers/all.hpp", "")
+        self.fails("tools/helpers/all.hpp: belongs to no part of tools/", *self.check())
 
     def test_daemon_includes_a_verb(self):
-        self.include("tools/verbs/one_of.hpp", "")
-        self.include("tools/live/main.cpp", '#include "verbs/one_of.hpp"')
-        self.fails('the daemon includes "verbs/one_of.hpp"', *self.check())
+        self.include("tools/apps/verbs/one_of.hpp", "")
+        self.include("tools/apps/live/main.cpp", '#include "apps/verbs/one_of.hpp"')
+        self.fails('the daemon includes "apps/verbs/one_of.hpp"', *self.check())
 
     def test_runtime_includes_engine(self):
         self.include("src/engine/engine.hpp", "")
@@ -617,7 +626,7 @@ class Translations(BrokenProject):
 
     def check(self, source, catalogue):
         self.write("tools/run.cpp", LICENCE + source)
-        self.write("tools/language/zh/run.po", catalogue)
+        self.write("tools/io/language/zh/run.po", catalogue)
         return CHECKS / "check_translations.py", self.root
 
     WALL = 'msgid "the wall {name}"\nmsgstr "{name}侧墙"\n\n'

@@ -32,11 +32,11 @@ case " $flags " in
   *) echo "pkg-config points elsewhere: $flags"; exit 1 ;;
 esac
 
-by_cmake c "$source/tools/example.c" OFF pose_wall
+by_cmake c "$source/tools/apps/c/example.c" OFF pose_wall
 by_cmake cpp "$consumer/consumer.cpp" ON pose_wall
 mkdir "$work/pc"
 # shellcheck disable=SC2086  # words
-quietly "$cc" -std=c99 "$source/tools/example.c" $flags -o "$work/pc/c"
+quietly "$cc" -std=c99 "$source/tools/apps/c/example.c" $flags -o "$work/pc/c"
 # shellcheck disable=SC2086
 quietly "$cxx" -std=c++17 "$consumer/consumer.cpp" $flags -o "$work/pc/cpp"
 

@@ -19,16 +19,16 @@ class Image(BrokenProject):
     def setUp(self):
         super().setUp()
         source = CHECKS.parent.parent
-        for folder in ("tools/plc", "tools/language/zh"):
+        for folder in ("tools/apps/plc", "tools/io/language/zh"):
             shutil.copytree(source / folder, self.root / folder)
         for path in ("include/pose_wall.h", "include/pose_wall_motion.h", "include/pose_wall_planar_stop.h",
-                     "tests/checks/abi_layout.txt", "tools/live/modbus/README.md",
-                     "tools/live/modbus/modbus_registers.hpp", "tools/planar/stop_reasons.cpp"):
+                     "tests/checks/abi_layout.txt", "tools/apps/live/modbus/README.md",
+                     "tools/apps/live/modbus/modbus_registers.hpp", "tools/study/planar/stop_reasons.cpp"):
             (self.root / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source / path, self.root / path)
 
     def check(self):
-        return "python3", self.root / "tools/plc/generate.py", "--check", self.root
+        return "python3", self.root / "tools/apps/plc/generate.py", "--check", self.root
 
     def change(self, path, old, new):
         text = (self.root / path).read_text(encoding="utf-8")
@@ -44,50 +44,50 @@ class Image(BrokenProject):
 
     def test_register_table_edited_by_hand(self):
         for before, after in (("| 1062, 1063 |", "| 1064, 1065 |"), ("| 3 | `stamp_back` |", "| 4 | `stamp_back` |")):
-            self.change("tools/live/modbus/README.md", before, after)
-            self.fails("tools/live/modbus/README.md is not what", *self.check())
+            self.change("tools/apps/live/modbus/README.md", before, after)
+            self.fails("tools/apps/live/modbus/README.md is not what", *self.check())
 
     def test_tables_of_the_stop_edited_by_hand(self):
         for before, after in (("| 8 | 32 | `state` |", "| 9 | 36 | `state` |"), ("16#00000800", "16#00000400"),
                               ("畅通时间尚短", "")):
-            self.change("tools/plc/README.md", before, after)
-            self.fails("tools/plc/README.md is not what", *self.check())
+            self.change("tools/apps/plc/README.md", before, after)
+            self.fails("tools/apps/plc/README.md is not what", *self.check())
 
     def test_bit_of_the_stop_renumbered(self):
         self.change("include/pose_wall_planar_stop.h", "R_SPEED = 1 << 8,", "R_SPEED = 1 << 9,")
-        self.fails("tools/plc/README.md is not what", *self.check())
-        self.fails("tools/live/modbus/README.md is not what", *self.check())
+        self.fails("tools/apps/plc/README.md is not what", *self.check())
+        self.fails("tools/apps/live/modbus/README.md is not what", *self.check())
 
     def test_image_moved_to_another_register(self):
-        self.change("tools/live/modbus/modbus_registers.hpp", "kImage2Register = 1000", "kImage2Register = 2000")
-        self.fails("tools/live/modbus/README.md is not what", *self.check())
+        self.change("tools/apps/live/modbus/modbus_registers.hpp", "kImage2Register = 1000", "kImage2Register = 2000")
+        self.fails("tools/apps/live/modbus/README.md is not what", *self.check())
 
     def test_structured_text_edited_by_hand(self):
         for ending in ("st", "scl", "xml"):
-            self.change(f"tools/plc/FB_PoseWall.{ending}", "xUsable", "xUseless")
+            self.change(f"tools/apps/plc/FB_PoseWall.{ending}", "xUsable", "xUseless")
             self.fails(f"FB_PoseWall.{ending} is not what", *self.check())
 
     def test_frames_of_can_edited_by_hand(self):
         for name in ("pose_wall_11bit.dbc", "pose_wall_j1939.dbc"):
-            self.change(f"tools/plc/can/{name}", "16|20@1-", "16|19@1-")
-            self.fails(f"tools/plc/can/{name} is not what", *self.check())
-        self.change("tools/plc/can/can_images.c", "POSE_WALL_CAN_LEVEL", "POSE_WALL_CAN_BITS")
-        self.fails("tools/plc/can/can_images.c is not what", *self.check())
+            self.change(f"tools/apps/plc/can/{name}", "16|20@1-", "16|19@1-")
+            self.fails(f"tools/apps/plc/can/{name} is not what", *self.check())
+        self.change("tools/apps/plc/can/can_images.c", "POSE_WALL_CAN_LEVEL", "POSE_WALL_CAN_BITS")
+        self.fails("tools/apps/plc/can/can_images.c is not what", *self.check())
 
     def test_frames_of_can_that_cannot_be(self):
         for old, new in (("FRAME Pitch 18 3", "FRAME Pitch 16 3"),
                          ("roll.positive_means  bits 3", "roll.positive_means  bits 9"),
                          ("roll.state           bits 2", "roll.status          bits 2")):
-            self.change("tools/plc/can/can.def", old, new)
+            self.change("tools/apps/plc/can/can.def", old, new)
             self.fails("can.def: ", *self.check())
-            self.change("tools/plc/can/can.def", new, old)
+            self.change("tools/apps/plc/can/can.def", new, old)
 
     def test_state_renumbered(self):
         self.change("include/pose_wall.h", "POSE_WALL_DEGRADED = 2", "POSE_WALL_DEGRADED = 4")
         self.fails("FB_PoseWall.st is not what", *self.check())
 
     def test_block_edited_by_hand(self):
-        self.change("tools/plc/blocks.def", "tWatchdog : TIME := T#300ms", "tWatchdog : TIME := T#900ms")
+        self.change("tools/apps/plc/blocks.def", "tWatchdog : TIME := T#300ms", "tWatchdog : TIME := T#900ms")
         self.fails("FB_PoseWall.scl is not what", *self.check())
 
     def test_number_of_the_header_changed(self):
@@ -96,17 +96,19 @@ class Image(BrokenProject):
 
     def test_other_description(self):
         """Nothing but image.def knows where a member lies, and how many there are."""
-        self.change("tools/plc/image.def", "told_by         uint32", "spare uint32 | - | spare\ntold_by         uint32")
-        self.passes("python3", self.root / "tools/plc/generate.py", self.root)
+        self.change("tools/apps/plc/image.def", "told_by         uint32",
+                    "spare uint32 | - | spare\ntold_by         uint32")
+        self.passes("python3", self.root / "tools/apps/plc/generate.py", self.root)
         self.passes("python3", CHECKS / "plc_test.py", self.root)
 
     def test_other_description_of_the_stop(self):
-        self.change("tools/plc/image.def", "settings_crc32  bits", "spare uint32 | - | spare\nsettings_crc32  bits")
-        self.passes("python3", self.root / "tools/plc/generate.py", self.root)
+        self.change("tools/apps/plc/image.def", "settings_crc32  bits",
+                    "spare uint32 | - | spare\nsettings_crc32  bits")
+        self.passes("python3", self.root / "tools/apps/plc/generate.py", self.root)
         self.passes("python3", CHECKS / "plc_stop_test.py", self.root, "Text", "Functions", "Permission")
 
     def test_description_differs_from_the_pinned_layout(self):
-        self.change("tools/plc/image.def", "value_mm        int32", "value_mm        float")
+        self.change("tools/apps/plc/image.def", "value_mm        int32", "value_mm        float")
         self.fails("include/pose_wall.h is not what", *self.check())
         self.change("tests/checks/abi_layout.txt", "  verdict                           32", "  verdict     36")
         self.fails("does not hold what image.def says of pose_wall_image:", *self.check())

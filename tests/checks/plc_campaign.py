@@ -47,7 +47,7 @@ class Campaign:
     def __init__(self, root, compiler, folder):
         self.root, self.compiler, self.folder = pathlib.Path(root), compiler, pathlib.Path(folder)
         # FB_PoseWallMotion, which comes last, repeats some of these rules: plc_test.py has its own tests.
-        text = (self.root / "tools/plc/FB_PoseWall.st").read_text(encoding="utf-8")
+        text = (self.root / "tools/apps/plc/FB_PoseWall.st").read_text(encoding="utf-8")
         self.text = text[:text.index("(* Beside FB_PoseWall, with the motion image")]
 
     def run(self, text, cycles, seed):

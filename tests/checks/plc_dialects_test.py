@@ -19,7 +19,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 import structured_text  # noqa: E402  pylint: disable=wrong-import-position
 
-PLAIN, XML, SCL = (ROOT / f"tools/plc/FB_PoseWall.{ending}" for ending in ("st", "xml", "scl"))
+PLAIN, XML, SCL = (ROOT / f"tools/apps/plc/FB_PoseWall.{ending}" for ending in ("st", "xml", "scl"))
 PROGRAM = structured_text.Program(PLAIN.read_text(encoding="utf-8"))
 TC6 = "{http://www.plcopen.org/xml/tc6_0201}"
 XHTML = "{http://www.w3.org/1999/xhtml}xhtml"

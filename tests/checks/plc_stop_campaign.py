@@ -46,7 +46,7 @@ LACKING = {
 class Campaign:
     def __init__(self, root, compiler, folder):
         self.root, self.compiler, self.folder = pathlib.Path(root), compiler, pathlib.Path(folder)
-        text = (self.root / "tools/plc/FB_PoseWall.st").read_text(encoding="utf-8")
+        text = (self.root / "tools/apps/plc/FB_PoseWall.st").read_text(encoding="utf-8")
         at = text.index(BEGIN)
         self.before, self.block = text[:at], text[at:]
 

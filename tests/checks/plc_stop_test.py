@@ -16,13 +16,13 @@ import unittest
 
 sys.dont_write_bytecode = True  # the sources stay as they are
 ROOT = pathlib.Path(sys.argv.pop(1))
-sys.path[:0] = [str(ROOT / "tools/plc"), str(pathlib.Path(__file__).parent)]
+sys.path[:0] = [str(ROOT / "tools/apps/plc"), str(pathlib.Path(__file__).parent)]
 
 import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text_run  # noqa: E402  pylint: disable=wrong-import-position
 
-PROGRAM = structured_text.Program((ROOT / "tools/plc/FB_PoseWall.st").read_text(encoding="utf-8"))
+PROGRAM = structured_text.Program((ROOT / "tools/apps/plc/FB_PoseWall.st").read_text(encoding="utf-8"))
 HEADER = (ROOT / "include/pose_wall_planar_stop.h").read_text(encoding="utf-8")
 VERSION = 4
 ROWS = description.image_words(VERSION)
@@ -101,7 +101,7 @@ class Text(unittest.TestCase):
         self.assertEqual([name.rsplit("_", 1)[1] for name in states], ["STOP", "SLOW", "GO"])
 
     def test_the_page_names_every_word_and_every_bit(self):
-        page = (ROOT / "tools/plc/README.md").read_text(encoding="utf-8")
+        page = (ROOT / "tools/apps/plc/README.md").read_text(encoding="utf-8")
         for at, word in enumerate(ROWS):
             self.assertIn(f"| {at} | {4 * at} | `{word.path}` |", page)
         reasons = description.read_enum(HEADER, "pose_wall_planar_stop_reason")

@@ -17,13 +17,13 @@ import zlib
 
 sys.dont_write_bytecode = True  # the sources stay as they are
 ROOT = pathlib.Path(sys.argv.pop(1))
-sys.path[:0] = [str(ROOT / "tools/plc"), str(pathlib.Path(__file__).parent)]
+sys.path[:0] = [str(ROOT / "tools/apps/plc"), str(pathlib.Path(__file__).parent)]
 
 import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text  # noqa: E402  pylint: disable=wrong-import-position
 import structured_text_run  # noqa: E402  pylint: disable=wrong-import-position
 
-TEXT = (ROOT / "tools/plc/FB_PoseWall.st").read_text(encoding="utf-8")
+TEXT = (ROOT / "tools/apps/plc/FB_PoseWall.st").read_text(encoding="utf-8")
 HEADER = (ROOT / "include/pose_wall.h").read_text(encoding="utf-8")
 STRUCTS = description.read_structs()
 WORDS = {version: description.image_words(version, STRUCTS) for version in (1, 2)}
@@ -85,7 +85,7 @@ class Text(unittest.TestCase):
             self.assertEqual(constants[name].python, str(number))
 
     def test_readme_is_right_where_it_is_installed(self):
-        readme = (ROOT / "tools/plc/README.md").read_text(encoding="utf-8")
+        readme = (ROOT / "tools/apps/plc/README.md").read_text(encoding="utf-8")
         for link in re.findall(r"\]\(([^)]*)\)", readme):
             installed = link.startswith(("FB_PoseWall.", "#")) or link in ("controller.c", "can/README.md")
             self.assertTrue(installed, f"{link} is not installed")

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""Reads the part of IEC 61131-3 structured text that tools/plc uses: tokens, declarations, and statements turned into
-Python and into C. A name that is not declared, a type that is not known, a block that is not closed and kinds that are
-mixed (BOOL, DINT, UDINT, WORD, DWORD, TIME: nothing is converted unasked) are errors. A controller's scan is a call."""
+"""Reads the part of IEC 61131-3 structured text that tools/apps/plc uses: tokens, declarations, and statements turned
+into Python and into C. A name that is not declared, a type that is not known, a block that is not closed and kinds that
+are mixed (BOOL, DINT, UDINT, WORD, DWORD, TIME: nothing is converted unasked) are errors. A controller's scan is a
+call."""
 
 import collections
 import re

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <vector>
 
-#include "frames/load_frame.hpp"
+#include "io/frames/load_frame.hpp"
 
 namespace {
 

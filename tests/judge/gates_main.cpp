@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
-#include "campaign/gates_left_out.hpp"
-#include "explain/gate_list.hpp"
-#include "explain/traced_frame.hpp"
 #include "judge/court.hpp"
+#include "lab/campaign/gates_left_out.hpp"
+#include "study/explain/gate_list.hpp"
+#include "study/explain/traced_frame.hpp"
 
 namespace pose_wall::judge {
 namespace {

@@ -13,7 +13,7 @@
 #include "judge/court.hpp"
 #include "judge/surveyed.hpp"
 #include "judge/tally.hpp"
-#include "sim/survey_truth.hpp"
+#include "lab/sim/survey_truth.hpp"
 
 namespace pose_wall::judge {
 namespace {

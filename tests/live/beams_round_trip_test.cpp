@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "live/sensor_sim/packet_encoder.hpp"
-#include "packets/sensors.hpp"
-#include "sim/scenes.hpp"
+#include "apps/live/sensor_sim/packet_encoder.hpp"
+#include "io/packets/sensors.hpp"
+#include "lab/sim/scenes.hpp"
 #include "support/sim_run.hpp"
 
 namespace pose_wall::tools::live {
@@ -168,7 +168,7 @@ TEST(RoundTrip, TheSevenValuesOfARoadComeBackFromAnLslidarsPackets) {
     const sim::Simulator simulator(setup, 1);
     const Scan scan = decoded(setup.sensor, simulator.render(0));
     pose_wall_config config = test::config_with();
-    for (const sim::EngineSetting& setting : sim::find_sensor(name)->engine) {
+    for (const EngineSetting& setting : sim::find_sensor(name)->engine) {
       test::set(&config, setting.key.c_str(), setting.value.c_str());
     }
     test::EngineUnderTest engine(test::config_for(setup, config));

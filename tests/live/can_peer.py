@@ -22,7 +22,7 @@ import unittest
 
 sys.dont_write_bytecode = True  # the sources stay as they are
 ROOT, _, _, CAN_FRAMES, MODULES = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(5))
-sys.path[:0] = [str(ROOT / "tests/live"), str(ROOT / "tools/plc")]
+sys.path[:0] = [str(ROOT / "tests/live"), str(ROOT / "tools/apps/plc")]
 
 import can_description  # noqa: E402  pylint: disable=wrong-import-position
 import image_description as description  # noqa: E402  pylint: disable=wrong-import-position
@@ -75,7 +75,7 @@ def decoded(dbc, frames):
         os.symlink(MODULES, pathlib.Path(place) / "node_modules")
         script = pathlib.Path(place) / "dbc_reader.mjs"
         shutil.copy(ROOT / "tests/live/peer/dbc_reader.mjs", script)
-        done = subprocess.run(["node", script, ROOT / "tools/plc/can" / dbc], input="\n".join(frames),
+        done = subprocess.run(["node", script, ROOT / "tools/apps/plc/can" / dbc], input="\n".join(frames),
                               capture_output=True, text=True, check=True)
     return [json.loads(line) for line in done.stdout.splitlines()]
 

@@ -25,8 +25,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/live/can/can_sink.hpp"
 #include "can_images.h"
-#include "live/can/can_sink.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/said_stop.hpp"
 

@@ -199,7 +199,7 @@ class Service(Folder):
         if not shutil.which("systemd-analyze"):
             self.skipTest("no systemd-analyze here (package systemd)")
         unit = self.folder / "pose_walld.service"
-        text = (ROOT / "tools/live/pose_walld.service").read_text(encoding="utf-8")
+        text = (ROOT / "tools/apps/live/pose_walld.service").read_text(encoding="utf-8")
         unit.write_text(text.replace("/usr/bin/pose_walld", str(POSE_WALLD)), encoding="utf-8")
         done = subprocess.run(["systemd-analyze", "verify", str(unit)], capture_output=True, text=True, check=False)
         self.assertNotIn("Unknown", done.stderr)

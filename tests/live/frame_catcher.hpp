@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "live/source.hpp"
+#include "apps/live/source.hpp"
 
 namespace pose_wall::test {
 

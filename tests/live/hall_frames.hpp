@@ -12,8 +12,8 @@
 #include <memory>
 #include <vector>
 
-#include "frames/frame.hpp"
-#include "live/live_frame.hpp"
+#include "apps/live/live_frame.hpp"
+#include "io/frames/frame.hpp"
 
 namespace pose_wall::test {
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "live/log.hpp"
+#include "apps/live/log.hpp"
 
 namespace pose_wall::tools::live {
 namespace {

@@ -17,7 +17,7 @@
 #include <system_error>
 #include <vector>
 
-#include "frames/whole_file.hpp"
+#include "io/frames/whole_file.hpp"
 #include "live/synced_files.hpp"
 #include "tools/test_files.hpp"
 

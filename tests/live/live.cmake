@@ -45,7 +45,7 @@ if(POSE_WALL_HAS_LIVE_ros1)
   pose_wall_live_peer(ros1 ${POSE_WALL_NODE_MODULES})
 endif()
 add_test(NAME live.ros_types_are_generated
-  COMMAND ${POSE_WALL_PEER_PYTHON} ${PROJECT_SOURCE_DIR}/tools/live/ros_messages/generate_types.py --check)
+  COMMAND ${POSE_WALL_PEER_PYTHON} ${PROJECT_SOURCE_DIR}/tools/apps/live/ros_messages/generate_types.py --check)
 set_tests_properties(live.ros_types_are_generated PROPERTIES LABELS live SKIP_RETURN_CODE 77)
 add_custom_target(pose_wall_live_peers)  # what tools/test_live.sh builds of them
 if(POSE_WALL_HAS_LIVE_ros2)

@@ -11,9 +11,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "live/edges.hpp"
+#include "apps/live/edges.hpp"
+#include "apps/live/live_runtime.hpp"
 #include "live/frame_catcher.hpp"
-#include "live/live_runtime.hpp"
 #include "tools/test_files.hpp"
 
 namespace pose_wall::tools::live {

@@ -8,8 +8,8 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "config_file/load_config.hpp"
-#include "packets/sensors.hpp"
+#include "io/config_file/load_config.hpp"
+#include "io/packets/sensors.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -6,7 +6,7 @@
 
 #ifdef POSE_WALL_LIVE_HAS_ROS1
 
-#include "live/ros1/master_line.hpp"
+#include "apps/live/ros1/master_line.hpp"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>

@@ -19,7 +19,7 @@ import zlib
 
 sys.dont_write_bytecode = True  # the sources stay as they are
 ROOT, POSE_WALL, POSE_WALLD = pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1), sys.argv.pop(1)
-sys.path[:0] = [str(ROOT / "tests/live"), str(ROOT / "tests/checks"), str(ROOT / "tools/plc")]
+sys.path[:0] = [str(ROOT / "tests/live"), str(ROOT / "tests/checks"), str(ROOT / "tools/apps/plc")]
 
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
@@ -95,7 +95,7 @@ class Modbus(unittest.TestCase):
         self.assertGreater(len(sequences), 5)
 
     def test_the_structured_text_decodes_what_was_read(self):
-        program = structured_text.Program((ROOT / "tools/plc/FB_PoseWall.st").read_text(encoding="utf-8"))
+        program = structured_text.Program((ROOT / "tools/apps/plc/FB_PoseWall.st").read_text(encoding="utf-8"))
         controller = structured_text_run.Controller(program)
         block = controller.make("FB_PoseWall")
         client = self.client()
@@ -182,7 +182,7 @@ class ObstacleStop(unittest.TestCase):
         client = ModbusTcpClient("127.0.0.1", port=port)
         self.assertTrue(client.connect())
         self.addCleanup(client.close)
-        program = structured_text.Program((ROOT / "tools/plc/FB_PoseWall.st").read_text(encoding="utf-8"))
+        program = structured_text.Program((ROOT / "tools/apps/plc/FB_PoseWall.st").read_text(encoding="utf-8"))
         controller = structured_text_run.Controller(program)
         block = controller.make("FB_PoseWallStop")
         self.assertTrue(daemon.says("settings' CRC: 16#"), daemon.log())

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "live/edges.hpp"
+#include "apps/live/edges.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/loopback.hpp"
 #include "live/said_stop.hpp"

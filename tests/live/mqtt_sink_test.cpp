@@ -9,7 +9,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "live/edges.hpp"
+#include "apps/live/edges.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/loopback.hpp"
 

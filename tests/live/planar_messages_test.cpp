@@ -4,16 +4,16 @@
 // Proves: scan, map, place and stop as messages, byte for byte or field by field as ROS defines them, under the sums
 // and hashes by which other nodes know the types. Transforms form one tree, and that from the map leads to the place.
 
-#include "live/ros_messages/planar_messages.hpp"
+#include "apps/live/ros_messages/planar_messages.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 
-#include "bags/message_cursor.hpp"
+#include "io/bags/message_cursor.hpp"
 #include "live/tf_message.hpp"
-#include "planar/plane_pose.hpp"
+#include "study/planar/plane_pose.hpp"
 
 namespace pose_wall::tools::live {
 namespace {

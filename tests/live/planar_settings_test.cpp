@@ -5,13 +5,13 @@
 // the library takes, and what has no key keeps the library's default. The stop's times follow from the machine's
 // latency and the sensor's period. Rules over several keys name them.
 
-#include "config_file/planar_settings.hpp"
+#include "io/config_file/planar_settings.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "config_file/load_config.hpp"
+#include "io/config_file/load_config.hpp"
 
 namespace pose_wall::tools {
 namespace {

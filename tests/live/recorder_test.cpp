@@ -15,13 +15,13 @@
 #include <random>
 #include <set>
 
-#include "bags/open_bag.hpp"
-#include "box/box_replay.hpp"
-#include "live/edges.hpp"
+#include "apps/live/edges.hpp"
+#include "apps/live/live_runtime.hpp"
+#include "apps/live/recorder/bounded_folder.hpp"
+#include "apps/live/recorder/mcap_writer.hpp"
+#include "io/bags/open_bag.hpp"
+#include "io/box/box_replay.hpp"
 #include "live/frame_catcher.hpp"
-#include "live/live_runtime.hpp"
-#include "live/recorder/bounded_folder.hpp"
-#include "live/recorder/mcap_writer.hpp"
 #include "tools/test_files.hpp"
 
 namespace pose_wall::tools::live {

@@ -6,7 +6,7 @@
 // in silence and with odometry of another run nothing is made up. Maps that cannot be read are named. A map whose
 // earlier poses moved is built anew.
 
-#include "live/planar/roadway_sink.hpp"
+#include "apps/live/planar/roadway_sink.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +18,12 @@
 #include <iterator>
 #include <thread>
 
-#include "frames/whole_file.hpp"
+#include "apps/live/planar/live_map.hpp"
+#include "io/frames/whole_file.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/hall_frames.hpp"
-#include "live/planar/live_map.hpp"
 #include "live/synced_files.hpp"
-#include "planar/plane_pose.hpp"
+#include "study/planar/plane_pose.hpp"
 #include "tools/test_files.hpp"
 
 namespace pose_wall::tools::live {

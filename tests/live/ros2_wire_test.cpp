@@ -12,13 +12,13 @@
 #include <map>
 #include <stdexcept>
 
-#include "live/ros2/environment.hpp"
-#include "live/ros2/graph_message.hpp"
-#include "live/ros2/qos_match.hpp"
-#include "live/ros2/ros2_node.hpp"
-#include "live/ros2/ros2_source.hpp"
+#include "apps/live/ros2/environment.hpp"
+#include "apps/live/ros2/graph_message.hpp"
+#include "apps/live/ros2/qos_match.hpp"
+#include "apps/live/ros2/ros2_node.hpp"
+#include "apps/live/ros2/ros2_source.hpp"
+#include "apps/live/ros_messages/ros_messages.hpp"
 #include "live/ros2_golden.hpp"
-#include "live/ros_messages/ros_messages.hpp"
 
 namespace pose_wall::tools::live {
 namespace {

@@ -4,15 +4,15 @@
 // Proves: a result as messages, read field by field as the definitions have them. What is invalid is NaN, and held
 // values are as they are told. The levelled frame comes only where it was measured, and turns the way the header says.
 
-#include "live/ros_messages/ros_messages.hpp"
+#include "apps/live/ros_messages/ros_messages.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "bags/message_cursor.hpp"
-#include "bags/point_cloud2.hpp"
+#include "io/bags/message_cursor.hpp"
+#include "io/bags/point_cloud2.hpp"
 #include "live/tf_message.hpp"
 
 namespace pose_wall::tools::live {

@@ -5,13 +5,13 @@
 // thrown. Of two sensors on one topic none is taken for the other. The extrinsic is told when it is known, and when it
 // is gone.
 
-#include "live/ros_messages/ros_reader.hpp"
+#include "apps/live/ros_messages/ros_reader.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bags/message_writer.hpp"
+#include "io/bags/message_writer.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/tf_message.hpp"
 

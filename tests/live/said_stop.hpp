@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <mutex>
 
-#include "live/planar/planar_news.hpp"
-#include "planar/part_block.hpp"
+#include "apps/live/planar/planar_news.hpp"
+#include "study/planar/part_block.hpp"
 
 namespace pose_wall::test {
 

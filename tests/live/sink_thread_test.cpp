@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/live/sink_thread.hpp"
 #include "live/frame_catcher.hpp"
-#include "live/sink_thread.hpp"
 
 namespace pose_wall::tools::live {
 namespace {

@@ -8,7 +8,7 @@
 // to fall. A look counts while frames come. Measured motion of a machine that may stand is straight ahead. The
 // sensor's stamps are placed on the daemon's clock: late frames count as old, also after a long silence.
 
-#include "live/planar/stop_guard.hpp"
+#include "apps/live/planar/stop_guard.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include <chrono>
 #include <thread>
 
-#include "live/clocks.hpp"
+#include "apps/live/clocks.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/hall_frames.hpp"
 
@@ -168,8 +168,8 @@ TEST_F(StopGuardTest, AnEndInOrderSaysStopAsItsLastWord) {
   EXPECT_NE(told().back()->result.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
 }
 
-// FB_PoseWallStop (tools/plc) takes 200 ms of the same heartbeat for silence, and 33 beats more between two reads for a
-// gap.
+// FB_PoseWallStop (tools/apps/plc) takes 200 ms of the same heartbeat for silence, and 33 beats more between two reads
+// for a gap.
 TEST_F(StopGuardTest, TheHeartbeatGoesOnWithinAControllersWatchdogAndDoesNotSeemToFall) {
   ASSERT_TRUE(is_brought_to_drive());
   // Waits for 50 beats, a second's on a machine that is idle, with so many frames between them. How many there may be

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bags/message_writer.hpp"
+#include "io/bags/message_writer.hpp"
 
 namespace pose_wall::test {
 

@@ -5,7 +5,7 @@
 // soon as they are good again. A single broken scan changes nothing. Clouds without times are doubted only while the
 // machine surely moves.
 
-#include "live/times_watch.hpp"
+#include "apps/live/times_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // Proves: where the sensor stands by /tf and /tf_static, against answers worked out by hand and against tf2. Nothing is
 // told by links that are missing, old, rings or no rotations. Other machines' links do not matter.
 
-#include "live/ros_messages/transform_tree.hpp"
+#include "apps/live/ros_messages/transform_tree.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,8 +14,8 @@
 #include <memory>
 #include <vector>
 
+#include "lab/sim/drive_route.hpp"
 #include "pose_wall_planar_slam.h"
-#include "sim/drive_route.hpp"
 
 namespace pose_wall::planar_test {
 

@@ -15,12 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "lab/sim/drive_route.hpp"
+#include "lab/sim/network.hpp"
+#include "lab/sim/network_scan.hpp"
+#include "lab/sim/random.hpp"
 #include "planar/localise/localiser.hpp"
 #include "planar/slam/slam.hpp"
-#include "sim/drive_route.hpp"
-#include "sim/network.hpp"
-#include "sim/network_scan.hpp"
-#include "sim/random.hpp"
 
 namespace pose_wall::planar::test {
 

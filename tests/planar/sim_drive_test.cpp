@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "sim/drive_route.hpp"
+#include "lab/sim/drive_route.hpp"
 
 namespace pose_wall::tools::sim::drive_test {
 namespace {

@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include "sim/network.hpp"
-#include "sim/network_people.hpp"
-#include "sim/network_scan.hpp"
-#include "sim/random.hpp"
-#include "sim/sensors.hpp"
+#include "lab/sim/network.hpp"
+#include "lab/sim/network_people.hpp"
+#include "lab/sim/network_scan.hpp"
+#include "lab/sim/random.hpp"
+#include "lab/sim/sensors.hpp"
 
 namespace pose_wall::tools::sim::network_test {
 namespace {

@@ -16,7 +16,7 @@ from support import ROOT, pose_wall, scratch
 
 from pose_wall import _abi, _library  # pylint: disable=wrong-import-order
 
-GENERATOR = ROOT / "tools/python/generate.py"
+GENERATOR = ROOT / "tools/apps/python/generate.py"
 
 
 def layout_of(struct):
@@ -98,7 +98,7 @@ class Generator(unittest.TestCase):
     def setUp(self):
         self.root = scratch() / self.id()
         for path in ("include/pose_wall.h", "include/pose_wall_motion.h", "include/pose_wall_runtime.h",
-                     "include/pose_wall_motion_settings.def", "tools/python/src/pose_wall/_abi.py"):
+                     "include/pose_wall_motion_settings.def", "tools/apps/python/src/pose_wall/_abi.py"):
             (self.root / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / path, self.root / path)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""`pip install ./tools/python` in an environment of its own, as a user of Debian does without a network. The example
-runs there, with and without matplotlib, and so does the README's quick start by copy and paste. The objects of this
-build are taken. With POSE_WALL_TEST_PIP_ALONE=1 pip has CMake build everything, which takes minutes."""
+"""`pip install ./tools/apps/python` in an environment of its own, as a user of Debian does without a network. The
+example runs there, with and without matplotlib, and so does the README's quick start by copy and paste. The objects of
+this build are taken. With POSE_WALL_TEST_PIP_ALONE=1 pip has CMake build everything, which takes minutes."""
 
 import functools
 import importlib.util
@@ -16,7 +16,7 @@ import unittest
 
 from support import COMMAND, ROOT, np, road, scratch, needs_command
 
-HERE = ROOT / "tools/python"
+HERE = ROOT / "tools/apps/python"
 
 
 def run(words, **more):
@@ -66,7 +66,7 @@ class Pip(unittest.TestCase):
         installed()
         if not shutil.which("git"):
             self.skipTest("git is not installed")
-        status, text = run(["git", "-C", ROOT, "status", "--porcelain", "--ignored", "tools/python"])
+        status, text = run(["git", "-C", ROOT, "status", "--porcelain", "--ignored", "tools/apps/python"])
         if status != 0:
             self.skipTest("no git repository")
         made = [line for line in text.splitlines() if line.startswith(("??", "!!"))]
@@ -75,7 +75,7 @@ class Pip(unittest.TestCase):
     def test_without_its_library_it_says_what_to_do(self):
         status, text = run([sys.executable, "-c", "import pose_wall"], env=environment(PYTHONPATH=str(HERE / "src")))
         self.assertEqual(status, 1)
-        self.assertIn("pip install ./tools/python", text)
+        self.assertIn("pip install ./tools/apps/python", text)
 
     @needs_command
     def test_the_example_simulates_and_plots(self):

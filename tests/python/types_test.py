@@ -22,7 +22,7 @@ class Types(unittest.TestCase):
     def mypy(self, *words):
         done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", scratch() / "mypy", *words],
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
-                              cwd=ROOT / "tools/python/src")
+                              cwd=ROOT / "tools/apps/python/src")
         return done.returncode, done.stdout
 
     def test_of_the_package(self):

@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "frames/bare_layout_guess.hpp"
-#include "frames/load_frame.hpp"
+#include "io/frames/bare_layout_guess.hpp"
+#include "io/frames/load_frame.hpp"
 #include "support/real_frames.hpp"
 
 namespace pose_wall::test {

@@ -14,7 +14,7 @@
 #include <initializer_list>
 #include <random>
 
-#include "config_file/load_config.hpp"
+#include "io/config_file/load_config.hpp"
 #include "support/clouds.hpp"
 #include "support/real_frames.hpp"
 

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "config_file/load_config.hpp"
+#include "io/config_file/load_config.hpp"
 #include "support/real_frames.hpp"
 
 namespace pose_wall::test {

@@ -7,7 +7,7 @@
 
 #include <utility>
 
-#include "config_file/load_config.hpp"
+#include "io/config_file/load_config.hpp"
 #include "support/real_frames.hpp"
 
 namespace pose_wall::test {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "config_file/load_config.hpp"
+#include "io/config_file/load_config.hpp"
 #include "support/real_frames.hpp"
 
 namespace pose_wall::test {

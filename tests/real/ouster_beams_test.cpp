@@ -12,8 +12,8 @@
 #include <optional>
 #include <string>
 
-#include "beams/beam_table.hpp"
-#include "packets/ouster_metadata.hpp"
+#include "io/beams/beam_table.hpp"
+#include "io/packets/ouster_metadata.hpp"
 #include "support/real_frames.hpp"
 
 namespace pose_wall::test {

@@ -14,11 +14,11 @@
 #include <optional>
 #include <vector>
 
-#include "doctor/recording.hpp"
-#include "frames/point_position.hpp"
-#include "frames/told_rings.hpp"
-#include "info/sensor_look.hpp"
-#include "inputs/frame_sequence.hpp"
+#include "io/frames/point_position.hpp"
+#include "io/frames/told_rings.hpp"
+#include "io/inputs/frame_sequence.hpp"
+#include "study/doctor/recording.hpp"
+#include "study/info/sensor_look.hpp"
 #include "support/real_frames.hpp"
 
 namespace pose_wall::test {

@@ -20,10 +20,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "frames/field_value.hpp"
-#include "frames/point_position.hpp"
-#include "inputs/frame_sequence.hpp"
-#include "packets/hesai_models.hpp"
+#include "io/frames/field_value.hpp"
+#include "io/frames/point_position.hpp"
+#include "io/inputs/frame_sequence.hpp"
+#include "io/packets/hesai_models.hpp"
 #include "support/real_frames.hpp"
 
 namespace pose_wall::test {

@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-#include "soak/heap_count.hpp"
+#include "apps/soak/heap_count.hpp"
 #include "support/runtime_under_test.hpp"
 
 namespace pose_wall::test {

@@ -4,7 +4,7 @@
 // Proves: what a soak calls good. Each fault makes it fail, and what could not be looked at makes it unknown; every way
 // to ask the heap is counted. That pose_wall_soak runs at all is the entry runtime.soak.
 
-#include "soak/soak_outcome.hpp"
+#include "apps/soak/soak_outcome.hpp"
 
 #include <gtest/gtest.h>
 #include <malloc.h>

@@ -9,8 +9,8 @@
 
 #include <cmath>
 
+#include "study/truth/efficiency.hpp"
 #include "support/sim_run.hpp"
-#include "truth/efficiency.hpp"
 
 namespace pose_wall::test {
 namespace {

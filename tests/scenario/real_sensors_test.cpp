@@ -50,7 +50,7 @@ class RealSensor : public ::testing::TestWithParam<std::string> {};
 TEST_P(RealSensor, IsValidBetweenNearWallsAtAnyHeight) {
   const sim::SensorModel& model = *sim::find_sensor(GetParam());
   pose_wall_config config = config_with();
-  for (const sim::EngineSetting& setting : model.engine) set(&config, setting.key.c_str(), setting.value.c_str());
+  for (const tools::EngineSetting& setting : model.engine) set(&config, setting.key.c_str(), setting.value.c_str());
   for (const double wall_m : kWallsAway_m) {
     for (const double height_m : kSensorHeights_m) {
       sim::SceneSetup setup = sim::make_setup("clean", GetParam(), false, 1);

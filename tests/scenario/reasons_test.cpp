@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/parameters.hpp"
+#include "lab/sim/parameters.hpp"
 #include "support/sim_run.hpp"
 
 namespace pose_wall::test {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/parameters.hpp"
+#include "lab/sim/parameters.hpp"
 #include "support/sim_run.hpp"
 
 namespace pose_wall::test {

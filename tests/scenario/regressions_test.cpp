@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-#include "sim/parameters.hpp"
+#include "lab/sim/parameters.hpp"
 #include "support/sim_run.hpp"
 
 namespace pose_wall::test {

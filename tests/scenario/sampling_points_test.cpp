@@ -12,7 +12,7 @@
 #include <ostream>
 #include <vector>
 
-#include "sim/parameters.hpp"
+#include "lab/sim/parameters.hpp"
 #include "support/sim_run.hpp"
 
 namespace pose_wall::test {

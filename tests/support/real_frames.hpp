@@ -14,9 +14,9 @@
 #include <map>
 #include <string>
 
-#include "angles.hpp"
-#include "csv/csv_table.hpp"
-#include "frames/load_frame.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/frames/load_frame.hpp"
+#include "io/numbers/angles.hpp"
 #include "support/engine_under_test.hpp"
 
 namespace pose_wall::test {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "angles.hpp"
-#include "sim/machine_body.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
+#include "io/numbers/angles.hpp"
+#include "lab/sim/machine_body.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
 #include "support/clouds.hpp"
 #include "support/engine_under_test.hpp"
 

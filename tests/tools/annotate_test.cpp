@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "frames/load_frame.hpp"
-#include "frames/point_position.hpp"
+#include "io/frames/load_frame.hpp"
+#include "io/frames/point_position.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

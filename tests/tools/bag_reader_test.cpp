@@ -20,7 +20,7 @@
 #include <random>
 
 #include "bag_files.hpp"
-#include "inputs/frame_sequence.hpp"
+#include "io/inputs/frame_sequence.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "bag_files.hpp"
-#include "inputs/frame_sequence.hpp"
+#include "io/inputs/frame_sequence.hpp"
 #include "ran_command.hpp"
 
 namespace pose_wall::tools {

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "frames/bare_layout_guess.hpp"
-#include "frames/load_frame.hpp"
-#include "inputs/frame_sequence.hpp"
+#include "io/frames/bare_layout_guess.hpp"
+#include "io/frames/load_frame.hpp"
+#include "io/inputs/frame_sequence.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

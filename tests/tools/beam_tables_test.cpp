@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "beams/beam_table.hpp"
+#include "io/beams/beam_table.hpp"
 
 namespace pose_wall::tools {
 namespace {

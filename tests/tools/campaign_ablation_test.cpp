@@ -10,9 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "campaign/ablation.hpp"
 #include "campaign_tables.hpp"
-#include "explain/gate_list.hpp"
+#include "lab/campaign/ablation.hpp"
+#include "study/explain/gate_list.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -4,7 +4,7 @@
 // Proves: the card counts and averages what hand-made records hold, and finds the worst events and the times of an
 // event. Does not prove: that real records are right.
 
-#include "campaign/card.hpp"
+#include "lab/campaign/card.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,11 +12,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "campaign/card_files.hpp"
-#include "campaign/card_words.hpp"
-#include "campaign/rate_bound.hpp"
-#include "campaign/recipe.hpp"
 #include "campaign_records.hpp"
+#include "lab/campaign/card_files.hpp"
+#include "lab/campaign/card_words.hpp"
+#include "lab/campaign/rate_bound.hpp"
+#include "lab/campaign/recipe.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {

@@ -11,15 +11,15 @@
 #include <limits>
 #include <map>
 
-#include "campaign/card_files.hpp"
-#include "campaign/card_words.hpp"
-#include "campaign/command_words.hpp"
-#include "campaign/folder.hpp"
-#include "campaign/part.hpp"
-#include "campaign/recipe.hpp"
 #include "campaign_records.hpp"
-#include "csv/csv_table.hpp"
 #include "event_command.hpp"
+#include "io/csv/csv_table.hpp"
+#include "lab/campaign/card_files.hpp"
+#include "lab/campaign/card_words.hpp"
+#include "lab/campaign/command_words.hpp"
+#include "lab/campaign/folder.hpp"
+#include "lab/campaign/part.hpp"
+#include "lab/campaign/recipe.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

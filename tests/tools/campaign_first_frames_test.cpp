@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "campaign/card_files.hpp"
-#include "campaign/gate.hpp"
 #include "campaign_records.hpp"
+#include "lab/campaign/card_files.hpp"
+#include "lab/campaign/gate.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::campaign {

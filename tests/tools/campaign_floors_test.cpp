@@ -12,11 +12,11 @@
 #include <sstream>
 #include <utility>
 
-#include "campaign/card_sections.hpp"
-#include "campaign/level_curve.hpp"
-#include "campaign/valid_floors.hpp"
 #include "campaign_records.hpp"
-#include "sim/sensors.hpp"
+#include "lab/campaign/card_sections.hpp"
+#include "lab/campaign/level_curve.hpp"
+#include "lab/campaign/valid_floors.hpp"
+#include "lab/sim/sensors.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {

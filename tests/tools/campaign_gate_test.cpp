@@ -3,7 +3,7 @@
 
 // Proves: the gate lets a flawless campaign pass and names each demand that a doctored one breaks.
 
-#include "campaign/gate.hpp"
+#include "lab/campaign/gate.hpp"
 #include "test_files.hpp"
 
 #include <gtest/gtest.h>

@@ -11,16 +11,16 @@
 #include <limits>
 #include <string>
 
-#include "campaign/card_files.hpp"
-#include "campaign/card_sections.hpp"
-#include "campaign/gate.hpp"
-#include "campaign/plan.hpp"
-#include "campaign/runner.hpp"
 #include "campaign_records.hpp"
-#include "motion/moving_engine.hpp"
+#include "lab/campaign/card_files.hpp"
+#include "lab/campaign/card_sections.hpp"
+#include "lab/campaign/gate.hpp"
+#include "lab/campaign/plan.hpp"
+#include "lab/campaign/runner.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
 #include "ran_command.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
+#include "study/motion/moving_engine.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::test {

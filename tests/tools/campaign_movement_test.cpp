@@ -5,7 +5,7 @@
 // scene has, and its scans are bent while the truth stays that of the stamp. All of it depends on the run alone, stands
 // in its record, and `pose_wall sim` repeats it. Does not prove: that real machines move like this.
 
-#include "campaign/movement.hpp"
+#include "lab/campaign/movement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,17 +16,17 @@
 #include <string>
 #include <vector>
 
-#include "campaign/event.hpp"
-#include "campaign/folder.hpp"
-#include "campaign/manifest.hpp"
-#include "campaign/plan.hpp"
-#include "campaign/runner.hpp"
-#include "config_file/key_table.hpp"
+#include "io/config_file/key_table.hpp"
+#include "lab/campaign/event.hpp"
+#include "lab/campaign/folder.hpp"
+#include "lab/campaign/manifest.hpp"
+#include "lab/campaign/plan.hpp"
+#include "lab/campaign/runner.hpp"
+#include "lab/sim/check_setup.hpp"
+#include "lab/sim/run_files.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
 #include "ran_command.hpp"
-#include "sim/check_setup.hpp"
-#include "sim/run_files.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::campaign {

@@ -4,7 +4,7 @@
 // Proves: the parts of a campaign have each run once and cost about the same, merged they are to the byte what one run
 // leaves, and what is no whole campaign is refused by name. Does not prove: that machines compute the same.
 
-#include "campaign/part.hpp"
+#include "lab/campaign/part.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "campaign/plan.hpp"
-#include "csv/csv_table.hpp"
+#include "io/csv/csv_table.hpp"
+#include "lab/campaign/plan.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

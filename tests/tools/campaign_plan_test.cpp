@@ -4,7 +4,7 @@
 // Proves: a campaign's plan is the same each time, holds each scene's event and its recovery, and sparse sensors are
 // run with the shipped settings. Does not prove: that the sizes suffice.
 
-#include "campaign/plan.hpp"
+#include "lab/campaign/plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,12 +13,12 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "campaign/event.hpp"
-#include "campaign/manifest.hpp"
-#include "config_file/key_table.hpp"
-#include "config_file/load_config.hpp"
-#include "sim/scenes.hpp"
-#include "sim/sensors.hpp"
+#include "io/config_file/key_table.hpp"
+#include "io/config_file/load_config.hpp"
+#include "lab/campaign/event.hpp"
+#include "lab/campaign/manifest.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/sensors.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -167,7 +167,7 @@ TEST(CampaignPlan, NominalScenesAreDrawnMoreOften) {
 // An engine for a simulated sensor.
 LoadedConfig engine_for(const sim::SensorModel& sensor) {
   std::vector<std::string> settings;
-  for (const sim::EngineSetting& s : sensor.engine) settings.push_back(s.key + "=" + s.value);
+  for (const EngineSetting& s : sensor.engine) settings.push_back(s.key + "=" + s.value);
   settings.push_back("floor_region_min=" + std::to_string(sensor.sensor.floor_from_m));
   settings.push_back("floor_region_max=" + std::to_string(sensor.sensor.floor_to_m));
   return load_config("", settings);

@@ -4,15 +4,15 @@
 // Proves: the command that the card gives for an event, typed as it stands, measures its frame once more with the very
 // same values, settings of the campaign included. Does not prove: that the card lists the right events.
 
-#include "campaign/recipe.hpp"
+#include "lab/campaign/recipe.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "csv/csv_table.hpp"
 #include "event_command.hpp"
+#include "io/csv/csv_table.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "campaign/card.hpp"
-#include "campaign/record.hpp"
+#include "lab/campaign/card.hpp"
+#include "lab/campaign/record.hpp"
 
 namespace pose_wall::tools::test {
 

@@ -14,8 +14,8 @@
 #include <iterator>
 #include <thread>
 
-#include "campaign/folder.hpp"
-#include "frames/whole_file.hpp"
+#include "io/frames/whole_file.hpp"
+#include "lab/campaign/folder.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

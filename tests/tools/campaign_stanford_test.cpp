@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "picture/stanford_diagram.hpp"
+#include "io/picture/stanford_diagram.hpp"
 
 namespace pose_wall::tools::picture {
 namespace {

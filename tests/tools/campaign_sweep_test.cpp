@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "campaign_tables.hpp"
-#include "explain/gate_list.hpp"
-#include "explain/traced_frame.hpp"
 #include "ran_command.hpp"
+#include "study/explain/gate_list.hpp"
+#include "study/explain/traced_frame.hpp"
 #include "support/sim_run.hpp"
 #include "test_files.hpp"
 

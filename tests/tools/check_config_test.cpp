@@ -9,13 +9,13 @@
 #include <sstream>
 #include <string>
 
-#include "config_file/key_table.hpp"
-#include "config_file/live_settings.hpp"
-#include "config_file/motion_settings.hpp"
-#include "config_file/planar_settings.hpp"
-#include "language/language.hpp"
+#include "io/config_file/key_table.hpp"
+#include "io/config_file/live_settings.hpp"
+#include "io/config_file/motion_settings.hpp"
+#include "io/config_file/planar_settings.hpp"
+#include "io/language/language.hpp"
+#include "io/terminal/text_table.hpp"
 #include "ran_command.hpp"
-#include "terminal/text_table.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -10,9 +10,9 @@
 #include <initializer_list>
 #include <vector>
 
-#include "csv/csv_table.hpp"
+#include "io/csv/csv_table.hpp"
 #include "ran_command.hpp"
-#include "results/result_csv.hpp"
+#include "study/results/result_csv.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -3,7 +3,7 @@
 
 // Proves: errors against truth are computed as their names say, angles wrapped, and tables that do not fit are refused.
 
-#include "truth/comparison.hpp"
+#include "study/truth/comparison.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <limits>
 #include <sstream>
 
-#include "quantile.hpp"
+#include "io/numbers/quantile.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "config_file/config_place.hpp"
-#include "config_file/load_config.hpp"
+#include "io/config_file/config_place.hpp"
+#include "io/config_file/load_config.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

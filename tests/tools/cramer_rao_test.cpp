@@ -5,7 +5,7 @@
 // same points reaches it, and which points count. Does not prove: that the engine reaches it
 // (scenario/clean_efficiency).
 
-#include "truth/cramer_rao.hpp"
+#include "study/truth/cramer_rao.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,17 +15,17 @@
 #include <string>
 #include <vector>
 
-#include "angles.hpp"
-#include "doctor/diagnosis.hpp"
-#include "doctor/diagnosis_output.hpp"
-#include "doctor/preview.hpp"
-#include "doctor/trial.hpp"
-#include "language/language.hpp"
-#include "sim/parameters.hpp"
-#include "sim/scenes.hpp"
-#include "sim/sensors.hpp"
-#include "sim/simulator.hpp"
-#include "terminal/text_table.hpp"
+#include "io/language/language.hpp"
+#include "io/numbers/angles.hpp"
+#include "io/terminal/text_table.hpp"
+#include "lab/sim/parameters.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/sensors.hpp"
+#include "lab/sim/simulator.hpp"
+#include "study/doctor/diagnosis.hpp"
+#include "study/doctor/diagnosis_output.hpp"
+#include "study/doctor/preview.hpp"
+#include "study/doctor/trial.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

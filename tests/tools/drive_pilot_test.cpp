@@ -10,11 +10,11 @@
 #include <cmath>
 #include <string>
 
-#include "drive/pilot.hpp"
 #include "english_left.hpp"
-#include "planar/plane_pose.hpp"
-#include "planar/stop_reasons.hpp"
-#include "sim/network_people.hpp"
+#include "lab/drive/pilot.hpp"
+#include "lab/sim/network_people.hpp"
+#include "study/planar/plane_pose.hpp"
+#include "study/planar/stop_reasons.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -13,12 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "drive/story.hpp"
-#include "drive/story_files.hpp"
 #include "english_left.hpp"
-#include "planar/plane_pose.hpp"
+#include "lab/drive/story.hpp"
+#include "lab/drive/story_files.hpp"
+#include "lab/sim/network_kinds.hpp"
 #include "ran_command.hpp"
-#include "sim/network_kinds.hpp"
+#include "study/planar/plane_pose.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "campaign/runner.hpp"
-#include "motion/moving_engine.hpp"
-#include "sim/parameters.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
+#include "lab/campaign/runner.hpp"
+#include "lab/sim/parameters.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
+#include "study/motion/moving_engine.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -8,7 +8,7 @@
 #include <regex>
 #include <string>
 
-#include "language/language.hpp"
+#include "io/language/language.hpp"
 
 namespace pose_wall::tools::test {
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "campaign/folder.hpp"
-#include "campaign/record.hpp"
+#include "lab/campaign/folder.hpp"
+#include "lab/campaign/record.hpp"
 #include "ran_command.hpp"
 
 namespace pose_wall::tools::test {

@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "english_left.hpp"
-#include "explain/gate_list.hpp"
-#include "explain/gate_list_texts.hpp"
-#include "explain/gate_words.hpp"
-#include "explain/outcome_words.hpp"
-#include "explain/prose.hpp"
-#include "explain/story.hpp"
-#include "language/engine_words.hpp"
+#include "io/language/engine_words.hpp"
 #include "pose_wall.hpp"
 #include "ran_command.hpp"
+#include "study/explain/gate_list.hpp"
+#include "study/explain/gate_list_texts.hpp"
+#include "study/explain/gate_words.hpp"
+#include "study/explain/outcome_words.hpp"
+#include "study/explain/prose.hpp"
+#include "study/explain/story.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {

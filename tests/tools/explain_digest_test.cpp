@@ -17,10 +17,10 @@
 #include "bag_files.hpp"
 #include "crafted_value.hpp"
 #include "english_left.hpp"
-#include "explain/digest.hpp"
-#include "explain/digest_text.hpp"
 #include "pose_wall.hpp"
 #include "ran_command.hpp"
+#include "study/explain/digest.hpp"
+#include "study/explain/digest_text.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::explain {

@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "english_left.hpp"
-#include "explain/candidate_words.hpp"
-#include "explain/explanation.hpp"
-#include "explain/explanation_text.hpp"
-#include "explain/gate_words.hpp"
 #include "pose_wall.hpp"
 #include "ran_command.hpp"
+#include "study/explain/candidate_words.hpp"
+#include "study/explain/explanation.hpp"
+#include "study/explain/explanation_text.hpp"
+#include "study/explain/gate_words.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::explain {

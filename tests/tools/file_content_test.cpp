@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bag_files.hpp"
-#include "frames/file_content.hpp"
-#include "inputs/frame_sequence.hpp"
+#include "io/frames/file_content.hpp"
+#include "io/inputs/frame_sequence.hpp"
 #include "packet_files.hpp"
 #include "test_files.hpp"
 

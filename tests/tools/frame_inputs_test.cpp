@@ -10,12 +10,12 @@
 #include <cstring>
 #include <limits>
 
-#include "frames/file_source.hpp"
-#include "frames/frame_stamps.hpp"
-#include "frames/input_list.hpp"
-#include "frames/load_frame.hpp"
-#include "frames/natural_order.hpp"
-#include "frames/pcd_writer.hpp"
+#include "io/frames/file_source.hpp"
+#include "io/frames/frame_stamps.hpp"
+#include "io/frames/input_list.hpp"
+#include "io/frames/load_frame.hpp"
+#include "io/frames/natural_order.hpp"
+#include "io/frames/pcd_writer.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

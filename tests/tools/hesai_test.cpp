@@ -9,8 +9,8 @@
 
 #include <cmath>
 
+#include "io/packets/hesai.hpp"
 #include "packet_files.hpp"
-#include "packets/hesai.hpp"
 
 namespace pose_wall::tools {
 namespace {

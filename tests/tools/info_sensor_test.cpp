@@ -16,13 +16,13 @@
 #include <string>
 #include <vector>
 
-#include "angles.hpp"
-#include "info/sensor_look.hpp"
-#include "info/stamp_steps.hpp"
+#include "io/numbers/angles.hpp"
+#include "lab/sim/parameters.hpp"
+#include "lab/sim/sensors.hpp"
+#include "lab/sim/simulator.hpp"
 #include "ran_command.hpp"
-#include "sim/parameters.hpp"
-#include "sim/sensors.hpp"
-#include "sim/simulator.hpp"
+#include "study/info/sensor_look.hpp"
+#include "study/info/stamp_steps.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "language/language.hpp"
+#include "io/language/language.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

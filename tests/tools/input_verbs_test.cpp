@@ -11,8 +11,8 @@
 #endif
 
 #include "bag_files.hpp"
-#include "csv/csv_table.hpp"
-#include "inputs/frame_sequence.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/inputs/frame_sequence.hpp"
 #include "ran_command.hpp"
 
 namespace pose_wall::tools {

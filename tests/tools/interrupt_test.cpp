@@ -19,13 +19,13 @@
 #include <thread>
 #include <vector>
 
-#include "command.hpp"
-#include "csv/csv_table.hpp"
-#include "frames/load_frame.hpp"
+#include "apps/command.hpp"
 #include "interrupted_child.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/csv/truth_csv.hpp"
+#include "io/frames/load_frame.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
-#include "truth/truth_csv.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "interrupted_child.hpp"
+#include "io/terminal/interrupt.hpp"
 #include "ran_command.hpp"
-#include "terminal/interrupt.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "command.hpp"
+#include "apps/command.hpp"
 
 namespace pose_wall::tools::test {
 

@@ -4,7 +4,7 @@
 // Which language is chosen, how catalogues are read, and how Chinese is laid out. That each text has its Chinese is
 // shown by tests/checks/check_translations.py.
 
-#include "language/language.hpp"
+#include "io/language/language.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "language/language_name.hpp"
-#include "language/po_catalogue.hpp"
-#include "terminal/text_table.hpp"
+#include "io/language/language_name.hpp"
+#include "io/language/po_catalogue.hpp"
+#include "io/terminal/text_table.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "bag_files.hpp"
-#include "frames/length_unit.hpp"
-#include "frames/ply_reader.hpp"
+#include "io/frames/length_unit.hpp"
+#include "io/frames/ply_reader.hpp"
 #include "packet_files.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"

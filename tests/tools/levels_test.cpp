@@ -16,14 +16,14 @@
 #include <string>
 #include <vector>
 
-#include "angles.hpp"
 #include "crafted_value.hpp"
-#include "explain/level_words.hpp"
-#include "explain/outcome_words.hpp"
+#include "io/numbers/angles.hpp"
+#include "io/numbers/quantities.hpp"
 #include "pose_wall.hpp"
-#include "quantities.hpp"
 #include "ran_command.hpp"
-#include "results/run_summary.hpp"
+#include "study/explain/level_words.hpp"
+#include "study/explain/outcome_words.hpp"
+#include "study/results/run_summary.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

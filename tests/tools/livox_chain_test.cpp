@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "io/packets/livox.hpp"
+#include "io/packets/sensors.hpp"
+#include "lab/sim/scenes.hpp"
 #include "livox_packets.hpp"
-#include "packets/livox.hpp"
-#include "packets/sensors.hpp"
-#include "sim/scenes.hpp"
 #include "support/sim_run.hpp"
 
 namespace pose_wall::tools {
@@ -90,7 +90,7 @@ TEST(LivoxChain, TheSevenValuesAreWithinTheirLevels) {
   const sim::Simulator simulator(setup, 1);
   const sim::Frame frame = simulator.render(0);
   pose_wall_config config = pose_wall::test::config_with();
-  for (const sim::EngineSetting& setting : sim::find_sensor("mid360")->engine) {
+  for (const EngineSetting& setting : sim::find_sensor("mid360")->engine) {
     pose_wall::test::set(&config, setting.key.c_str(), setting.value.c_str());
   }
   for (const std::uint8_t type : {test::kLivoxMm, test::kLivoxDual}) {

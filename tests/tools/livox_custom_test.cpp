@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "bag_files.hpp"
-#include "bags/cloud_message.hpp"
-#include "frames/field_value.hpp"
+#include "io/bags/cloud_message.hpp"
+#include "io/frames/field_value.hpp"
 #include "packet_files.hpp"
 
 namespace pose_wall::tools {

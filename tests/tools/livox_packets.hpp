@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "angles.hpp"
+#include "io/numbers/angles.hpp"
+#include "lab/sim/simulator.hpp"
 #include "packet_files.hpp"
-#include "sim/simulator.hpp"
 
 namespace pose_wall::tools::test {
 

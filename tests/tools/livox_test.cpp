@@ -8,8 +8,8 @@
 
 #include <cmath>
 
+#include "io/packets/livox.hpp"
 #include "packet_files.hpp"
-#include "packets/livox.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -4,7 +4,7 @@
 // Proves: every fault of a config file is named with file, line, key, value and what is allowed, all in one go; values
 // reach the engine as they are written; origins are kept.
 
-#include "config_file/load_config.hpp"
+#include "io/config_file/load_config.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,9 +12,9 @@
 #include <array>
 #include <cstring>
 
-#include "config_file/key_table.hpp"
-#include "config_file/resolved_frames.hpp"
-#include "config_file/yaml_entries.hpp"
+#include "io/config_file/key_table.hpp"
+#include "io/config_file/resolved_frames.hpp"
+#include "io/config_file/yaml_entries.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -9,9 +9,9 @@
 
 #include <random>
 
+#include "io/packets/lslidar_hybrid.hpp"
+#include "io/packets/sensors.hpp"
 #include "lslidar_packets.hpp"
-#include "packets/lslidar_hybrid.hpp"
-#include "packets/sensors.hpp"
 
 namespace pose_wall::tools {
 namespace {

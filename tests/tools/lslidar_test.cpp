@@ -9,9 +9,9 @@
 
 #include <random>
 
+#include "io/packets/one_sender.hpp"
+#include "io/packets/sensors.hpp"
 #include "lslidar_packets.hpp"
-#include "packets/one_sender.hpp"
-#include "packets/sensors.hpp"
 
 namespace pose_wall::tools {
 namespace {

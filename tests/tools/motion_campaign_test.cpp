@@ -11,11 +11,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "campaign/motion_classes.hpp"
-#include "campaign/plan.hpp"
-#include "campaign/runner.hpp"
+#include "lab/campaign/motion_classes.hpp"
+#include "lab/campaign/plan.hpp"
+#include "lab/campaign/runner.hpp"
+#include "lab/sim/simulator.hpp"
 #include "ran_command.hpp"
-#include "sim/simulator.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

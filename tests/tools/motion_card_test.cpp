@@ -4,7 +4,7 @@
 // Proves, on rows written by hand: an honest table passes the gate of motion, and every way of lying fails it by name,
 // along a bend as on the straight. Does not prove: that the library is honest.
 
-#include "campaign/motion_card.hpp"
+#include "lab/campaign/motion_card.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +13,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "campaign/card_files.hpp"
-#include "campaign/gate.hpp"
-#include "campaign/worst_events.hpp"
 #include "campaign_records.hpp"
+#include "lab/campaign/card_files.hpp"
+#include "lab/campaign/gate.hpp"
+#include "lab/campaign/worst_events.hpp"
 #include "motion_tables.hpp"
 #include "test_files.hpp"
 

@@ -4,7 +4,7 @@
 // Proves, by errors put in by hand: what eval makes of a motion table is right in every number and every axis, on a
 // machine that is turned, lost, or began elsewhere; and tables that are none are refused by line and column.
 
-#include "motion/motion_comparison.hpp"
+#include "study/motion/motion_comparison.hpp"
 
 #include <gtest/gtest.h>
 

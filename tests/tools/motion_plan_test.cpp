@@ -4,8 +4,8 @@
 // Proves: the classes of motion give the roads and the ways of moving that they name, for every sensor and many seeds;
 // plans are the same each time, and long enough. Does not prove: that the classes suffice.
 
-#include "campaign/motion_classes.hpp"
-#include "campaign/plan.hpp"
+#include "lab/campaign/motion_classes.hpp"
+#include "lab/campaign/plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "sim/check_setup.hpp"
-#include "sim/sensors.hpp"
-#include "sim/simulator.hpp"
+#include "lab/sim/check_setup.hpp"
+#include "lab/sim/sensors.hpp"
+#include "lab/sim/simulator.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {

@@ -4,7 +4,7 @@
 // Proves: rows of the motion table, of the TUM path and the map's PLY say what the library said, in columns that keep
 // their places; a frame that is lost or could not be read has no pose.
 
-#include "motion/motion_rows.hpp"
+#include "study/motion/motion_rows.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "csv/csv_table.hpp"
-#include "motion/motion_table.hpp"
+#include "io/csv/csv_table.hpp"
+#include "study/motion/motion_table.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -4,14 +4,14 @@
 // Proves: the keys of motion are read from file and --set into the library's units, their ranges are the library's,
 // what is wrong is told with what was meant, and commands that run the engine only take them, too.
 
-#include "config_file/motion_settings.hpp"
+#include "io/config_file/motion_settings.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <string>
 
-#include "config_file/load_config.hpp"
+#include "io/config_file/load_config.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

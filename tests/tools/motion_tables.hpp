@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "csv/csv_table.hpp"
-#include "motion/motion_rows.hpp"
+#include "io/csv/csv_table.hpp"
+#include "study/motion/motion_rows.hpp"
 
 namespace pose_wall::tools::test {
 

@@ -15,13 +15,13 @@
 #include <limits>
 #include <sstream>
 
-#include "config_file/resolved_frames.hpp"
 #include "crafted_value.hpp"
-#include "language/language.hpp"
+#include "io/config_file/resolved_frames.hpp"
+#include "io/language/language.hpp"
+#include "io/terminal/whole_lines.hpp"
 #include "ran_command.hpp"
-#include "results/result_json.hpp"
-#include "results/run_summary.hpp"
-#include "terminal/whole_lines.hpp"
+#include "study/results/result_json.hpp"
+#include "study/results/run_summary.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

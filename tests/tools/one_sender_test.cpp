@@ -4,7 +4,7 @@
 // Proves: of several sensors on one wire one is read and the others are named, whatever tells them apart. Packets that
 // were captured twice or came late change no frame. Turns end in any field of view. What lies below IP is passed over.
 
-#include "packets/one_sender.hpp"
+#include "io/packets/one_sender.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 #include <cstring>
 #include <set>
 
+#include "io/packets/velodyne.hpp"
 #include "packet_files.hpp"
-#include "packets/velodyne.hpp"
 
 namespace pose_wall::tools {
 namespace {

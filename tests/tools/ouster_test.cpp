@@ -21,9 +21,9 @@
 #include <utility>
 #include <vector>
 
+#include "io/packets/ouster.hpp"
 #include "ouster_packets.hpp"
 #include "packet_files.hpp"
-#include "packets/ouster.hpp"
 
 namespace pose_wall::tools {
 namespace {

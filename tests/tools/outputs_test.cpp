@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "frames/whole_file.hpp"
+#include "io/frames/whole_file.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

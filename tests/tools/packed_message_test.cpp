@@ -11,7 +11,7 @@
 #endif
 
 #include "bag_files.hpp"
-#include "inputs/frame_sequence.hpp"
+#include "io/inputs/frame_sequence.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "io/packets/packet_words.hpp"
 #include "ouster_packets.hpp"
 #include "packet_files.hpp"
-#include "packets/packet_words.hpp"
 #include "ran_command.hpp"
 #include "robosense_packets.hpp"
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "inputs/frame_sequence.hpp"
-#include "packets/scan.hpp"
+#include "io/inputs/frame_sequence.hpp"
+#include "io/packets/scan.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::test {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "bag_files.hpp"
-#include "bags/packet_message.hpp"
+#include "io/bags/packet_message.hpp"
 #include "ouster_packets.hpp"
 #include "packet_files.hpp"
 

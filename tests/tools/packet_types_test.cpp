@@ -10,7 +10,7 @@
 #include <functional>
 
 #include "bag_files.hpp"
-#include "bags/packet_message.hpp"
+#include "io/bags/packet_message.hpp"
 #include "packet_files.hpp"
 
 namespace pose_wall::tools {

@@ -12,8 +12,8 @@
 #include <cmath>
 #include <functional>
 
+#include "io/packets/ouster_metadata.hpp"
 #include "packet_files.hpp"
-#include "packets/ouster_metadata.hpp"
 
 namespace pose_wall::tools {
 namespace {

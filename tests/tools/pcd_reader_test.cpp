@@ -5,7 +5,7 @@
 // headers that lie are refused with both figures or corrected by the bytes. Does not prove: what the engine makes of
 // it.
 
-#include "frames/pcd_reader.hpp"
+#include "io/frames/pcd_reader.hpp"
 
 #include <gtest/gtest.h>
 

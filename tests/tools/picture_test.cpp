@@ -4,7 +4,7 @@
 // Proves that the picture of a frame is a well-formed document, the same every time, that it shows figures only where
 // there are some, and that walls and feet of the distances lie where the planes say. Its looks are judged by eye.
 
-#include "picture/frame_picture.hpp"
+#include "io/picture/frame_picture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <string>
 
 #include "crafted_value.hpp"
-#include "picture/drawn_frame.hpp"
+#include "io/picture/drawn_frame.hpp"
 #include "pose_wall.hpp"
 
 namespace pose_wall::tools::picture {

@@ -17,7 +17,7 @@
 #include <zlib.h>
 #endif
 
-#include "planar_files/carmen_log.hpp"
+#include "io/planar_files/carmen_log.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::planar_carmen {

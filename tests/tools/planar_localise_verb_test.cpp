@@ -13,12 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "csv/csv_table.hpp"
-#include "language/language.hpp"
-#include "planar/localised_rows.hpp"
-#include "planar/plane_pose.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/language/language.hpp"
 #include "planar_logs.hpp"
 #include "ran_command.hpp"
+#include "study/planar/localised_rows.hpp"
+#include "study/planar/plane_pose.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "planar_files/map_files.hpp"
-#include "planar_files/pgm_image.hpp"
+#include "io/planar_files/map_files.hpp"
+#include "io/planar_files/pgm_image.hpp"
 
 namespace {
 

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "planar/plane_pose.hpp"
-#include "planar_files/map_files.hpp"
+#include "io/planar_files/map_files.hpp"
 #include "planar_logs.hpp"
 #include "ran_command.hpp"
+#include "study/planar/plane_pose.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

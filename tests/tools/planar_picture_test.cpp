@@ -19,9 +19,9 @@
 #include <zlib.h>
 #endif
 
-#include "planar/indexed_png.hpp"
-#include "planar/map_picture.hpp"
-#include "planar_files/map_files.hpp"
+#include "io/planar_files/map_files.hpp"
+#include "study/planar/indexed_png.hpp"
+#include "study/planar/map_picture.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

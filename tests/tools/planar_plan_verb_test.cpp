@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "csv/csv_table.hpp"
-#include "planar/map_picture.hpp"
-#include "planar_files/map_files.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/planar_files/map_files.hpp"
 #include "ran_command.hpp"
+#include "study/planar/map_picture.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

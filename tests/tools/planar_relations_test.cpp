@@ -4,7 +4,7 @@
 // Proves: the measure of relations gives errors computed by hand, does not depend on where the trajectory begins, and
 // gives the published error of raw odometry on the ACES building.
 
-#include "planar_files/relations.hpp"
+#include "io/planar_files/relations.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include <limits>
 #include <string>
 
-#include "planar_files/carmen_log.hpp"
+#include "io/planar_files/carmen_log.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::planar_relations {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "csv/csv_table.hpp"
+#include "io/csv/csv_table.hpp"
 #include "planar_logs.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"

@@ -4,7 +4,7 @@
 // Proves: PLY files of all three encodings give their vertices, wherever element vertex stands, and bad ones are
 // refused.
 
-#include "frames/ply_reader.hpp"
+#include "io/frames/ply_reader.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "bag_files.hpp"
-#include "bags/point_cloud2.hpp"
-#include "frames/field_value.hpp"
+#include "io/bags/point_cloud2.hpp"
+#include "io/frames/field_value.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "command.hpp"
-#include "csv/csv_table.hpp"
+#include "apps/command.hpp"
+#include "io/csv/csv_table.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::test {

@@ -20,14 +20,14 @@
 #include <string>
 #include <vector>
 
-#include "box/box_replay.hpp"
-#include "box/file_sink.hpp"
-#include "csv/csv_table.hpp"
+#include "io/box/box_replay.hpp"
+#include "io/box/file_sink.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/terminal/interrupt.hpp"
 #include "pose_wall_box.h"
 #include "pose_wall_runtime.h"
 #include "ran_command.hpp"
 #include "support/room.hpp"
-#include "terminal/interrupt.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::test {

@@ -16,12 +16,12 @@
 #include <string>
 #include <vector>
 
-#include "csv/csv_table.hpp"
-#include "frames/whole_file.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/frames/whole_file.hpp"
 #include "ran_command.hpp"
-#include "report/cloud_choice.hpp"
-#include "report/columns.hpp"
-#include "results/usability.hpp"
+#include "study/report/cloud_choice.hpp"
+#include "study/report/columns.hpp"
+#include "study/results/usability.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

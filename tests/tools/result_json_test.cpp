@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "csv/csv_table.hpp"
-#include "frames/file_source.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/frames/file_source.hpp"
 #include "ran_command.hpp"
-#include "results/frame_runner.hpp"
-#include "results/result_json.hpp"
+#include "study/results/frame_runner.hpp"
+#include "study/results/result_json.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

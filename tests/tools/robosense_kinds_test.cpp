@@ -11,9 +11,9 @@
 #include <random>
 
 #include "bag_files.hpp"
-#include "bags/packet_message.hpp"
-#include "packets/robosense.hpp"
-#include "packets/sensors.hpp"
+#include "io/bags/packet_message.hpp"
+#include "io/packets/robosense.hpp"
+#include "io/packets/sensors.hpp"
 #include "robosense_packets.hpp"
 
 namespace pose_wall::tools {

@@ -9,9 +9,9 @@
 
 #include <cmath>
 
-#include "packets/robosense.hpp"
-#include "packets/robosense_m1.hpp"
-#include "packets/sensors.hpp"
+#include "io/packets/robosense.hpp"
+#include "io/packets/robosense_m1.hpp"
+#include "io/packets/sensors.hpp"
 #include "robosense_packets.hpp"
 
 namespace pose_wall::tools {

@@ -19,12 +19,12 @@
 #include <string>
 #include <vector>
 
-#include "frames/pcd_writer.hpp"
-#include "language/language.hpp"
+#include "io/frames/pcd_writer.hpp"
+#include "io/language/language.hpp"
+#include "lab/sim/parameters.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
 #include "ran_command.hpp"
-#include "sim/parameters.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

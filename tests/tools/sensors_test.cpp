@@ -9,8 +9,8 @@
 
 #if POSE_WALL_HAS_PCAP
 
+#include "io/packets/sensors.hpp"
 #include "packet_files.hpp"
-#include "packets/sensors.hpp"
 
 namespace pose_wall::tools {
 namespace {

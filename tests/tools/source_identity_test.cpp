@@ -4,7 +4,7 @@
 // Proves: sources are told apart by whatever an input tells of them; the first that is whole is read for good, and the
 // others are counted and named as --source takes them; a name that means nobody or several is no choice.
 
-#include "frames/source_identity.hpp"
+#include "io/frames/source_identity.hpp"
 
 #include <gtest/gtest.h>
 

@@ -19,13 +19,13 @@
 #include <string>
 #include <vector>
 
+#include "io/csv/truth_csv.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
+#include "lab/sim/survey_line.hpp"
+#include "lab/sim/survey_truth.hpp"
+#include "lab/survey/survey_file.hpp"
 #include "ran_command.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
-#include "sim/survey_line.hpp"
-#include "sim/survey_truth.hpp"
-#include "survey/survey_file.hpp"
-#include "truth/truth_csv.hpp"
 
 namespace pose_wall::tools::test {
 namespace {

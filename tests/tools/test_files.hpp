@@ -15,7 +15,7 @@
 #include <random>
 #include <string>
 
-#include "frames/frame.hpp"
+#include "io/frames/frame.hpp"
 
 namespace pose_wall::tools::test {
 

@@ -11,10 +11,10 @@
 #include <functional>
 #include <string>
 
-#include "frames/input_list.hpp"
-#include "frames/load_frame.hpp"
-#include "frames/text_points.hpp"
-#include "inputs/frame_sequence.hpp"
+#include "io/frames/input_list.hpp"
+#include "io/frames/load_frame.hpp"
+#include "io/frames/text_points.hpp"
+#include "io/inputs/frame_sequence.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

@@ -7,9 +7,9 @@
 
 #include <sstream>
 
-#include "csv/csv_table.hpp"
-#include "terminal/did_you_mean.hpp"
-#include "terminal/text_table.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/terminal/did_you_mean.hpp"
+#include "io/terminal/text_table.hpp"
 
 namespace pose_wall::tools {
 namespace {

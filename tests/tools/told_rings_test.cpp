@@ -4,7 +4,7 @@
 // Proves: rings are counted by the field that numbers them, whatever it is called, else by the rows of a cloud that has
 // as many as a sensor may have rings; what tells nothing is not guessed at.
 
-#include "frames/told_rings.hpp"
+#include "io/frames/told_rings.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,8 +11,8 @@
 #include <set>
 #include <string>
 
-#include "config_file/key_table.hpp"
-#include "explain/traced_frame.hpp"
+#include "io/config_file/key_table.hpp"
+#include "study/explain/traced_frame.hpp"
 #include "support/sim_run.hpp"
 
 namespace pose_wall::tools {

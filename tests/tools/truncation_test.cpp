@@ -10,10 +10,10 @@
 
 #include <set>
 
-#include "frames/bare_points.hpp"
-#include "frames/load_frame.hpp"
-#include "frames/pcd_reader.hpp"
-#include "frames/ply_reader.hpp"
+#include "io/frames/bare_points.hpp"
+#include "io/frames/load_frame.hpp"
+#include "io/frames/pcd_reader.hpp"
+#include "io/frames/ply_reader.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -4,7 +4,7 @@
 // Proves: truth.csv gives back every number to nine digits, with poses and without; what it lacks is named.
 // named.
 
-#include "truth/truth_csv.hpp"
+#include "io/csv/truth_csv.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,15 +4,15 @@
 // Proves: the verdict on a recording follows one rule, by the share of frames in which each value is valid, and its
 // text names every value with its reason, in both languages.
 
-#include "results/usability.hpp"
+#include "study/results/usability.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "language/language.hpp"
+#include "io/language/language.hpp"
 #include "pose_wall.hpp"
-#include "results/run_summary.hpp"
+#include "study/results/run_summary.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

@@ -4,7 +4,7 @@
 // Proves: a field of times that is of no use is said by run, motion and info: of a type that is not read, all equal,
 // longer than a scan. Good times, and scans without any, are not doubted.
 
-#include "info/usable_times.hpp"
+#include "study/info/usable_times.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <functional>
 #include <string>
 
-#include "frames/pcd_reader.hpp"
+#include "io/frames/pcd_reader.hpp"
 #include "ran_command.hpp"
 #include "test_files.hpp"
 

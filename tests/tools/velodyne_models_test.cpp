@@ -9,8 +9,8 @@
 
 #include <cmath>
 
+#include "io/packets/velodyne.hpp"
 #include "packet_files.hpp"
-#include "packets/velodyne.hpp"
 
 namespace pose_wall::tools {
 namespace {

@@ -4,15 +4,15 @@
 // Proves: times that are whole numbers of 64 bits reach the engine, from every encoding of PCD and PLY, of either sign
 // and byte order, with gaps between rows; what the engine does not take, and bytes that two fields share, stay alone.
 
-#include "frames/wide_times.hpp"
+#include "io/frames/wide_times.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <string>
 
-#include "frames/pcd_reader.hpp"
-#include "frames/ply_reader.hpp"
+#include "io/frames/pcd_reader.hpp"
+#include "io/frames/ply_reader.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

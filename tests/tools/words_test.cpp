@@ -15,12 +15,12 @@
 #include <string>
 #include <vector>
 
-#include "command_line/completion.hpp"
-#include "command_line/man_page.hpp"
+#include "apps/command_line/completion.hpp"
+#include "apps/command_line/man_page.hpp"
+#include "io/terminal/colours.hpp"
+#include "io/terminal/progress_bar.hpp"
+#include "io/terminal/shell_word.hpp"
 #include "ran_command.hpp"
-#include "terminal/colours.hpp"
-#include "terminal/progress_bar.hpp"
-#include "terminal/shell_word.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {

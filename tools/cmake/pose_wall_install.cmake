@@ -4,7 +4,7 @@
 # cmake --install: headers, archives, package config, pkg-config files, bill of materials, what a controller needs; and
 # the command and the daemon where they are built. find_package(pose_wall) gives pose_wall::pose_wall,
 # pose_wall::pose_wall_motion and pose_wall::pose_wall_planar, and pose_wall::pose_wall_runtime where that is built.
-# Components: development, command, daemon; python, which only who names it gets (tools/python/CMakeLists.txt).
+# Components: development, command, daemon; python, which only who names it gets (tools/apps/python/CMakeLists.txt).
 include(CMakePackageConfigHelpers)
 include(pose_wall_sbom)
 
@@ -43,11 +43,11 @@ install(FILES ${PROJECT_SOURCE_DIR}/include/README.md ${PROJECT_SOURCE_DIR}/incl
   ${PROJECT_SOURCE_DIR}/include/DEFINITIONS.md
   ${PROJECT_SOURCE_DIR}/include/SAFETY.md
   ${PROJECT_SOURCE_DIR}/include/LIMITS.md ${PROJECT_SOURCE_DIR}/include/SIZES.md
-  ${PROJECT_SOURCE_DIR}/tools/example.c ${PROJECT_SOURCE_DIR}/tools/two_engines.c
+  ${PROJECT_SOURCE_DIR}/tools/apps/c/example.c ${PROJECT_SOURCE_DIR}/tools/apps/c/two_engines.c
   DESTINATION ${pose_wall_doc_dir} COMPONENT development)
 install(FILES ${PROJECT_SOURCE_DIR}/src/planar/stop/README.md DESTINATION ${pose_wall_doc_dir} RENAME planar_stop.md
   COMPONENT development)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/plc/ DESTINATION ${pose_wall_doc_dir}/plc COMPONENT development
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/apps/plc/ DESTINATION ${pose_wall_doc_dir}/plc COMPONENT development
   FILES_MATCHING PATTERN "FB_PoseWall.*" PATTERN "controller.c" PATTERN "README.md"
   PATTERN "*.dbc" PATTERN "can_*.[ch]")
 if(TARGET pose_wall_cli)
@@ -57,7 +57,7 @@ if(TARGET pose_wall_cli)
   # Found by name: --config vlp16.
   file(GLOB pose_wall_configs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/config/*.yaml)
   install(FILES ${pose_wall_configs} DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/pose_wall/config COMPONENT command)
-  set(pose_wall_words ${PROJECT_BINARY_DIR}/tools/words)
+  set(pose_wall_words ${PROJECT_BINARY_DIR}/words)
   install(FILES ${pose_wall_words}/pose_wall.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
   install(FILES ${pose_wall_words}/pose_wall.bash RENAME pose_wall
     DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions COMPONENT command)
@@ -67,7 +67,7 @@ if(TARGET pose_wall_cli)
     COMPONENT command)
 endif()
 if(TARGET pose_walld)
-  set(pose_wall_daemon_dir ${PROJECT_SOURCE_DIR}/tools/live)
+  set(pose_wall_daemon_dir ${PROJECT_SOURCE_DIR}/tools/apps/live)
   install(TARGETS pose_walld pose_wall_sensor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
   # Where systemd looks whatever the prefix is: /usr/lib/systemd in a package.
   install(FILES ${pose_wall_daemon_dir}/pose_walld.service DESTINATION lib/systemd/system COMPONENT daemon)
@@ -80,8 +80,9 @@ if(TARGET pose_walld)
     install(FILES ${pose_wall_daemon_dir}/${place}/README.md
       DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/${place} COMPONENT daemon)
   endforeach()
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/plc/can/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/can
-    COMPONENT daemon FILES_MATCHING PATTERN "*.dbc" PATTERN "README.md")
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/apps/plc/can/
+    DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/can COMPONENT daemon
+    FILES_MATCHING PATTERN "*.dbc" PATTERN "README.md")
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   include(pose_wall_package)

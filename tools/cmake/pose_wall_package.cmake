@@ -72,8 +72,8 @@ set(CPACK_DEBIAN_DAEMON_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_DAEMON_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DAEMON_PACKAGE_RECOMMENDS pose-wall)
 set(CPACK_DEBIAN_DAEMON_PACKAGE_CONTROL_EXTRA
-  ${PROJECT_SOURCE_DIR}/tools/live/package/postinst ${PROJECT_SOURCE_DIR}/tools/live/package/prerm
-  ${PROJECT_SOURCE_DIR}/tools/live/package/postrm)
+  ${PROJECT_SOURCE_DIR}/tools/apps/live/package/postinst ${PROJECT_SOURCE_DIR}/tools/apps/live/package/prerm
+  ${PROJECT_SOURCE_DIR}/tools/apps/live/package/postrm)
 set(CPACK_DEBIAN_DAEMON_DESCRIPTION
   "pose of a tunnelling machine from one LiDAR: daemon\n\
 Takes a live sensor or ROS, publishes by ROS, Modbus TCP, MQTT and a web page, records.")

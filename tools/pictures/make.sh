@@ -4,7 +4,7 @@
 #
 # Makes the pictures of README.md and of the guided tour (tools/README.md) anew, by the commands that they show.
 # usage: make.sh POSE_WALL [demo | report | states]...     all without a name
-#   demo     picture/demo.png and demo_props.png; needs rsvg-convert (librsvg2-bin)
+#   demo     demo.png and demo_props.png; needs rsvg-convert (librsvg2-bin)
 #   report   report.png; needs chromium, as does
 #   states   valid.png and not_valid.png: a road whose values are valid, and one whose values mostly are not
 set -eu
@@ -27,7 +27,7 @@ screenshot() {
 
 demo() {
   "$pose_wall" demo --quiet --output front
-  rsvg-convert --width 1100 front/demo.svg > "$here/../picture/demo.png"
+  rsvg-convert --width 1100 front/demo.svg > "$here/demo.png"
   "$pose_wall" demo --quiet --scene props --sensor vlp16 --frames 30 --output demo
   rsvg-convert --width 1000 demo/demo.svg > "$here/demo_props.png"
 }

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "box/box_replay.hpp"
 #include "fuzz/files/memory_file.hpp"
 #include "fuzz/fuzz_target.hpp"
 #include "fuzz/mended_box.hpp"
+#include "io/box/box_replay.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fuzz/fuzz_target.hpp"
-#include "planar_files/carmen_log.hpp"
+#include "io/planar_files/carmen_log.hpp"
 
 namespace {
 

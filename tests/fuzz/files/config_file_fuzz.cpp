@@ -6,9 +6,9 @@
 
 #include <string>
 
-#include "config_file/load_config.hpp"
 #include "fuzz/files/memory_file.hpp"
 #include "fuzz/fuzz_target.hpp"
+#include "io/config_file/load_config.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using pose_wall::test::require;

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "csv/csv_table.hpp"
 #include "fuzz/files/memory_file.hpp"
 #include "fuzz/fuzz_target.hpp"
-#include "truth/truth_csv.hpp"
+#include "io/csv/csv_table.hpp"
+#include "io/csv/truth_csv.hpp"
 
 namespace {
 

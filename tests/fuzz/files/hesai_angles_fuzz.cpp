@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fuzz/fuzz_target.hpp"
-#include "packets/hesai_models.hpp"
+#include "io/packets/hesai_models.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace pose_wall;

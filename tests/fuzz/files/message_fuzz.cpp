@@ -6,9 +6,9 @@
 
 #include <array>
 
-#include "bags/cloud_message.hpp"
-#include "bags/packet_message.hpp"
 #include "fuzz/files/reader_target.hpp"
+#include "io/bags/cloud_message.hpp"
+#include "io/bags/packet_message.hpp"
 
 namespace pose_wall::test {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "fuzz/files/reader_target.hpp"
-#include "packets/ouster_profiles.hpp"
-#include "packets/sensors.hpp"
+#include "io/packets/ouster_profiles.hpp"
+#include "io/packets/sensors.hpp"
 
 namespace pose_wall::test {
 namespace {

@@ -3,7 +3,7 @@
 
 // Fuzz target: bytes as a PCD file.
 
-#include "frames/pcd_reader.hpp"
 #include "fuzz/files/reader_target.hpp"
+#include "io/frames/pcd_reader.hpp"
 
 POSE_WALL_FUZZ_READER(pose_wall::tools::read_pcd)

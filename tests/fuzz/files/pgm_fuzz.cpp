@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "fuzz/fuzz_target.hpp"
-#include "planar_files/pgm_image.hpp"
+#include "io/planar_files/pgm_image.hpp"
 
 namespace {
 

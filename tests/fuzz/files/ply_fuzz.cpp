@@ -3,7 +3,7 @@
 
 // Fuzz target: bytes as a PLY file.
 
-#include "frames/ply_reader.hpp"
 #include "fuzz/files/reader_target.hpp"
+#include "io/frames/ply_reader.hpp"
 
 POSE_WALL_FUZZ_READER(pose_wall::tools::read_ply)

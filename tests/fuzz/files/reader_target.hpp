@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "frames/frame.hpp"
 #include "fuzz/config_from_input.hpp"
 #include "fuzz/fuzz_target.hpp"
+#include "io/frames/frame.hpp"
 
 namespace pose_wall::test {
 

@@ -11,7 +11,7 @@
 
 #include "fuzz/files/memory_file.hpp"
 #include "fuzz/files/reader_target.hpp"
-#include "inputs/frame_sequence.hpp"
+#include "io/inputs/frame_sequence.hpp"
 
 namespace pose_wall::test {
 

@@ -3,8 +3,8 @@
 
 // Fuzz target: bytes as points in plain text.
 
-#include "frames/text_points.hpp"
 #include "fuzz/files/reader_target.hpp"
+#include "io/frames/text_points.hpp"
 
 namespace {
 

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "lab/sim/drive_route.hpp"
 #include "pose_wall_planar_slam.h"
-#include "sim/drive_route.hpp"
 
 namespace {
 

@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/pose.hpp"
-#include "sim/simulator.hpp"
+#include "lab/sim/pose.hpp"
+#include "lab/sim/simulator.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {

@@ -12,9 +12,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/pose.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
+#include "lab/sim/pose.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {

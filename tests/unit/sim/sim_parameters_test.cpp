@@ -3,7 +3,7 @@
 
 // The table of keys and the table of scenes: every entry can be set, and what cannot be is refused with a reason.
 
-#include "sim/parameters.hpp"
+#include "lab/sim/parameters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/check_setup.hpp"
-#include "sim/scenes.hpp"
+#include "lab/sim/check_setup.hpp"
+#include "lab/sim/scenes.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {

@@ -12,11 +12,11 @@
 #include <map>
 #include <stdexcept>
 
-#include "sim/network_scan.hpp"
-#include "sim/parameters.hpp"
-#include "sim/scenes.hpp"
-#include "sim/sensors.hpp"
-#include "sim/simulator.hpp"
+#include "lab/sim/network_scan.hpp"
+#include "lab/sim/parameters.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/sensors.hpp"
+#include "lab/sim/simulator.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "sim/check_setup.hpp"
-#include "sim/parameters.hpp"
-#include "sim/rock_spectrum.hpp"
-#include "sim/scenes.hpp"
-#include "sim/simulator.hpp"
-#include "sim/survey_truth.hpp"
+#include "lab/sim/check_setup.hpp"
+#include "lab/sim/parameters.hpp"
+#include "lab/sim/rock_spectrum.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/simulator.hpp"
+#include "lab/sim/survey_truth.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {

@@ -4,17 +4,17 @@
 // The simulator's frames against numbers worked out by hand, and its promises: determinism, finite points, no scene
 // that cannot be rendered. Truth has a file of its own, sim_truth_test.cpp.
 
-#include "sim/simulator.hpp"
+#include "lab/sim/simulator.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sim/parameters.hpp"
-#include "sim/pose.hpp"
-#include "sim/scenes.hpp"
-#include "sim/sensors.hpp"
+#include "lab/sim/parameters.hpp"
+#include "lab/sim/pose.hpp"
+#include "lab/sim/scenes.hpp"
+#include "lab/sim/sensors.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {

@@ -10,8 +10,8 @@
 #include <array>
 #include <cmath>
 
-#include "sim/pose.hpp"
-#include "sim/simulator.hpp"
+#include "lab/sim/pose.hpp"
+#include "lab/sim/simulator.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {

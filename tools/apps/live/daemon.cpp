@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "apps/live/daemon.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include "apps/live/planar/roadway_sink.hpp"
+#include "io/config_file/key_table.hpp"
+#include "io/config_file/resolved_frames.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr auto kLook = std::chrono::milliseconds(50);
+
+void log_lines(const std::string& part, const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) log_line(Grade::kGood, part, line);
+}
+
+// What one wants to see of a part every minute: its counters.
+std::string facts_text(const PartHealth& part) {
+  std::string text = part.summary;
+  for (const auto& [name, value] : part.facts) text += fmt::format("; {} {}", name, value);
+  return text;
+}
+
+}  // namespace
+
+Daemon::Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& replay)
+    : loaded_(loaded),
+      runtime_(
+          loaded_, [this] { return open_black_box(loaded_); },
+          [this](const std::shared_ptr<const LiveResult>& result) { post(result); },
+          [this] {
+            for (const auto& sink : sinks_) {
+              if (sink->wants_points()) return true;
+            }
+            return false;
+          }) {
+  make_planar();
+  make_edges(replay);
+}
+
+// The stop stands beside the runtime, not behind it.
+void Daemon::make_planar() {
+  if (!loaded_.planar.is_on()) return;
+  guard_ = std::make_unique<StopGuard>(loaded_, [this](const std::shared_ptr<const StopNews>& news) {
+    for (const auto& sink : sinks_) sink->post(news);
+  });
+  runtime_.watch_frames([this](const std::shared_ptr<const LiveFrame>& frame, const pose_wall_config& config) {
+    guard_->take(frame, config);
+  });
+  roadway_ =
+      std::make_unique<SinkThread>(make_roadway_sink(loaded_, [this](const std::shared_ptr<const RoadwayNews>& news) {
+        for (const auto& sink : sinks_) sink->post(news);
+      }));
+}
+
+void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
+  const LiveSettings& live = loaded_.live;
+  if (replay) {
+    source_ = make_replay_source(*replay);
+  } else if (live.source == "udp") {
+    source_ = make_udp_source(loaded_);
+  }
+  const bool reads_ros1 = !replay && live.source == "ros1", reads_ros2 = !replay && live.source == "ros2";
+  if (live.ros1 || reads_ros1) add(make_ros1_edge(loaded_, *this, reads_ros1, live.ros1));
+  if (live.ros2 || reads_ros2) add(make_ros2_edge(loaded_, *this, reads_ros2, live.ros2));
+  if (!live.modbus.empty()) add(make_modbus_sink(loaded_, runtime_, guard_.get()));
+  if (!live.can.empty()) add(make_can_sink(loaded_, runtime_, guard_.get()));
+  if (!live.mqtt.empty()) add(make_mqtt_sink(loaded_, *this));
+  if (!live.http.empty()) add(make_page_sink(loaded_, *this, guard_.get()));
+  if (!live.recording.empty()) add(make_recorder(loaded_, *this));
+}
+
+void Daemon::add(std::unique_ptr<Sink> sink) {
+  sinks_.push_back(std::make_unique<SinkThread>(std::move(sink)));
+}
+
+void Daemon::add(RosEdge edge) {
+  if (edge.source) source_ = std::move(edge.source);
+  if (edge.sink) add(std::move(edge.sink));
+}
+
+void Daemon::post(const std::shared_ptr<const LiveResult>& result) {
+  if (guard_) guard_->note_motion(*result);
+  if (roadway_) roadway_->post(result);
+  for (const auto& sink : sinks_) sink->post(result);
+}
+
+void Daemon::log_start() const {
+  log_line(Grade::kGood, "pose_walld", fmt::format("version {}", pose_wall_version()));
+  log_lines("axes", resolved_frames_text(resolve_frames(loaded_.config), ""));
+  const auto tell = [this](const std::string& name, const std::string& value) {
+    if (loaded_.origins.count(name) == 0) return;
+    log_line(Grade::kGood, "config", fmt::format("{}: {} ({})", name, value, loaded_.origin(name)));
+  };
+  for (const pose_wall_key_info& key : config_keys()) tell(key.name, config_written_text(*loaded_.config.get(), key));
+  for (const OutsideKey& key : motion_keys()) tell(key.name, motion_value_text(loaded_.motion, key));
+  for (const OutsideKey& key : live_keys()) tell(key.name, live_value_text(loaded_.live, key));
+  for (const OutsideKey& key : planar_keys()) tell(key.name, planar_value_text(loaded_.planar, key));
+  const bool moves = config_text(*loaded_.config.get(), "motion") == "on";
+  log_line(Grade::kGood, "motion",
+           moves ? "on: held values move with the machine, and its way along the road is told (key motion)"
+                 : "off (key motion)");
+  log_line(Grade::kGood, "config", config_crc_text(*loaded_.config.get()) + " (dwConfigCrc of FB_PoseWall)");
+  if (guard_) {
+    log_line(Grade::kGood, "planar stop",
+             fmt::format("settings' CRC: 16#{:08X} (dwSettingsCrc of FB_PoseWallStop)",
+                         guard_->stop_now().result.settings_crc32));
+  }
+  log_line(Grade::kGood, "config", "all other keys have their defaults; `pose_wall check-config` lists them");
+}
+
+void Daemon::log_status() const {
+  for (const PartHealth& part : all()) log_line(part.grade, part.part, facts_text(part));
+}
+
+void Daemon::start() {
+  for (const auto& sink : sinks_) sink->start();
+  if (guard_) guard_->start();
+  if (roadway_) roadway_->start();
+  runtime_.start();
+  source_->start(runtime_);
+}
+
+void Daemon::stop() {
+  source_->stop();
+  if (guard_) guard_->stop();
+  runtime_.stop();
+  if (roadway_) roadway_->stop();
+  for (const auto& sink : sinks_) sink->stop();
+}
+
+std::vector<PartHealth> Daemon::all() const {
+  std::vector<PartHealth> parts = {runtime_.health(), source_->health()};
+  if (guard_) parts.push_back(guard_->health());
+  if (roadway_) parts.push_back(roadway_->health());
+  for (const auto& sink : sinks_) parts.push_back(sink->health());
+  return parts;
+}
+
+void Daemon::look_around(std::atomic<bool>& looked) {
+  health_log_.note(all());
+  if (looked.exchange(false)) {
+    log_line(guard_ ? Grade::kGood : Grade::kWarning, "planar stop",
+             guard_ ? "somebody has looked: nothing is close around the machine"
+                    : "somebody has looked, but the key `planar` is off");
+    if (guard_) guard_->confirm();
+  }
+  // A worker that hangs is a reason to be started anew.
+  if (runtime_.is_alive() && (!guard_ || guard_->is_alive())) service_.alive();
+}
+
+void Daemon::run(const std::atomic<bool>& stop_asked, std::atomic<bool>& looked) {
+  log_start();
+  start();
+  service_.ready();
+  const auto status_every = std::chrono::duration<double>(loaded_.live.status_every_s);
+  Clock::time_point status_last = Clock::now();
+  while (!stop_asked && !source_->is_finished()) {
+    look_around(looked);
+    if (Clock::now() - status_last >= status_every) {
+      status_last = Clock::now();
+      log_status();
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+  service_.stopping();
+  const std::string failure = stop_asked ? "" : source_->failure();
+  // What failed stands in the source's line of status.
+  if (failure.empty()) {
+    log_line(Grade::kGood, "pose_walld", stop_asked ? "stops, as asked" : "the recording is through");
+  }
+  log_status();
+  stop();
+  if (!failure.empty()) throw std::runtime_error(failure);
+}
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// pose_walld as a whole: a source, the runtime and the sinks, from start to a clean stop.
+
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "apps/live/edges.hpp"
+#include "apps/live/images.hpp"
+#include "apps/live/live_runtime.hpp"
+#include "apps/live/log.hpp"
+#include "apps/live/planar/stop_guard.hpp"
+#include "apps/live/service_manager.hpp"
+#include "apps/live/sink_thread.hpp"
+#include "apps/live/source.hpp"
+#include "io/config_file/load_config.hpp"
+
+namespace pose_wall::tools::live {
+
+class Daemon final : public HealthBoard {
+ public:
+  // replay: instead of the config's source. Throws EdgeMissing, and std::runtime_error as LiveRuntime.
+  Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& replay);
+  ~Daemon() override { stop(); }
+
+  // Until `stop` is true, or a recording is through. `looked` is true where somebody has looked around the machine
+  // (StopGuard::confirm); it becomes false as it is heeded. Throws what the starts of source and sinks throw, and
+  // std::runtime_error for a recording that could not be played to its end or holds no cloud.
+  void run(const std::atomic<bool>& stop, std::atomic<bool>& looked);
+
+  std::vector<PartHealth> all() const override;
+
+ private:
+  void make_planar();
+  void make_edges(const std::optional<ReplayPlan>& replay);
+  void add(std::unique_ptr<Sink> sink);
+  void add(RosEdge edge);
+  void post(const std::shared_ptr<const LiveResult>& result);
+  void log_start() const;
+  void log_status() const;
+  void start();
+  void stop();
+  void look_around(std::atomic<bool>& looked);
+
+  LoadedConfig loaded_;
+  LiveRuntime runtime_;
+  std::unique_ptr<Source> source_;
+  std::unique_ptr<StopGuard> guard_;  // where the key `planar` is on
+  std::unique_ptr<SinkThread> roadway_;
+  std::vector<std::unique_ptr<SinkThread>> sinks_;
+  ServiceManager service_;
+  HealthLog health_log_;
+};
+
+}  // namespace pose_wall::tools::live

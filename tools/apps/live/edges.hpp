@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The edges of the daemon by name. Each is made by a folder of its own; one that needs a library which the build did
+// not find throws EdgeMissing, which says what to install.
+
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/live/images.hpp"
+#include "apps/live/planar/planar_news.hpp"
+#include "apps/live/sink.hpp"
+#include "apps/live/source.hpp"
+#include "io/config_file/load_config.hpp"
+
+namespace pose_wall::tools::live {
+
+class EdgeMissing : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// One program on the network that reads clouds, publishes results, or both: a node of ROS.
+struct RosEdge {
+  std::unique_ptr<Source> source;  // none unless it subscribes
+  std::unique_ptr<Sink> sink;      // none unless it publishes
+};
+
+struct ReplayPlan {
+  std::vector<std::string> inputs;
+  std::string topic, source, metadata;  // as those of the command `pose_wall run`
+  double speed = 1.0;                   // times real time; 0: as fast as frames are worked, none dropped
+  bool step = false;                    // one frame for each line of standard input
+  bool repeat = false;                  // from the start again at the end
+};
+
+std::unique_ptr<Source> make_udp_source(const LoadedConfig& loaded);
+std::unique_ptr<Source> make_replay_source(const ReplayPlan& plan);
+
+RosEdge make_ros1_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes);
+RosEdge make_ros2_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes);
+
+// stop: none where the planar part is off; its registers are then 0.
+std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop);
+// stop: none where the planar part is off; it then has no frames.
+std::unique_ptr<Sink> make_can_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop);
+std::unique_ptr<Sink> make_mqtt_sink(const LoadedConfig& loaded, const HealthBoard& health);
+// stop: as above.
+std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop);
+std::unique_ptr<Sink> make_recorder(const LoadedConfig& loaded, const HealthBoard& health);
+
+// What the runtime writes its black box with: a ring file for each start, in a folder of bounded size.
+struct BlackBox {
+  pose_wall_runtime_sink write = nullptr;
+  void* user = nullptr;
+  std::uint64_t bytes = 0;
+  std::shared_ptr<void> keeper;  // the file stays open as long as this lives
+};
+BlackBox open_black_box(const LoadedConfig& loaded);
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// Telemetry by MQTT, for people and dashboards, never for control: results once a second and when a state changes, the
+// health of all parts.
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "apps/live/edges.hpp"
+#include "apps/live/log.hpp"
+#include "apps/live/mqtt/mqtt_link.hpp"
+#include "apps/live/result_json.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kResultEvery = std::chrono::seconds(1), kHealthEvery = std::chrono::seconds(10);
+constexpr auto kLook = std::chrono::milliseconds(100);
+
+// What of a result is told at once when it changes.
+std::vector<std::uint32_t> states_of(const LiveResult& result) {
+  std::vector<std::uint32_t> states = {result.publication.cause};
+  for (const pose_wall_value& value : result.publication.result.quantity) states.push_back(value.state);
+  return states;
+}
+
+std::string summaries_of(const std::vector<PartHealth>& parts) {
+  std::string text;
+  for (const PartHealth& part : parts)
+    text += fmt::format("{}:{}:{}\n", part.part, grade_name(part.grade), part.summary);
+  return text;
+}
+
+// Something that is told when it changes, now and then besides, and anew to each connection.
+template <typename Gist>
+class Told {
+ public:
+  explicit Told(Clock::duration every) : every_(every) {}
+
+  bool is_due(const Gist& gist, std::uint64_t connection) const {
+    return connection != connection_ || gist != gist_ || Clock::now() - last_ >= every_;
+  }
+  void note(Gist gist, std::uint64_t connection) {
+    gist_ = std::move(gist);
+    connection_ = connection;
+    last_ = Clock::now();
+  }
+
+ private:
+  Clock::duration every_;
+  Gist gist_{};
+  std::uint64_t connection_ = 0;
+  Clock::time_point last_;
+};
+
+class MqttSink final : public Sink {
+ public:
+  MqttSink(const LiveSettings& live, const HealthBoard& board)
+      : part_("sink mqtt " + live.mqtt), board_(board), link_(*parse_host_port(live.mqtt), live.mqtt_topic) {}
+  ~MqttSink() override { stop(); }
+
+  // A broker that is not there yet is no fault.
+  void start() override {
+    log_line(Grade::kGood, part_, "telemetry without password or encryption; never control a machine by it");
+    ending_ = false;
+    thread_ = std::thread([this] { run(); });
+  }
+
+  void take(const LiveResult& result) override {
+    const std::uint64_t connection = link_.connections();
+    if (!link_.is_connected()) return;
+    std::vector<std::uint32_t> states = states_of(result);
+    if (!results_.is_due(states, connection)) return;
+    if (link_.publish("result", result_json(result))) results_.note(std::move(states), connection);
+  }
+
+  void stop() override {
+    ending_ = true;
+    if (!thread_.joinable()) return;
+    thread_.join();
+    link_.leave();
+  }
+
+  PartHealth health() const override {
+    PartHealth health;
+    health.part = part_;
+    const std::string trouble = link_.trouble();
+    const bool is_connected = link_.is_connected();
+    health.grade = is_connected ? Grade::kGood : Grade::kWarning;
+    health.summary = is_connected      ? "connected"
+                     : trouble.empty() ? "seeks the broker"
+                                       : "no broker: " + trouble + "; tries again";
+    health.add("connections", link_.connections());
+    health.add("messages acknowledged", link_.acknowledged());
+    health.add("messages not sent", link_.not_sent());
+    return health;
+  }
+
+ private:
+  void run() {
+    while (!ending_) {
+      link_.look();
+      if (link_.is_connected()) tell_health();
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+
+  void tell_health() {
+    const std::uint64_t connection = link_.connections();
+    const std::vector<PartHealth> parts = board_.all();
+    std::string summaries = summaries_of(parts);
+    if (!health_.is_due(summaries, connection)) return;
+    if (link_.publish("health", health_json(parts))) health_.note(std::move(summaries), connection);
+  }
+
+  std::string part_;
+  const HealthBoard& board_;
+  MqttLink link_;
+  std::thread thread_;
+  std::atomic<bool> ending_{false};
+  Told<std::vector<std::uint32_t>> results_{kResultEvery};  // of the thread that takes
+  Told<std::string> health_{kHealthEvery};                  // of our own thread
+};
+
+}  // namespace
+
+std::unique_ptr<Sink> make_mqtt_sink(const LoadedConfig& loaded, const HealthBoard& health) {
+  return std::make_unique<MqttSink>(loaded.live, health);
+}
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The obstacle stop of the daemon. It has a thread of its own and waits for nobody: each frame is answered as it comes,
+// beside the engine, and every 20 ms without one there is an answer as well, so that silence stops the machine.
+
+#pragma once
+
+#include <cmath>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "apps/live/health.hpp"
+#include "apps/live/live_frame.hpp"
+#include "apps/live/planar/planar_news.hpp"
+#include "apps/live/planar/stamp_clock.hpp"
+#include "apps/live/sink.hpp"
+#include "io/config_file/load_config.hpp"
+#include "study/planar/part_block.hpp"
+
+namespace pose_wall::tools::live {
+
+class StopGuard final : public StopBoard {
+ public:
+  // In the guard's thread: after each frame, at each change of the state, and ten times a second. It must not wait.
+  using Tell = std::function<void(const std::shared_ptr<const StopNews>&)>;
+
+  // Throws std::runtime_error where the library refuses settings or config.
+  StopGuard(const LoadedConfig& loaded, Tell tell);
+  ~StopGuard() override { stop(); }
+
+  void start();
+  void stop();
+
+  // A raw frame, with the config whose extrinsic holds for it. From any thread; never waits. Where the frame before
+  // still waits, it is lost and counted.
+  void take(const std::shared_ptr<const LiveFrame>& frame, const pose_wall_config& config);
+  // What motion measured, for the frames to come. From any thread.
+  void note_motion(const LiveResult& result);
+
+  // Somebody has looked: close around the machine there is nothing (pose_wall_planar_stop_confirm). It counts only
+  // while frames come, and only as long as the machine's motion is known. From any thread.
+  void confirm();
+
+  StopNews stop_now() const override;
+  // False where its thread hangs.
+  bool is_alive() const;
+  PartHealth health() const;
+
+  // An answer comes every kTick_ns at least, and each is a beat of the heartbeat. If none came for kHangs_ns, the
+  // thread hangs, and the state is stop.
+  static constexpr std::int64_t kTick_ns = 20'000'000, kHangs_ns = 200'000'000;
+
+ private:
+  struct Job {
+    std::shared_ptr<const LiveFrame> frame;
+    pose_wall_config config;
+    std::int64_t received_ns;
+  };
+  struct Measured {
+    double speed_m_s = 0.0, turn_rad_s = 0.0;
+    bool may_stand = false;
+    std::int64_t at_ns = 0;
+  };
+
+  void open(const pose_wall_config& config);
+  void begin_answers();
+  void run();
+  void answer_frame(const Job& job, StopNews* news);
+  void answer_silence(StopNews* news);
+  void heed_look(const StopNews& news);
+  bool comes_too_slowly(std::int64_t stamp_ns);
+  void refuse(StopNews* news, std::uint32_t reason) const;
+  void put(const StopNews& news, const Job* job);
+  StopNews newest() const;
+  pose_wall_planar_stop_motion motion_now() const;
+
+  pose_wall_planar_stop_settings settings_;
+  bool takes_motion_;
+  Tell tell_;
+  // Of the guard's thread.
+  PartBlock block_;
+  pose_wall_config config_{};
+  pose_wall_planar_stop* stop_ = nullptr;
+  StampClock stamps_;
+  std::int64_t told_ns_ = 0, header_stamp_ns_ = 0;
+  std::uint32_t first_beat_ = 0;  // the heartbeat of a controller is so far ahead of the rounds
+  std::int64_t stamp_ns_ = 0;     // of the newest frame, by its sensor
+  int slow_frames_ = 0;           // so many in turn came too long after the one before
+  bool frame_refused_ = false;    // the newest one
+
+  mutable std::mutex lock_;
+  std::condition_variable changed_;
+  std::optional<Job> waiting_;
+  std::optional<Measured> measured_;
+  double speed_level_m_s_ = NAN;  // of the newest measured motion; NaN: there is none
+  bool ending_ = false, confirmed_ = false;
+  StopNews newest_;
+  bool is_slow_ = false;          // the sensor
+  std::int64_t received_ns_ = 0;  // when the newest frame came
+  std::uint64_t answered_ = 0, lost_ = 0, refused_ = 0, stops_ = 0, looks_ = 0;
+  std::int64_t latency_worst_ns_ = 0;
+
+  std::thread thread_;
+};
+
+// "thing, nearing": names of the reasons.
+std::string stop_reasons_text(std::uint32_t reasons);
+
+}  // namespace pose_wall::tools::live

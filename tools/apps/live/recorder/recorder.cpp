@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// The recorder: results, health and, where asked, clouds as MCAP in a folder of bounded size. A disk that is full or
+// gone makes a pause in the recording and nothing else.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <ctime>
+#include <memory>
+#include <mutex>
+#include <system_error>
+#include <utility>
+
+#include "apps/live/clocks.hpp"
+#include "apps/live/edges.hpp"
+#include "apps/live/log.hpp"
+#include "apps/live/recorder/bounded_folder.hpp"
+#include "apps/live/recorder/mcap_writer.hpp"
+#include "apps/live/result_json.hpp"
+#include "apps/live/ros_messages/ros_messages.hpp"
+
+namespace pose_wall::tools::live {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kBytesPerMb = 1e6;
+constexpr std::uint64_t kFiles = 8;  // of the room: so much of it goes when the oldest file does
+// A loss of power takes at most so much, and a chunk holds no more.
+constexpr auto kChunkTime = std::chrono::seconds(1);
+constexpr std::uint64_t kChunkBytes = 4'000'000;
+constexpr auto kTryAgain = std::chrono::seconds(5);
+constexpr auto kHealthEvery = std::chrono::seconds(1);
+enum ChannelNumber : std::uint16_t { kResult, kHealth, kCloud };
+
+std::vector<McapChannel> channels(const LoadedConfig& loaded) {
+  // Members may be added; what they mean is said in the README of `pose_wall run`.
+  const char* const kAnyObject = R"({"type": "object"})";
+  char topic[POSE_WALL_TEXT_MAX] = {};
+  pose_wall_config_get_text(loaded.config.get(), "pointcloud_topic", topic, sizeof topic);
+  return {{"/pose_wall/result", "json", "pose_wall.Result", "jsonschema", kAnyObject},
+          {"/pose_wall/health", "json", "pose_wall.Health", "jsonschema", kAnyObject},
+          {topic, "cdr", kPointCloud2Type.ros2_name(), "ros2msg", kPointCloud2Type.ros2_definition}};
+}
+
+class Recorder final : public Sink {
+ public:
+  Recorder(const LoadedConfig& loaded, const HealthBoard& health)
+      : board_(health),
+        channels_(channels(loaded)),
+        with_clouds_(loaded.live.recording_clouds),
+        folder_(loaded.live.recording, ".mcap", static_cast<std::uint64_t>(loaded.live.recording_mb * kBytesPerMb)),
+        messages_(MessageEncoding::kCdr, ""),
+        part_("sink recorder " + loaded.live.recording) {}
+
+  // A folder that cannot be written is a fault of the settings now, and of the disk later. A disk that is full at
+  // power-on is no reason to measure nothing.
+  void start() override {
+    try {
+      open();
+    } catch (const std::system_error& fault) {
+      if (fault.code() != std::errc::no_space_on_device && fault.code().value() != EDQUOT) throw;
+      pause(fault.what());
+    }
+  }
+
+  void take(const LiveResult& result) override {
+    if (!writer_ && Clock::now() < try_again_) {
+      ++not_recorded_;
+      return;
+    }
+    ++in_chunk_;
+    try {
+      if (!writer_) open();
+      record(result);
+    } catch (const std::exception& fault) {
+      pause(fault.what());
+    }
+  }
+
+  void stop() override {
+    try {
+      if (writer_) {
+        write_chunk();
+        writer_->finish();
+      }
+    } catch (const std::exception& fault) {
+      pause(fault.what());
+    }
+    writer_.reset();
+  }
+
+  PartHealth health() const override {
+    const std::lock_guard<std::mutex> locked(trouble_lock_);
+    PartHealth health;
+    health.part = part_;
+    health.grade = trouble_.empty() ? Grade::kGood : Grade::kBad;
+    health.summary = trouble_.empty() ? "records" : "pauses: " + trouble_;
+    health.add("results recorded", recorded_.load());
+    health.add("results not recorded", not_recorded_.load());
+    health.add("files", files_.load());
+    return health;
+  }
+
+  // A disk that stalls for a second costs nothing.
+  std::size_t backlog() const override { return 20; }
+  bool wants_clouds() const override { return with_clouds_; }
+
+ private:
+  std::uint64_t file_bytes_most() const { return folder_.room_bytes() / kFiles; }
+
+  void open() {
+    writer_ = std::make_unique<McapWriter>(folder_.next(file_bytes_most()).string(), channels_);
+    chunk_began_ = Clock::now();
+    ++files_;
+  }
+
+  void record(const LiveResult& result) {
+    const auto now_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(wall_ns(), 0));
+    if (with_clouds_ && result.frame) writer_->add(kCloud, now_ns, messages_.cloud(*result.frame));
+    writer_->add(kResult, now_ns, result_json(result));
+    if (Clock::now() - health_last_ >= kHealthEvery) {
+      health_last_ = Clock::now();
+      writer_->add(kHealth, now_ns, health_json(board_.all()));
+    }
+    if (Clock::now() - chunk_began_ < kChunkTime && writer_->gathered_bytes() < kChunkBytes) return;
+    write_chunk();
+    if (writer_->bytes() < file_bytes_most()) return;
+    writer_->finish();
+    open();
+  }
+
+  // Room is made before it is taken, also for the summary that is to come: the folder never holds more.
+  void write_chunk() {
+    const std::uint64_t finished = writer_->finished_bytes();
+    if (!folder_.make_room(finished - writer_->bytes(), writer_->path())) {
+      throw std::runtime_error(fmt::format("{}: a second's recording is {} bytes, recording_mb allows {} for all",
+                                           writer_->path(), writer_->gathered_bytes(), folder_.room_bytes()));
+    }
+    writer_->flush();
+    chunk_began_ = Clock::now();
+    recorded_ += std::exchange(in_chunk_, 0);
+    set_trouble("");
+  }
+
+  void pause(const std::string& why) {
+    writer_.reset();
+    not_recorded_ += std::exchange(in_chunk_, 0);
+    try_again_ = Clock::now() + kTryAgain;
+    set_trouble(why);
+  }
+
+  // The first stays until something is on the disk: a try that fails again is no news.
+  void set_trouble(const std::string& why) {
+    const std::lock_guard<std::mutex> locked(trouble_lock_);
+    if (why.empty() || trouble_.empty()) trouble_ = why;
+  }
+
+  const HealthBoard& board_;
+  std::vector<McapChannel> channels_;
+  bool with_clouds_;
+  BoundedFolder folder_;
+  RosMessages messages_;
+  std::string part_;
+  std::unique_ptr<McapWriter> writer_;
+  Clock::time_point chunk_began_, health_last_, try_again_;
+  std::uint64_t in_chunk_ = 0;  // results that are not on the disk yet
+  mutable std::mutex trouble_lock_;
+  std::string trouble_;
+  std::atomic<std::uint64_t> recorded_{0}, not_recorded_{0}, files_{0};
+};
+
+}  // namespace
+
+std::unique_ptr<Sink> make_recorder(const LoadedConfig& loaded, const HealthBoard& health) {
+  return std::make_unique<Recorder>(loaded, health);
+}
+
+}  // namespace pose_wall::tools::live

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "apps/live/result_json.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/json/json_words.hpp"
+#include "study/results/result_json.hpp"
+
+namespace pose_wall::tools::live {
+
+std::string result_json(const LiveResult& result) {
+  const pose_wall_publication& publication = result.publication;
+  FrameOutcome outcome;
+  outcome.frame = publication.frame;
+  outcome.source = result.frame_id;
+  outcome.stamp_ns = publication.result.stamp_ns;
+  outcome.result = publication.result;
+  Json line = result_as_json(outcome);
+  line.erase("times_ms");
+  line.erase("error");
+  line["told_by"] = publication.cause == POSE_WALL_RUNTIME_FRAME ? "frame" : "silence";
+  line["header_stamp_ns"] = result.header_stamp_ns;
+  line["publication"] = publication.index;
+  line["age_ms"] = static_cast<double>(publication.age_ns) * 1e-6;
+  line["thinning"] = publication.thinning;
+  line["held_thinning"] = publication.held_thinning;
+  return json_text(line);
+}
+
+std::string health_json(const std::vector<PartHealth>& parts) {
+  Json list = Json::array();
+  for (const PartHealth& part : parts) {
+    Json facts = Json::object();
+    for (const auto& [name, value] : part.facts) facts[name] = value;
+    list.push_back(
+        {{"part", part.part}, {"grade", grade_name(part.grade)}, {"summary", part.summary}, {"facts", facts}});
+  }
+  return json_text({{"parts", list}});
+}
+
+}  // namespace pose_wall::tools::live

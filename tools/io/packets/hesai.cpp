@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "io/packets/hesai.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "io/numbers/angles.hpp"
+
+namespace pose_wall::tools {
+namespace {
+
+double azimuth_of(const HesaiTraits& traits, ByteView payload, std::size_t block) {
+  const std::size_t start = traits.head_bytes + block * traits.block_bytes();
+  return 0.01 * little_endian_at(payload, start + traits.block_head_bytes - 2, 2);
+}
+
+}  // namespace
+
+HesaiAssembler::HesaiAssembler(std::optional<HesaiModel> stated, std::string angles) : angles_(std::move(angles)) {
+  if (stated) set_model(*stated);
+}
+
+void HesaiAssembler::set_model(HesaiModel model) {
+  const HesaiTraits& traits = hesai_traits(model);
+  std::vector<Laser> lasers = traits.beams.lasers;
+  if (!angles_.empty()) {
+    const std::vector<HesaiLaser> own = parse_hesai_angles(angles_, traits.lasers());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      lasers[i].elevation_deg = own[i].elevation_deg;
+      lasers[i].azimuth_deg = own[i].azimuth_deg;
+    }
+    number_rings(&lasers);
+  }
+  for (const Laser& laser : lasers) {
+    const double elevation_rad = laser.elevation_deg * kRadPerDeg;
+    beams_.push_back({laser, std::cos(elevation_rad), std::sin(elevation_rad)});
+  }
+  traits_ = &traits;
+  last_step_deg_ = 360.0 / traits.beams.columns;
+  kind_ = "packets of a " + traits.title();
+  firing_.points.resize(traits.lasers());
+}
+
+bool HesaiAssembler::add(const Datagram& datagram) {
+  const std::optional<HesaiModel> model = hesai_model_of(datagram.payload);
+  if (!model || (traits_ != nullptr && traits_->model != *model)) return false;
+  if (traits_ == nullptr) set_model(*model);
+  const std::size_t step = hesai_returns(*traits_, datagram.payload);
+  std::vector<double> azimuths_deg;
+  for (std::size_t block = 0; block < traits_->blocks; block += step) {
+    azimuths_deg.push_back(azimuth_of(*traits_, datagram.payload, block));
+  }
+  const PacketSteps steps(azimuths_deg, last_step_deg_);
+  for (std::size_t k = 0; k < azimuths_deg.size(); ++k) {
+    const auto earlier_ns = std::llround(steps.earlier_ns(k, traits_->beams.cycle_ns));
+    fill_firing(datagram.payload, k * step, step, datagram.captured_ns - earlier_ns);
+    add_firing(firing_, steps.after_deg(k));
+  }
+  last_step_deg_ = steps.after_deg(azimuths_deg.size());
+  return true;
+}
+
+void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, std::size_t returns, std::int64_t captured_ns) {
+  firing_.azimuth_deg = azimuth_of(*traits_, payload, block);
+  const double start_ns = traits_->firing_start_ns(block / returns, traits_->blocks / returns);
+  firing_.time_ns = captured_ns + std::llround(start_ns + traits_->first_laser_ns);
+  const std::size_t start = traits_->head_bytes + block * traits_->block_bytes() + traits_->block_head_bytes;
+  for (std::size_t i = 0; i < traits_->lasers(); ++i) {
+    const auto& [laser, cos_elevation, sin_elevation] = beams_[i];
+    ScanPoint& point = firing_.points[laser.ring];
+    point = ScanPoint{};
+    point.ring = laser.ring;
+    point.t_ns = static_cast<std::uint32_t>(laser.after_ns);
+    // Whatever their order, the farthest return is the last one: dust before a wall would be taken for the wall.
+    std::size_t at = start + i * traits_->return_bytes, other = at;
+    for (std::size_t k = 1; k < returns; ++k) {
+      other += traits_->block_bytes();
+      if (little_endian_at(payload, other, 2) > little_endian_at(payload, at, 2)) at = other;
+    }
+    const double range_m = traits_->beams.ranges.unit_m * little_endian_at(payload, at, 2);
+    if (range_m == 0.0) continue;
+    const double azimuth_rad = (firing_.azimuth_deg + laser.azimuth_deg) * kRadPerDeg;
+    const double flat_m = range_m * cos_elevation;
+    point.x_m = static_cast<float>(flat_m * std::cos(azimuth_rad));
+    point.y_m = static_cast<float>(-flat_m * std::sin(azimuth_rad));
+    point.z_m = static_cast<float>(range_m * sin_elevation);
+    point.intensity = std::to_integer<std::uint8_t>(payload.data[at + 2]);
+  }
+}
+
+}  // namespace pose_wall::tools

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "study/doctor/preview.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "study/doctor/statistics.hpp"
+#include "study/results/frame_runner.hpp"
+
+namespace pose_wall::tools::doctor {
+
+std::string Preview::reasons_text(std::size_t count) const {
+  std::vector<std::pair<std::size_t, std::uint32_t>> order;
+  // These two say nothing of the settings: every recording begins with no value, and a leaf may grow.
+  constexpr std::uint32_t kLeftOut = POSE_WALL_R_NEVER_MEASURED | POSE_WALL_R_LEAF_GROWN;
+  for (std::uint32_t bit = 0; bit < reasons.size(); ++bit) {
+    if (reasons[bit] > 0 && (1U << bit & kLeftOut) == 0) order.emplace_back(reasons[bit], bit);
+  }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  order.resize(std::min(order.size(), count));
+  std::string names;
+  for (const auto& reason : order) {
+    names += (names.empty() ? "" : ", ") + std::string(pose_wall_reason_name(reason.second));
+  }
+  return names;
+}
+
+Preview preview(const LoadedConfig& settings, double rate_hz, const NextFrame& next) {
+  FrameRunner runner(settings.config, rate_hz, settings.motion);
+  std::array<std::array<std::size_t, POSE_WALL_QUANTITIES>, POSE_WALL_VALID + 1> counts{};
+  std::array<std::vector<double>, POSE_WALL_QUANTITIES> levels;
+  Preview seen;
+  while (std::optional<SourcedFrame> frame = next()) {
+    const FrameOutcome outcome = runner.run(std::move(*frame));
+    if (!outcome.result) continue;
+    ++seen.frames;
+    for (std::size_t q = 0; q < levels.size(); ++q) {
+      const pose_wall_value& value = outcome.result->quantity[q];
+      ++counts[std::min<std::uint32_t>(value.state, POSE_WALL_VALID)][q];
+      if (value.state != POSE_WALL_INVALID) levels[q].push_back(value.protection_level);
+    }
+    const std::uint32_t reasons = all_reasons(*outcome.result);
+    for (std::uint32_t bit = 0; bit < seen.reasons.size(); ++bit) seen.reasons[bit] += reasons >> bit & 1U;
+  }
+  for (std::size_t q = 0; q < levels.size(); ++q) {
+    seen.valid[q] = share(counts[POSE_WALL_VALID][q], seen.frames);
+    seen.degraded[q] = share(counts[POSE_WALL_DEGRADED][q], seen.frames);
+    seen.held[q] = share(counts[POSE_WALL_HELD][q], seen.frames);
+    seen.level[q] = median(levels[q]);
+  }
+  return seen;
+}
+
+}  // namespace pose_wall::tools::doctor
