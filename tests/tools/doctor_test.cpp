@@ -114,7 +114,7 @@ TEST_P(Mounts, AreFoundAndTheProposalMeasures) {
   const doctor::Diagnosis d = diagnosis_of(simulated);
   ASSERT_TRUE(d.verdict.is_usable()) << d.verdict.line();
   EXPECT_EQ(d.sensor.model, mount.sensor);
-  EXPECT_NEAR(d.mount->story.floor.height_m, mount.height_m, mount.height_tolerance_m);
+  EXPECT_NEAR(d.mount->likely.floor.height_m, mount.height_m, mount.height_tolerance_m);
   const api::Config& config = d.proposal.config();
   const auto off_deg = [&config](const char* key, double truth_deg) {
     return std::fabs(std::remainder(config.number(key) * kDegPerRad - truth_deg, 360.0));
@@ -203,7 +203,7 @@ TEST(Doctor, BoxesHoldTheBodyAndLittleElse) {
       simulate(setup_of("os0-128", {"body=yes", "boom=yes", "base_height_m=1.6", "body_top_m=-0.5"}), 6);
   const doctor::Diagnosis d = diagnosis_of(simulated);
   ASSERT_TRUE(d.mount.has_value());
-  ASSERT_FALSE(d.mount->story.body.boxes_base.empty());
+  ASSERT_FALSE(d.mount->likely.body.boxes_base.empty());
   EXPECT_TRUE(d.mount->is_sure) << "the body tells floor from roof";
   std::size_t body = 0, body_inside = 0, others = 0, others_inside = 0;
   for (const sim::Frame& frame : simulated.frames) {
@@ -211,7 +211,7 @@ TEST(Doctor, BoxesHoldTheBodyAndLittleElse) {
       const float* p = &frame.xyz_intensity[4 * i];
       const Eigen::Vector3d point = Eigen::Vector3f(p[0], p[1], p[2]).cast<double>();
       bool inside = false;
-      for (const doctor::Box& box : d.mount->story.body.boxes_base) inside = inside || box.holds(point);
+      for (const doctor::Box& box : d.mount->likely.body.boxes_base) inside = inside || box.holds(point);
       const bool is_body = frame.labels[i] == sim::Label::kBody;
       (is_body ? body : others) += 1;
       (is_body ? body_inside : others_inside) += inside ? 1 : 0;
@@ -226,7 +226,7 @@ TEST(Doctor, SaysWhatCannotBeKnown) {
   const Simulated simulated = simulate(setup_of("os1-64", {"forward_axis=-Y", "base_height_m=1.4"}), 4);
   const doctor::Diagnosis d = diagnosis_of(simulated);
   EXPECT_TRUE(d.verdict.is_usable()) << d.verdict.line();
-  EXPECT_EQ(d.mount->story.road.line, 'Y');
+  EXPECT_EQ(d.mount->likely.road.line, 'Y');
   EXPECT_FALSE(d.ahead.is_known);
   EXPECT_TRUE(contains(d.verdict.line(), "is a guess")) << d.verdict.line();
   const doctor::Diagnosis with_axis = diagnosis_of(simulated, told({"forward_axis=-Y"}), 1.4);
@@ -239,7 +239,7 @@ TEST(Doctor, SaysWhatCannotBeKnown) {
 TEST(Doctor, ProposesUpsideDownOnlyWhereSomethingTellsIt) {
   const Simulated simulated = simulate(setup_of("mid360", {"mount_roll_deg=180", "base_height_m=1.4"}), 4);
   const doctor::Diagnosis alone = diagnosis_of(simulated);
-  if (alone.mount->story.is_flipped) {
+  if (alone.mount->likely.is_flipped) {
     EXPECT_FALSE(alone.verdict.is_usable()) << "nothing but the view speaks for it";
   } else {
     EXPECT_FALSE(alone.mount->is_sure);
@@ -249,7 +249,7 @@ TEST(Doctor, ProposesUpsideDownOnlyWhereSomethingTellsIt) {
     EXPECT_TRUE(d.verdict.is_usable()) << d.verdict.line();
     EXPECT_TRUE(d.mount->is_sure);
     EXPECT_NEAR(std::fabs(d.proposal.config().number("extrinsic_roll")), 3.1416, 0.01);
-    EXPECT_NEAR(d.mount->story.floor.height_m, 1.4, 0.03);
+    EXPECT_NEAR(d.mount->likely.floor.height_m, 1.4, 0.03);
   }
 }
 
@@ -257,7 +257,7 @@ TEST(Doctor, RangeNoiseIsThatOfTheSensor) {
   for (const char* sensor : {"os1-64", "mid360"}) {
     const sim::SceneSetup setup = setup_of(sensor, {"range_noise_m=0.02", "base_height_m=1.4"});
     const doctor::Diagnosis d = diagnosis_of(simulate(setup, 4));
-    const doctor::RangeNoise& noise = d.mount->story.noise;
+    const doctor::RangeNoise& noise = d.mount->likely.noise;
     EXPECT_NEAR(std::isfinite(noise.repeated_m) ? noise.repeated_m : noise.plane_m, 0.02, 0.005) << sensor;
   }
 }

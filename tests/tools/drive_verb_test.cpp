@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "english_left.hpp"
-#include "lab/drive/story.hpp"
-#include "lab/drive/story_files.hpp"
+#include "lab/drive/drive_files.hpp"
+#include "lab/drive/drive_run.hpp"
 #include "lab/sim/network_kinds.hpp"
 #include "ran_command.hpp"
 #include "study/planar/plane_pose.hpp"
@@ -38,8 +38,8 @@ class TaughtRoad {
             network, model, 1, [](double) { return true; }, share)) {}
 
   // From one keyframe to another.
-  StorySettings way(std::size_t from, std::size_t to) const {
-    StorySettings settings;
+  DriveRunSettings way(std::size_t from, std::size_t to) const {
+    DriveRunSettings settings;
     settings.people = 0;
     settings.loses_walls = false;
     settings.start = roads.marks.at(from).truth;
@@ -66,76 +66,76 @@ const TaughtRoad& corridor() {
   return road;
 }
 
-TEST(DriveStory, ReachesItsGoalWithoutAContact) {
+TEST(DriveRun, ReachesItsGoalWithoutAContact) {
   const TaughtRoad& road = corridor();
-  DriveStory story(road.network, road.model, road.roads, road.way(30, 60));
-  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  DriveRun drive(road.network, road.model, road.roads, road.way(30, 60));
+  const DriveEnd end = drive.run([](const DriveFrame&) { return true; });
   EXPECT_TRUE(end.has_arrived) << end.reason;
   EXPECT_EQ(end.contacts, 0U);
   EXPECT_EQ(end.wrong_places, 0U);
   EXPECT_LT(end.error_worst_m, 0.2);
   EXPECT_LT(end.off_route_worst_m, 0.2);
-  const StoryFrame& last = story.frames().back();
-  EXPECT_LT(distance_m(last.truth, story.goal()), 0.3);
-  const std::string csv = story_as_csv(story.frames());
-  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), story.frames().size() + 1);
-  EXPECT_TRUE(contains(story_table(story, end, road.roads), "reached"));
-  EXPECT_TRUE(contains(story_picture(story, end, road.roads, "t"), "<polyline"));
+  const DriveFrame& last = drive.frames().back();
+  EXPECT_LT(distance_m(last.truth, drive.goal()), 0.3);
+  const std::string csv = drive_as_csv(drive.frames());
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), drive.frames().size() + 1);
+  EXPECT_TRUE(contains(drive_table(drive, end, road.roads), "reached"));
+  EXPECT_TRUE(contains(drive_picture(drive, end, road.roads, "t"), "<polyline"));
 }
 
-TEST(DriveStory, WhatWasLostIsToldInWords) {
+TEST(DriveRun, WhatWasLostIsToldInWords) {
   const TaughtRoad& road = corridor();
-  const DriveStory story(road.network, road.model, road.roads, road.way(30, 60));
+  const DriveRun drive(road.network, road.model, road.roads, road.way(30, 60));
   const test::EnglishAfterwards afterwards;
   for (const auto& [loss, english, chinese] :
        {std::tuple("dark_wall", "those of a wall, 2.0 s", "某处墙面的回波，2.0 s"),
         std::tuple("dropout", "most of them, 2.0 s", "大部分回波，2.0 s"),
         std::tuple("blind", "all of them, 2.0 s", "全部回波，2.0 s")}) {
-    StoryEnd end;
+    DriveEnd end;
     end.loss = loss;
     end.loss_s = 2.0;
     choose_language(Language::kEnglish);
-    EXPECT_TRUE(contains(story_table(story, end, road.roads), english)) << story_table(story, end, road.roads);
+    EXPECT_TRUE(contains(drive_table(drive, end, road.roads), english)) << drive_table(drive, end, road.roads);
     choose_language(Language::kChinese);
-    EXPECT_TRUE(contains(story_table(story, end, road.roads), chinese)) << story_table(story, end, road.roads);
+    EXPECT_TRUE(contains(drive_table(drive, end, road.roads), chinese)) << drive_table(drive, end, road.roads);
   }
 }
 
-TEST(DriveStory, ReachesWhereTheMapBeganThoughItCannotTurnRoundThere) {
+TEST(DriveRun, ReachesWhereTheMapBeganThoughItCannotTurnRoundThere) {
   const TaughtRoad& road = corridor();
-  StorySettings settings = road.way(24, 0);
+  DriveRunSettings settings = road.way(24, 0);
   settings.start = combined(*settings.start, {0.0, 0.0, M_PI});
   settings.goal.reset();
-  DriveStory story(road.network, road.model, road.roads, settings);
-  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  DriveRun drive(road.network, road.model, road.roads, settings);
+  const DriveEnd end = drive.run([](const DriveFrame&) { return true; });
   EXPECT_TRUE(end.has_arrived) << end.reason;
   EXPECT_EQ(end.contacts, 0U);
-  EXPECT_LT(distance_m(story.frames().back().truth, story.goal()), 0.3);
+  EXPECT_LT(distance_m(drive.frames().back().truth, drive.goal()), 0.3);
 }
 
-TEST(DriveStory, APersonWhoStaysStopsTheMachineAndTheReasonSaysSo) {
+TEST(DriveRun, APersonWhoStaysStopsTheMachineAndTheReasonSaysSo) {
   const TaughtRoad& road = corridor();
-  StorySettings settings = road.way(20, 64);
+  DriveRunSettings settings = road.way(20, 64);
   settings.people = 1;
   settings.people_stay = true;
   settings.patience_s = 40.0;
   settings.time_most_s = 400.0;
-  DriveStory story(road.network, road.model, road.roads, settings);
-  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  DriveRun drive(road.network, road.model, road.roads, settings);
+  const DriveEnd end = drive.run([](const DriveFrame&) { return true; });
   EXPECT_FALSE(end.has_arrived);
   EXPECT_EQ(end.contacts, 0U);
   EXPECT_TRUE(contains(end.reason, "the stop held it for 40 s: ")) << end.reason;
   EXPECT_TRUE(contains(end.reason, "thing")) << end.reason;
-  EXPECT_GT(story.frames().back().nearest_m, 0.05);
-  EXPECT_LT(story.frames().back().nearest_m, 4.0) << "it stopped for something else";
+  EXPECT_GT(drive.frames().back().nearest_m, 0.05);
+  EXPECT_LT(drive.frames().back().nearest_m, 4.0) << "it stopped for something else";
 }
 
-TEST(DriveStory, AGoalInTheRockHasThePlannersReason) {
+TEST(DriveRun, AGoalInTheRockHasThePlannersReason) {
   const TaughtRoad& road = corridor();
-  StorySettings settings = road.way(30, 60);
+  DriveRunSettings settings = road.way(30, 60);
   settings.goal = combined(*settings.goal, {0.0, 12.0, 0.0});
-  DriveStory story(road.network, road.model, road.roads, settings);
-  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  DriveRun drive(road.network, road.model, road.roads, settings);
+  const DriveEnd end = drive.run([](const DriveFrame&) { return true; });
   EXPECT_FALSE(end.has_arrived);
   EXPECT_TRUE(contains(end.reason, "there is no route. The machine does not fit at the goal")) << end.reason;
   EXPECT_TRUE(contains(end.reason, "Another --goal")) << end.reason;
@@ -144,32 +144,32 @@ TEST(DriveStory, AGoalInTheRockHasThePlannersReason) {
   EXPECT_GT(end.unique_after_s, 0.0) << "its place was found";
 }
 
-TEST(DriveStory, TwinRoadsAreNeverTakenForEachOther) {
+TEST(DriveRun, TwinRoadsAreNeverTakenForEachOther) {
   const TaughtRoad road("twin", 110.0, kTaughtShare);
-  StorySettings settings = road.way(road.roads.marks.size() / 2, 0);
+  DriveRunSettings settings = road.way(road.roads.marks.size() / 2, 0);
   settings.time_most_s = 30.0;
-  DriveStory story(road.network, road.model, road.roads, settings);
-  const StoryEnd end = story.run([](const StoryFrame&) { return true; });
+  DriveRun drive(road.network, road.model, road.roads, settings);
+  const DriveEnd end = drive.run([](const DriveFrame&) { return true; });
   EXPECT_EQ(end.wrong_places, 0U);
   EXPECT_EQ(end.contacts, 0U);
-  for (const StoryFrame& frame : story.frames()) {
+  for (const DriveFrame& frame : drive.frames()) {
     if (frame.phase == PilotPhase::kFollowing) break;
     EXPECT_LE(std::abs(frame.command.speed_m_s), 0.2 + 1e-9) << "faster than a creep at " << frame.time_s << " s";
   }
-  EXPECT_NE(story.frames().front().place_state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_UNIQUE});
+  EXPECT_NE(drive.frames().front().place_state, std::uint32_t{POSE_WALL_PLANAR_LOCALISE_UNIQUE});
 }
 
-TEST(DriveStory, TheSameSeedGivesTheSameBits) {
+TEST(DriveRun, TheSameSeedGivesTheSameBits) {
   const TaughtRoad& road = corridor();
-  StorySettings settings = road.way(30, 60);
+  DriveRunSettings settings = road.way(30, 60);
   settings.people = 2;
   settings.loses_walls = true;
   settings.time_most_s = 8.0;
   std::string csv[2];
   for (std::string& text : csv) {
-    DriveStory story(road.network, road.model, road.roads, settings);
-    (void)story.run([](const StoryFrame&) { return true; });
-    text = story_as_csv(story.frames());
+    DriveRun drive(road.network, road.model, road.roads, settings);
+    (void)drive.run([](const DriveFrame&) { return true; });
+    text = drive_as_csv(drive.frames());
   }
   EXPECT_GT(csv[0].size(), 5000U);
   EXPECT_EQ(csv[0], csv[1]);

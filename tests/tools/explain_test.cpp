@@ -54,11 +54,11 @@ TEST(Sentences, AShortWallIsToldWithBothLengthsAndTheKey) {
   noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_LENGTH, 2.1, 4.0, false);
   noted.note(POSE_WALL_TRACE_RIGHT, POSE_WALL_TRACE_WALL_LENGTH, 8.0, 4.0, true);
   const Paragraph left = noted.paragraph(kLeft);
-  EXPECT_EQ(left.verdict, Verdict::kRefused);
+  EXPECT_EQ(left.acceptance, Acceptance::kRefused);
   ASSERT_EQ(left.sentences.size(), 1U);
   EXPECT_EQ(left.sentences[0],
             "The plane is supported over 2.10 m along the road; 4.00 m is needed (wall_length_min).");
-  EXPECT_EQ(noted.paragraph(kRight).verdict, Verdict::kAccepted);
+  EXPECT_EQ(noted.paragraph(kRight).acceptance, Acceptance::kAccepted);
   EXPECT_TRUE(noted.paragraph(kRight).sentences.empty());
 }
 
@@ -66,7 +66,7 @@ TEST(Sentences, WhatIsOfBothWallsIsToldOfEach) {
   Noted noted;
   noted.note(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_ACROSS, 2.0, 1.0, false);
   for (const std::size_t side : {kLeft, kRight}) {
-    EXPECT_EQ(noted.paragraph(side).verdict, Verdict::kRefused);
+    EXPECT_EQ(noted.paragraph(side).acceptance, Acceptance::kRefused);
     EXPECT_TRUE(contains(noted.paragraph(side).sentences.at(0), "200 % of the wall that the sides show"));
   }
 }
@@ -74,9 +74,9 @@ TEST(Sentences, WhatIsOfBothWallsIsToldOfEach) {
 TEST(Sentences, ADoubtIsNoRefusalAndIsNotToldTwice) {
   Noted noted;
   noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_OPEN_DOUBT, 0.05, 0.01, false);
-  EXPECT_EQ(noted.paragraph(kLeft).verdict, Verdict::kDoubted);
+  EXPECT_EQ(noted.paragraph(kLeft).acceptance, Acceptance::kDoubted);
   noted.note(POSE_WALL_TRACE_LEFT, POSE_WALL_TRACE_WALL_SILENT, 0.05, 0.025, false);
-  EXPECT_EQ(noted.paragraph(kLeft).verdict, Verdict::kRefused);
+  EXPECT_EQ(noted.paragraph(kLeft).acceptance, Acceptance::kRefused);
   EXPECT_EQ(noted.paragraph(kLeft).sentences.size(), 1U);
 }
 
@@ -140,7 +140,7 @@ TEST(Sentences, ADoubtThatIsKeptNamesTheFrameThatShowedTheRival) {
 
 TEST(Sentences, WhatTwoGatesAskForIsToldOnce) {
   const Explanation explanation{
-      {{POSE_WALL_TRACE_FLOOR, Verdict::kRefused, {"No."}, {"a; b c", "d; b c", "a"}}}, {}, {}};
+      {{POSE_WALL_TRACE_FLOOR, Acceptance::kRefused, {"No."}, {"a; b c", "d; b c", "a"}}}, {}, {}};
   EXPECT_TRUE(contains(sentences_text(explanation), "To look at: a; b c; d.\n")) << sentences_text(explanation);
 }
 
@@ -149,7 +149,7 @@ TEST(Sentences, PointsThatAreDroppedNameTheirLimit) {
   noted.result.points_in = noted.result.dropped_far = 5000;
   noted.note(POSE_WALL_TRACE_FRAME, POSE_WALL_TRACE_POINTS, 0.0, 100.0, false);
   const Paragraph frame = noted.paragraph(kFrame);
-  EXPECT_EQ(frame.verdict, Verdict::kRefused);
+  EXPECT_EQ(frame.acceptance, Acceptance::kRefused);
   EXPECT_TRUE(contains(frame.sentences.at(1), "5000 are farther than range_max (30.00 m)")) << frame.sentences.at(1);
   EXPECT_TRUE(contains(frame.helps.at(0), "--unit mm")) << frame.helps.at(0);
 }

@@ -101,46 +101,46 @@ void log_line(Grade grade, const std::string& part, const std::string& fact) {
 
 void HealthLog::note(const std::vector<PartHealth>& parts, Clock::time_point now) {
   for (const PartHealth& part : parts) {
-    const auto [known, is_new] = stories_.try_emplace(part.part);
-    Story& story = known->second;
-    if (is_new) story.window_began = now;
-    if (now - story.window_began >= kWindow) end_window(&story, now);
-    if (is_new || !story.last.fares_as(part)) note_change(part, &story);
-    story.last = part;
+    const auto [known, is_new] = courses_.try_emplace(part.part);
+    Course& course = known->second;
+    if (is_new) course.window_began = now;
+    if (now - course.window_began >= kWindow) end_window(&course, now);
+    if (is_new || !course.last.fares_as(part)) note_change(part, &course);
+    course.last = part;
   }
 }
 
-void HealthLog::note_change(const PartHealth& part, Story* story) {
-  story->has_changed = true;
-  const auto said = story->told.find(part.summary);
-  const bool is_new = said == story->told.end() && story->told.size() < kSummariesMost;
-  const bool is_told = is_new || (said != story->told.end() && !story->is_damped && said->second < kSameMost);
+void HealthLog::note_change(const PartHealth& part, Course* course) {
+  course->has_changed = true;
+  const auto said = course->told.find(part.summary);
+  const bool is_new = said == course->told.end() && course->told.size() < kSummariesMost;
+  const bool is_told = is_new || (said != course->told.end() && !course->is_damped && said->second < kSameMost);
   if (is_told) {
-    ++story->told[part.summary];
+    ++course->told[part.summary];
     write_(part.grade, part.part, part.summary);
     return;
   }
-  ++story->untold;
-  if (std::exchange(story->is_damped, true)) return;
+  ++course->untold;
+  if (std::exchange(course->is_damped, true)) return;
   write_(part.grade, part.part,
          fmt::format("{}; it goes to and fro: from here on one line sums up {} s", part.summary, kWindow.count()));
 }
 
 // A window without a change ends the damping; what was said stays known as long as it lasts.
-void HealthLog::end_window(Story* story, Clock::time_point now) {
-  story->window_began = now;
-  const bool rests = !std::exchange(story->has_changed, false);
-  const std::uint64_t untold = std::exchange(story->untold, 0);
+void HealthLog::end_window(Course* course, Clock::time_point now) {
+  course->window_began = now;
+  const bool rests = !std::exchange(course->has_changed, false);
+  const std::uint64_t untold = std::exchange(course->untold, 0);
   if (untold > 0) {
-    write_(story->last.grade, story->last.part,
-           fmt::format("{}; changed {} more times in {} s", story->last.summary, untold, kWindow.count()));
+    write_(course->last.grade, course->last.part,
+           fmt::format("{}; changed {} more times in {} s", course->last.summary, untold, kWindow.count()));
     return;
   }
   if (!rests) return;
-  if (std::exchange(story->is_damped, false)) {
-    write_(story->last.grade, story->last.part, fmt::format("{}; it rests", story->last.summary));
+  if (std::exchange(course->is_damped, false)) {
+    write_(course->last.grade, course->last.part, fmt::format("{}; it rests", course->last.summary));
   }
-  story->told.clear();
+  course->told.clear();
 }
 
 }  // namespace pose_wall::tools::live

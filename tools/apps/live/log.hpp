@@ -35,7 +35,7 @@ class HealthLog {
   void note(const std::vector<PartHealth>& parts, Clock::time_point now = Clock::now());
 
  private:
-  struct Story {
+  struct Course {
     PartHealth last;
     Clock::time_point window_began;
     std::map<std::string, int> told;  // summaries of this window, and how often
@@ -44,11 +44,11 @@ class HealthLog {
     bool is_damped = false;
   };
 
-  void note_change(const PartHealth& part, Story* story);
-  void end_window(Story* story, Clock::time_point now);
+  void note_change(const PartHealth& part, Course* course);
+  void end_window(Course* course, Clock::time_point now);
 
   Write write_;
-  std::map<std::string, Story> stories_;  // of each part
+  std::map<std::string, Course> courses_;  // of each part
 };
 
 }  // namespace pose_wall::tools::live

@@ -71,7 +71,7 @@ doctor::Preview preview_of(const DoctorOptions& options, const LoadedConfig& set
 
 // The comments at the head of the file: whoever opens it later has no terminal to read.
 std::vector<std::string> head_of(const DoctorOptions& options, const doctor::Diagnosis& diagnosis) {
-  const doctor::Verdict& verdict = diagnosis.verdict;
+  const doctor::RecordingVerdict& verdict = diagnosis.verdict;
   std::vector<std::string> head = {
       say("Proposed by pose_wall doctor from {} frames of {}.", diagnosis.stamps.frames, options.frames.inputs.front()),
       say("Verdict: {}", verdict.headline())};

@@ -21,8 +21,8 @@
 #include "io/outputs/output_folder.hpp"
 #include "io/terminal/interrupt.hpp"
 #include "io/terminal/progress_bar.hpp"
-#include "lab/drive/story.hpp"
-#include "lab/drive/story_files.hpp"
+#include "lab/drive/drive_files.hpp"
+#include "lab/drive/drive_run.hpp"
 #include "lab/sim/network_kinds.hpp"
 
 namespace pose_wall::tools {
@@ -45,8 +45,8 @@ std::vector<std::string> kind_names() {
   return names;
 }
 
-StorySettings settings_of(const DriveOptions& options) {
-  StorySettings settings;
+DriveRunSettings settings_of(const DriveOptions& options) {
+  DriveRunSettings settings;
   settings.seed = options.seed;
   settings.people = options.people;
   settings.people_stay = options.people_stay;
@@ -69,28 +69,28 @@ class ShareBar {
   std::size_t shown_ = 0;
 };
 
-StoryEnd run_story(DriveStory* story, bool is_shown) {
+DriveEnd run_drive(DriveRun* drive, bool is_shown) {
   ShareBar bar(is_shown);
   double whole_m = 0.0;
-  return story->run([&](const StoryFrame& frame) {
-    if (whole_m <= 0.0 && !story->first_route().poses.empty()) whole_m = story->first_route().result.length_m;
-    const double left_m = std::hypot(frame.truth.x_m - story->goal().x_m, frame.truth.y_m - story->goal().y_m);
+  return drive->run([&](const DriveFrame& frame) {
+    if (whole_m <= 0.0 && !drive->first_route().poses.empty()) whole_m = drive->first_route().result.length_m;
+    const double left_m = std::hypot(frame.truth.x_m - drive->goal().x_m, frame.truth.y_m - drive->goal().y_m);
     if (whole_m > 0.0) bar.show(1.0 - left_m / whole_m, pilot_phase_text(frame.phase));
     return !InterruptWatch::is_interrupted();
   });
 }
 
-void write_story(const DriveOptions& options, const DriveStory& story, const StoryEnd& end, const TaughtRoads& roads) {
+void write_drive(const DriveOptions& options, const DriveRun& drive, const DriveEnd& end, const TaughtRoads& roads) {
   const std::filesystem::path folder = options.output;
   const std::string title = say("drive, seed {}, network {}, sensor {}", options.seed, options.network, options.sensor);
-  write_whole_file(folder / "drive.csv", story_as_csv(story.frames()));
-  write_whole_file(folder / "drive.svg", story_picture(story, end, roads, title));
+  write_whole_file(folder / "drive.csv", drive_as_csv(drive.frames()));
+  write_whole_file(folder / "drive.svg", drive_picture(drive, end, roads, title));
   write_map_files(folder / "map.yaml", roads.map.grid());
   write_whole_file(folder / "trail.pwt", roads.trail);
 }
 
-int drive_story(const DriveOptions& options) {
-  const StorySettings settings = settings_of(options);
+int drive_through(const DriveOptions& options) {
+  const DriveRunSettings settings = settings_of(options);
   if (!options.output.empty()) make_output_folder(options.output);
   const sim::SensorModel& model = drive_sensor(options.sensor);
   const sim::Network network(sim::find_network_kind(options.network)->plan, options.seed);
@@ -107,10 +107,10 @@ int drive_story(const DriveOptions& options) {
     fmt::print(stderr, "{}", tr("interrupted on the teaching drive; nothing is written\n"));
     return kExitInterrupted;
   }
-  DriveStory story(network, model, roads, settings);
-  const StoryEnd end = run_story(&story, is_shown);
-  if (!options.output.empty()) write_story(options, story, end, roads);
-  if (!options.quiet) fmt::print("{}", story_table(story, end, roads));
+  DriveRun drive(network, model, roads, settings);
+  const DriveEnd end = run_drive(&drive, is_shown);
+  if (!options.output.empty()) write_drive(options, drive, end, roads);
+  if (!options.quiet) fmt::print("{}", drive_table(drive, end, roads));
   if (InterruptWatch::is_interrupted()) return kExitInterrupted;
   if (!end.has_arrived) fmt::print(stderr, "{}", say("pose_wall drive: the goal was not reached: {}\n", end.reason));
   if (end.contacts > 0) {
@@ -164,7 +164,7 @@ void add_drive(CLI::App& app, int& exit_code) {
       "Exit status: 0 the goal was reached without a contact, 1 a file was not written, 2 bad usage,\n"
       "3 the goal was not reached (stderr has the reason) or something was touched, 130 interrupted by Ctrl-C."));
   verb->callback(
-      [options, &exit_code] { exit_code = done_or_complaint("drive", [&] { return drive_story(*options); }); });
+      [options, &exit_code] { exit_code = done_or_complaint("drive", [&] { return drive_through(*options); }); });
 }
 
 }  // namespace pose_wall::tools

@@ -25,14 +25,14 @@
 #include "io/terminal/progress_bar.hpp"
 #include "io/terminal/shell_word.hpp"
 #include "lab/campaign/command_words.hpp"
-#include "study/explain/digest_json.hpp"
-#include "study/explain/digest_text.hpp"
 #include "study/explain/explained_recording.hpp"
 #include "study/explain/explanation_json.hpp"
 #include "study/explain/explanation_text.hpp"
 #include "study/explain/frame_choice.hpp"
 #include "study/explain/gate_list.hpp"
 #include "study/explain/prose.hpp"
+#include "study/explain/summary_json.hpp"
+#include "study/explain/summary_text.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -121,16 +121,16 @@ void print_recording(const ExplainOptions& options, const LoadedConfig& loaded,
   const std::string command = command_of(options.frames);
   if (options.json) {
     Json page = explain::explanation_page(*loaded.config.get(), worst.outcome, *worst.traced, worst.explanation);
-    fmt::print("{}\n", json_text(whole ? Json{{"digest", explain::digest_json(all.digest, command)},
+    fmt::print("{}\n", json_text(whole ? Json{{"digest", explain::summary_json(all.summary, command)},
                                               {"interrupted", all.interrupted},
                                               {"worst_frame", page}}
                                        : page,
                                  2));
     return;
   }
-  if (whole) fmt::print("{}\n", explain::digest_text(all.digest, command));
+  if (whole) fmt::print("{}\n", explain::summary_text(all.summary, command));
   fmt::print("{}\n\n{}",
-             say("The worst of {} is frame {}", explain::frames_text(all.digest.frames()), all.digest.worst()->frame),
+             say("The worst of {} is frame {}", explain::frames_text(all.summary.frames()), all.summary.worst()->frame),
              explanation_text(loaded, worst));
 }
 
@@ -140,7 +140,7 @@ int explain_all(const ExplainOptions& options, const LoadedConfig& loaded, Frame
   const explain::ExplainedRecording all = explain::explain_all(run, inputs);
   if (all.interrupted) {
     fmt::print(stderr, "pose_wall explain: {}\n",
-               say("interrupted: the digest is of the first {}", explain::frames_text(all.digest.frames())));
+               say("interrupted: the digest is of the first {}", explain::frames_text(all.summary.frames())));
   }
   if (!all.worst) {
     if (!all.interrupted) fmt::print(stderr, "pose_wall explain: {}\n", tr("no frame could be read"));
@@ -149,7 +149,7 @@ int explain_all(const ExplainOptions& options, const LoadedConfig& loaded, Frame
   print_recording(options, loaded, all);
   if (picture != nullptr) picture->write(all.worst->picture);
   if (all.interrupted) return kExitInterrupted;
-  return all.digest.unreadable() > 0 || !inputs.errors().empty() ? kExitUnreadable : kExitDone;
+  return all.summary.unreadable() > 0 || !inputs.errors().empty() ? kExitUnreadable : kExitDone;
 }
 
 int explain_inputs(const ExplainOptions& options) {

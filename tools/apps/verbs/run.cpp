@@ -95,7 +95,7 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
   // A bar between rows of the table on the same terminal would spoil both.
   const bool show_bar = !options.frames.quiet && is_terminal(2) && !(outputs.results.is_stdout() && is_terminal(1));
   ProgressBar bar(inputs.frames(), show_bar);
-  const FrameRunner::Look look = [&](const auto& cloud, const auto& points, const auto& result) {
+  const FrameRunner::Notice notice = [&](const auto& cloud, const auto& points, const auto& result) {
     if (outputs.annotated) outputs.annotated->look(points, result);
     if (!options.frames.quiet) closing.next.look(cloud, result);
   };
@@ -103,7 +103,7 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
     std::optional<SourcedFrame> frame = inputs.next();
     if (!frame) break;
     if (!options.frames.quiet && frame->frame) closing.times.add(*frame->frame);
-    const FrameOutcome outcome = runner.run(std::move(*frame), look);
+    const FrameOutcome outcome = runner.run(std::move(*frame), notice);
     if (!outcome.result) bar.print_above(fmt::format("pose_wall run: {}: {}", outcome.source, outcome.error));
     if (!options.frames.quiet && outcome.result && runner.moved()) closing.times.add_motion(*runner.moved());
     closing.add(outcome);

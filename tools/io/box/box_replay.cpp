@@ -208,7 +208,7 @@ std::string why_not(const MappedFile& file, std::int32_t status) {
 
 }  // namespace
 
-BoxReplay replay_box(const std::string& path, const ReplayProgress& progress, const EventLook& look) {
+BoxReplay replay_box(const std::string& path, const ReplayProgress& progress, const EventNotice& notice) {
   const MappedFile file(path);
   pose_wall_box_info info;
   std::int32_t status =
@@ -235,7 +235,7 @@ BoxReplay replay_box(const std::string& path, const ReplayProgress& progress, co
   for (std::size_t i = 0; i < found.events.size(); ++i) {
     BoxEvent event = event_of(found.events[i].record, &replay);
     event.computed = compute(found.events[i].record, engine, &replay);
-    if (look) look(event);
+    if (notice) notice(event);
     if (progress) progress(i + 1, found.events.size());
   }
   return replay;

@@ -66,9 +66,9 @@ struct BoxReplay {
 // After each record: how many are done, of how many.
 using ReplayProgress = std::function<void(std::uint64_t done, std::uint64_t of)>;
 
-using EventLook = std::function<void(const BoxEvent& event)>;
+using EventNotice = std::function<void(const BoxEvent& event)>;
 
 // In the order of the events. Throws std::runtime_error where the file is no black box of this build.
-BoxReplay replay_box(const std::string& path, const ReplayProgress& progress, const EventLook& look = nullptr);
+BoxReplay replay_box(const std::string& path, const ReplayProgress& progress, const EventNotice& notice = nullptr);
 
 }  // namespace pose_wall::tools

@@ -78,11 +78,11 @@ struct Sample {
   std::vector<const std::byte*> blocks;
   std::size_t block_bytes = kBlockBytes, file_bytes = 0;
 
-  // Calls look(point) for every point of these bytes in the blocks.
-  template <typename Look>
-  void for_each(std::size_t point_bytes, const Look& look) const {
+  // Calls visit(point) for every point of these bytes in the blocks.
+  template <typename Visit>
+  void for_each(std::size_t point_bytes, const Visit& visit) const {
     for (const std::byte* block : blocks) {
-      for (std::size_t at = 0; at + point_bytes <= block_bytes; at += point_bytes) look(block + at);
+      for (std::size_t at = 0; at + point_bytes <= block_bytes; at += point_bytes) visit(block + at);
     }
   }
 };

@@ -22,10 +22,10 @@ struct TracedRun {
   Seen seen;
 };
 
-// look(trace, &seen) sees the notes on each frame. Throws as work_on does.
-template <typename Seen, typename Look>
+// visit(trace, &seen) sees the notes on each frame. Throws as work_on does.
+template <typename Seen, typename Visit>
 std::vector<TracedRun<Seen>> traced_runs(const EngineChoice& choice, const std::vector<Run>& runs, const Crew& crew,
-                                         const Look& look) {
+                                         const Visit& visit) {
   std::vector<TracedRun<Seen>> done(runs.size());
   work_on(runs, crew, [&]() -> RunWork {
     const auto engine = std::make_shared<TracedEngine>();
@@ -34,7 +34,7 @@ std::vector<TracedRun<Seen>> traced_runs(const EngineChoice& choice, const std::
       const Instrument instrument = {[&](const LoadedConfig& loaded) { return engine->open(loaded.config); },
                                      [&](const pose_wall_cloud& cloud, pose_wall_result& result) {
                                        const std::int32_t status = engine->process(cloud, result);
-                                       if (status == POSE_WALL_OK) look(engine->trace(), &out.seen);
+                                       if (status == POSE_WALL_OK) visit(engine->trace(), &out.seen);
                                        return status;
                                      }};
       out.record = measure(run, choice, instrument, on_frame);

@@ -161,47 +161,47 @@ void DrivePilot::remember(const pose_wall_planar_pose& base) {
   if (!leads_out_ && (trail_.empty() || apart_m(trail_.back(), base) > kTrail_m)) trail_.push_back(base);
 }
 
-Motion DrivePilot::creep(const Look& look) {
+Motion DrivePilot::creep(const View& view) {
   if (crept_m_ > kCreepMost_m) {
     give_up(say("after {:.0f} m of creeping its place is still {}", kCreepMost_m,
-                tr(pose_wall_planar_localise_state_name(look.where->state))));
+                tr(pose_wall_planar_localise_state_name(view.where->state))));
     return {};
   }
   if (is_held()) {
-    looked_ns_ = look.now_ns;
+    looked_ns_ = view.now_ns;
     feeler_.turn_back();
   }
-  return feeler_.creep(*look.scan);
+  return feeler_.creep(*view.scan);
 }
 
-Motion DrivePilot::follow(const Look& look) {
+Motion DrivePilot::follow(const View& view) {
   pose_wall_planar_track_input input{};
   input.struct_size = sizeof input;
-  input.now_ns = look.now_ns;
-  input.pose_ns = look.where->stamp_ns;
-  input.has_pose = has_place(*look.where) ? 1 : 0;
-  input.pose = look.where->pose;
-  input.pose_level_m = kLevel * position_sigma_m(*look.where);
-  input.speed_m_s = look.measured.speed_m_s;
+  input.now_ns = view.now_ns;
+  input.pose_ns = view.where->stamp_ns;
+  input.has_pose = has_place(*view.where) ? 1 : 0;
+  input.pose = view.where->pose;
+  input.pose_level_m = kLevel * position_sigma_m(*view.where);
+  input.speed_m_s = view.measured.speed_m_s;
   require_ok(pose_wall_planar_track_step(tracker_, &input, &command_), translatable("the route"));
   const bool is_back = command_.state == POSE_WALL_PLANAR_TRACK_DONE && leads_out_;
   if (command_.state == POSE_WALL_PLANAR_TRACK_DONE && !leads_out_) phase_ = PilotPhase::kArrived;
-  if (is_back || command_.state == POSE_WALL_PLANAR_TRACK_OFF_PATH) plan_from(look.where->pose);
+  if (is_back || command_.state == POSE_WALL_PLANAR_TRACK_OFF_PATH) plan_from(view.where->pose);
   if (command_.state != POSE_WALL_PLANAR_TRACK_NO_POSE) {
-    sought_ns_ = look.now_ns;
-    remember(look.where->pose);
-    if (phase_ == PilotPhase::kFollowing && is_held()) look_for_another_way(look.where->pose);
-  } else if (seconds_since(sought_ns_, look.now_ns) > kNoPose_s) {
+    sought_ns_ = view.now_ns;
+    remember(view.where->pose);
+    if (phase_ == PilotPhase::kFollowing && is_held()) look_for_another_way(view.where->pose);
+  } else if (seconds_since(sought_ns_, view.now_ns) > kNoPose_s) {
     phase_ = PilotPhase::kLocating;
   }
   return {command_.speed_m_s, command_.turn_rad_s};
 }
 
-Motion DrivePilot::wish(const Look& look) {
-  now_ns_ = look.now_ns;
+Motion DrivePilot::wish(const View& view) {
+  now_ns_ = view.now_ns;
   if (moved_ns_ < 0) moved_ns_ = sought_ns_ = looked_ns_ = now_ns_;
-  if (has_place(*look.where)) base_ = look.where->pose;
-  const pose_wall_planar_localise_result& where = *look.where;
+  if (has_place(*view.where)) base_ = view.where->pose;
+  const pose_wall_planar_localise_result& where = *view.where;
   const bool is_unique = where.state == POSE_WALL_PLANAR_LOCALISE_UNIQUE;
   unique_looks_ = is_unique ? unique_looks_ + 1 : 0;
   Motion wish;
@@ -210,10 +210,10 @@ Motion DrivePilot::wish(const Look& look) {
       sought_ns_ = now_ns_;
       plan_from(where.pose);
     } else if (unique_looks_ == 0 && seconds_since(sought_ns_, now_ns_) > kStands_s) {
-      wish = creep(look);
+      wish = creep(view);
     }
   }
-  if (phase_ == PilotPhase::kFollowing) wish = follow(look);
+  if (phase_ == PilotPhase::kFollowing) wish = follow(view);
   wants_to_move_ = is_moving(wish);
   return wish;
 }

@@ -30,13 +30,13 @@ class DrivePilot {
   // PlanarError.
   DrivePilot(const MapFile& map, std::vector<pose_wall_planar_pose> goals, double speed_max_m_s, double patience_s);
 
-  struct Look {
+  struct View {
     std::int64_t stamp_ns = 0, now_ns = 0;
     const pose_wall_planar_scan* scan = nullptr;
     const pose_wall_planar_localise_result* where = nullptr;
     Motion measured;
   };
-  Motion wish(const Look& look);
+  Motion wish(const View& view);
   // What the stop made of the wish, and why.
   void obeyed(const Motion& command, const pose_wall_planar_stop_result& stop);
 
@@ -53,8 +53,8 @@ class DrivePilot {
   void take(PlannedRoute route);
   void look_for_another_way(const pose_wall_planar_pose& base);
   void remember(const pose_wall_planar_pose& base);
-  Motion follow(const Look& look);
-  Motion creep(const Look& look);
+  Motion follow(const View& view);
+  Motion creep(const View& view);
   bool is_held() const;  // by the stop, and has not looked for another way lately
   void give_up(std::string reason);
   std::string held_text() const;

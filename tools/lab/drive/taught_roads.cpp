@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "io/language/language.hpp"
-#include "lab/drive/sight.hpp"
+#include "lab/drive/drive_scanner.hpp"
 #include "study/planar/built_map.hpp"
 #include "study/planar/plane_pose.hpp"
 #include "study/planar/scan_trail.hpp"
@@ -47,7 +47,7 @@ class TeachingDrive {
         route_(network.graph().tour(first_junction(network.graph()), share * network.graph().length_m, seed)),
         machine_(drive_tracks(), &network, sim::start_of(route_), seed),
         driver_(route_, drive_tracks(), kTeachSpeed_m_s),
-        sight_(model),
+        scanner_(model),
         trail_(new_trail()) {}
 
   void run(const std::function<bool(double)>& notice) {
@@ -85,7 +85,7 @@ class TeachingDrive {
     const auto stamp_ns = static_cast<std::int64_t>(machine_.time_s() * 1e9);
     const sim::Frame frame = sim::network_cloud(network_, model_.sensor, true_sensor(machine_, model_), frames_++,
                                                 sim::mix(seed_ ^ 0x7eacu));
-    const pose_wall_planar_scan& scan = sight_.look(cloud_of(frame, stamp_ns));
+    const pose_wall_planar_scan& scan = scanner_.scan(cloud_of(frame, stamp_ns));
     const sim::PlanePose& odometry = machine_.odometry();
     const pose_wall_planar_pose given{odometry.x_m, odometry.y_m, odometry.yaw_rad};
     if (trail_.add(scan, &given, {}, "").is_keyframe != 0) truths_.push_back(true_base(machine_));
@@ -97,7 +97,7 @@ class TeachingDrive {
   sim::Route route_;
   sim::TrackDrive machine_;
   sim::RouteDriver driver_;
-  DriveSight sight_;
+  DriveScanner scanner_;
   ScanTrail trail_;
   std::vector<pose_wall_planar_pose> truths_;
   std::uint32_t frames_ = 0;

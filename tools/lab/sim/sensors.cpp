@@ -30,13 +30,14 @@ Sensor rotating(const char* name, double rings, double columns, double elevation
 // Where a sensor of this lowest beam sees the floor well from 1.3 m above it, and twice as far: as in config/. One that
 // looks down steeply sees the floor from the machine's end on.
 Sensor with_floor(Sensor sensor) {
-  struct Look {
+  struct FloorReach {
     double lowest_deg, from_m, to_m;
   };
-  for (const Look& look : {Look{-12.0, 8.0, 16.0}, Look{-19.0, 5.0, 10.0}, Look{-30.0, 4.0, 8.0}}) {
-    if (sensor.elevation_min_deg < look.lowest_deg) continue;
-    sensor.floor_from_m = look.from_m;
-    sensor.floor_to_m = look.to_m;
+  for (const FloorReach& reach :
+       {FloorReach{-12.0, 8.0, 16.0}, FloorReach{-19.0, 5.0, 10.0}, FloorReach{-30.0, 4.0, 8.0}}) {
+    if (sensor.elevation_min_deg < reach.lowest_deg) continue;
+    sensor.floor_from_m = reach.from_m;
+    sensor.floor_to_m = reach.to_m;
     break;
   }
   return sensor;

@@ -16,26 +16,26 @@ namespace {
 // Ruts, tracks that sink in and a machine that tilts move the sensor by less.
 constexpr double kHeightRoom_m = 0.5;
 
-Ahead look_ahead(const MountStory& story, const Proposal& proposal) {
+Ahead look_ahead(const SupposedMount& supposed, const Proposal& proposal) {
   Ahead ahead;
-  if (!story.road.is_found) return ahead;
-  const std::string line(1, story.road.line);
+  if (!supposed.road.is_found) return ahead;
+  const std::string line(1, supposed.road.line);
   char now[POSE_WALL_TEXT_MAX] = {};
   pose_wall_config_get_text(proposal.config().get(), "forward_axis", now, sizeof now);
-  const bool fits = now[1] == story.road.line;
-  if (story.ends.tells_ahead()) {
-    const bool plus = story.ends.face_plus_m.has_value();
+  const bool fits = now[1] == supposed.road.line;
+  if (supposed.ends.tells_ahead()) {
+    const bool plus = supposed.ends.face_plus_m.has_value();
     ahead.axis = (plus ? "+" : "-") + line;
     ahead.is_known = true;
     ahead.reason = say("a face closes the road {:.1f} m along {}; the other end is open",
-                       plus ? *story.ends.face_plus_m : *story.ends.face_minus_m, ahead.axis);
+                       plus ? *supposed.ends.face_plus_m : *supposed.ends.face_minus_m, ahead.axis);
     return ahead;
   }
   ahead.axis = fits ? std::string(now) : "+" + line;
   ahead.is_known = fits && proposal.is_told("forward_axis");
   if (ahead.is_known) {
     ahead.reason = tr("as the config says; the road lies along it");
-  } else if (story.ends.face_plus_m) {
+  } else if (supposed.ends.face_plus_m) {
     ahead.reason = say("the road lies along {}; both ends are closed, so the frames do not show which is ahead", line);
   } else {
     ahead.reason =
@@ -49,22 +49,22 @@ std::string turn_text(const api::Config& config, const char* key) {
 }
 
 void propose_mount(const MountChoice& mount, Proposal& proposal) {
-  const MountStory& story = mount.story;
-  const double tilt_deg = story.tilt_rad * kDegPerRad, level_deg = story.floor.tilt_level_rad * kDegPerRad;
+  const SupposedMount& supposed = mount.likely;
+  const double tilt_deg = supposed.tilt_rad * kDegPerRad, level_deg = supposed.floor.tilt_level_rad * kDegPerRad;
   const std::string reason =
-      story.is_flipped ? say("the floor is {:.1f} deg off with the sensor upside down ({}); this levels it for the "
-                             "machine as it stood, within {:.1f} deg",
-                             tilt_deg, mount.reason, level_deg)
-                       : say("the floor is {:.1f} deg off ({}); this levels it for the machine as it stood, within "
-                             "{:.1f} deg",
-                             tilt_deg, mount.reason, level_deg);
+      supposed.is_flipped ? say("the floor is {:.1f} deg off with the sensor upside down ({}); this levels it for the "
+                                "machine as it stood, within {:.1f} deg",
+                                tilt_deg, mount.reason, level_deg)
+                          : say("the floor is {:.1f} deg off ({}); this levels it for the machine as it stood, within "
+                                "{:.1f} deg",
+                                tilt_deg, mount.reason, level_deg);
   for (const char* key : {"extrinsic_roll", "extrinsic_pitch"}) {
     // Equal ones stay as they were written.
-    if (std::fabs(std::remainder(story.config.number(key) - proposal.config().number(key), 2.0 * M_PI)) < 5e-5)
+    if (std::fabs(std::remainder(supposed.config.number(key) - proposal.config().number(key), 2.0 * M_PI)) < 5e-5)
       continue;
-    proposal.set(key, turn_text(story.config, key), reason);
+    proposal.set(key, turn_text(supposed.config, key), reason);
   }
-  const double height_m = story.floor.height_m;
+  const double height_m = supposed.floor.height_m;
   const std::string height = say(
       "the sensor is {:.2f} m above the floor; a narrower range keeps the roof and reflections from being taken for it",
       height_m);
@@ -97,7 +97,7 @@ std::string guess_text(const std::string& axis) {
 }
 
 Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::optional<double> height_m,
-                   const Look& look) {
+                   const MakePreview& make_preview) {
   Diagnosis d{
       recording.sensor.facts(), look_at_stamps(recording), look_at_times(recording), {}, {}, {}, Proposal(told), {}};
   d.proposal.take_class(d.sensor.model, d.sensor.title, d.sensor.config);
@@ -108,16 +108,16 @@ Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::op
   if (!recording.kept.empty()) {
     const bool is_told = d.proposal.is_told("extrinsic_roll") || d.proposal.is_told("extrinsic_pitch");
     d.mount = choose_mount(d.proposal.config(), is_told, height_m, recording.kept);
-    const MountStory& story = d.mount->story;
-    if (story.floor.is_found()) propose_mount(*d.mount, d.proposal);
-    if (story.floor.is_found()) propose_boxes(story.body, d.proposal);
-    d.ahead = look_ahead(story, d.proposal);
+    const SupposedMount& supposed = d.mount->likely;
+    if (supposed.floor.is_found()) propose_mount(*d.mount, d.proposal);
+    if (supposed.floor.is_found()) propose_boxes(supposed.body, d.proposal);
+    d.ahead = look_ahead(supposed, d.proposal);
     if (!d.ahead.axis.empty()) {
       const std::string reason = d.ahead.is_known ? d.ahead.reason : d.ahead.reason + ". " + guess_text(d.ahead.axis);
       d.proposal.set("forward_axis", d.ahead.axis, reason);
       d.proposal.state("forward_axis", reason);
     }
-    d.preview = look(d.proposal.settings());
+    d.preview = make_preview(d.proposal.settings());
   }
   d.verdict = judge(d);
   return d;

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "study/doctor/mount_story.hpp"
 #include "study/doctor/preview.hpp"
 #include "study/doctor/proposal.hpp"
 #include "study/doctor/recording.hpp"
 #include "study/doctor/stamp_health.hpp"
+#include "study/doctor/supposed_mount.hpp"
 #include "study/info/sensor_look.hpp"
 
 namespace pose_wall::tools::doctor {
@@ -29,7 +29,7 @@ enum class Grade { kUsable, kUsableInPart, kNotUsable };
 // "usable", "in_part", "not": for programs.
 const char* grade_name(Grade grade);
 
-struct Verdict {
+struct RecordingVerdict {
   Grade grade = Grade::kNotUsable;
   std::string reason;                // the valid shares, or why there are none to trust
   std::vector<std::string> buts;     // what makes it less sure
@@ -50,19 +50,19 @@ struct Diagnosis {
   Ahead ahead;
   std::optional<Preview> preview;  // none: no frame to look at
   Proposal proposal;
-  Verdict verdict;
+  RecordingVerdict verdict;
 };
 
 // The preview of the settings that are proposed.
-using Look = std::function<Preview(const LoadedConfig& proposed)>;
+using MakePreview = std::function<Preview(const LoadedConfig& proposed)>;
 
 // That forward_axis was guessed, and what to write if the other end of the road is ahead.
 std::string guess_text(const std::string& axis);
 
 Diagnosis diagnose(const Recording& recording, const LoadedConfig& told, std::optional<double> height_m,
-                   const Look& look);
+                   const MakePreview& make_preview);
 
 // Fills in the verdict: the last step of the above.
-Verdict judge(const Diagnosis& diagnosis);
+RecordingVerdict judge(const Diagnosis& diagnosis);
 
 }  // namespace pose_wall::tools::doctor

@@ -51,15 +51,15 @@ Json stamps(const StampHealth& h) {
 }
 
 Json floor_json(const MountChoice& mount) {
-  const FloorSeen& f = mount.story.floor;
+  const FloorSeen& f = mount.likely.floor;
   Json json = {{"found", f.is_found()}, {"measured", f.measured}, {"valid", f.valid}};
   if (!f.is_found()) return json;
-  const api::Config& c = mount.story.config;
-  json.update({{"upside_down", mount.story.is_flipped},
+  const api::Config& c = mount.likely.config;
+  json.update({{"upside_down", mount.likely.is_flipped},
                {"certain", mount.is_sure},
                {"reason", mount.reason},
                {"height_m", f.height_m},
-               {"tilt_deg", mount.story.tilt_rad * kDegPerRad},
+               {"tilt_deg", mount.likely.tilt_rad * kDegPerRad},
                {"roll_deg", c.number("extrinsic_roll") * kDegPerRad},
                {"pitch_deg", c.number("extrinsic_pitch") * kDegPerRad},
                {"tilt_spread_deg", f.tilt_spread_rad * kDegPerRad},
@@ -69,32 +69,32 @@ Json floor_json(const MountChoice& mount) {
 }
 
 Json road(const Diagnosis& d) {
-  const MountStory& story = d.mount->story;
-  Json json = {{"found", story.road.is_found}};
-  if (!story.road.is_found) return json;
+  const SupposedMount& supposed = d.mount->likely;
+  Json json = {{"found", supposed.road.is_found}};
+  if (!supposed.road.is_found) return json;
   const bool minus = d.ahead.axis[0] == '-';
-  json.update({{"line", std::string(1, story.road.line)},
-               {"ambiguous", story.road.is_ambiguous},
-               {"off_line_deg", story.road.off_line_rad * kDegPerRad},
-               {"off_line_spread_deg", story.road.azimuth_spread_rad * kDegPerRad},
-               {"score", story.road.score},
-               {"score_across", story.road.rival_score},
+  json.update({{"line", std::string(1, supposed.road.line)},
+               {"ambiguous", supposed.road.is_ambiguous},
+               {"off_line_deg", supposed.road.off_line_rad * kDegPerRad},
+               {"off_line_spread_deg", supposed.road.azimuth_spread_rad * kDegPerRad},
+               {"score", supposed.road.score},
+               {"score_across", supposed.road.rival_score},
                {"forward_axis", d.ahead.axis},
                {"ahead_known", d.ahead.is_known},
                {"ahead_reason", d.ahead.reason},
-               {"left_m", minus ? story.road.right_m : story.road.left_m},
-               {"right_m", minus ? story.road.left_m : story.road.right_m},
-               {"roof_m", story.ends.roof_m},
-               {"face_plus_m", seen(story.ends.face_plus_m)},
-               {"face_minus_m", seen(story.ends.face_minus_m)}});
+               {"left_m", minus ? supposed.road.right_m : supposed.road.left_m},
+               {"right_m", minus ? supposed.road.left_m : supposed.road.right_m},
+               {"roof_m", supposed.ends.roof_m},
+               {"face_plus_m", seen(supposed.ends.face_plus_m)},
+               {"face_minus_m", seen(supposed.ends.face_minus_m)}});
   return json;
 }
 
-Json near(const MountStory& story) {
-  return {{"boxes_m", boxes(story.body.boxes_base)},
-          {"unexplained_m", boxes(story.body.unexplained)},
-          {"in_boxes_share", story.body.in_boxes_share},
-          {"moved_share", story.body.passing_share}};
+Json near(const SupposedMount& supposed) {
+  return {{"boxes_m", boxes(supposed.body.boxes_base)},
+          {"unexplained_m", boxes(supposed.body.unexplained)},
+          {"in_boxes_share", supposed.body.in_boxes_share},
+          {"moved_share", supposed.body.passing_share}};
 }
 
 Json preview(const Preview& seen) {
@@ -120,7 +120,7 @@ Json changes(const Proposal& proposal) {
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d) {
-  const Verdict& v = d.verdict;
+  const RecordingVerdict& v = d.verdict;
   Json json = {{"usable", v.is_usable()},
                {"grade", grade_name(v.grade)},
                {"verdict", v.line()},
@@ -138,12 +138,12 @@ std::string diagnosis_json(const Diagnosis& d) {
   }
   if (d.mount) {
     json["floor"] = floor_json(*d.mount);
-    if (d.mount->story.floor.is_found()) {
+    if (d.mount->likely.floor.is_found()) {
       json["road"] = road(d);
-      json["body"] = near(d.mount->story);
-      json["range_noise"] = {{"m", d.mount->story.noise.best_m()},
-                             {"repeated_m", d.mount->story.noise.repeated_m},
-                             {"plane_m", d.mount->story.noise.plane_m}};
+      json["body"] = near(d.mount->likely);
+      json["range_noise"] = {{"m", d.mount->likely.noise.best_m()},
+                             {"repeated_m", d.mount->likely.noise.repeated_m},
+                             {"plane_m", d.mount->likely.noise.plane_m}};
     }
   }
   if (d.preview) json["check"] = preview(*d.preview);

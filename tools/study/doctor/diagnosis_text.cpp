@@ -57,7 +57,7 @@ void add_frames(Rows& rows, const StampHealth& h) {
 }
 
 void add_floor(Rows& rows, const MountChoice& mount) {
-  const FloorSeen& f = mount.story.floor;
+  const FloorSeen& f = mount.likely.floor;
   if (!f.is_found()) {
     rows.push_back({tr("floor"), tr("not seen"), say("found in {} of the frames", percent(f.measured))});
     return;
@@ -65,23 +65,23 @@ void add_floor(Rows& rows, const MountChoice& mount) {
   rows.push_back({tr("floor"), say("in {} of the frames", percent(f.measured)),
                   say("{:.0f} points, {:.1f} m2, rms {}", f.points, f.area_m2, millimetres(f.rms_m))});
   const std::string reason = mount.is_sure ? mount.reason : say("not certain: {}", mount.reason);
-  rows.push_back({tr("mounted"), mount.story.is_flipped ? tr("upside down") : tr("upright"), reason});
+  rows.push_back({tr("mounted"), mount.likely.is_flipped ? tr("upside down") : tr("upright"), reason});
   rows.push_back(
       {tr("height"), metres(f.height_m), say("of the sensor above the floor, within {}", metres(f.height_spread_m))});
-  const api::Config& c = mount.story.config;
-  rows.push_back({tr("tilt"), fmt::format("{:.2f} deg", mount.story.tilt_rad * kDegPerRad),
+  const api::Config& c = mount.likely.config;
+  rows.push_back({tr("tilt"), fmt::format("{:.2f} deg", mount.likely.tilt_rad * kDegPerRad),
                   say("extrinsic roll {:.2f}, pitch {:.2f} deg; within {:.2f} over the frames, protection level {:.2f}",
                       c.number("extrinsic_roll") * kDegPerRad, c.number("extrinsic_pitch") * kDegPerRad,
                       f.tilt_spread_rad * kDegPerRad, f.tilt_level_rad * kDegPerRad)});
 }
 
 void add_road(Rows& rows, const Diagnosis& d) {
-  const MountStory& story = d.mount->story;
-  if (!story.road.is_found) {
+  const SupposedMount& supposed = d.mount->likely;
+  if (!supposed.road.is_found) {
     rows.push_back({tr("road"), tr("not seen"), tr("no side walls are seen along any axis")});
     return;
   }
-  const RoadAxis& r = story.road;
+  const RoadAxis& r = supposed.road;
   rows.push_back({tr("road"), say("along {}", r.line),
                   say("{:.1f} deg off it, within {:.1f}; score {:.2f}, across {:.2f}", r.off_line_rad * kDegPerRad,
                       r.azimuth_spread_rad * kDegPerRad, r.score, r.rival_score)});
@@ -90,15 +90,15 @@ void add_road(Rows& rows, const Diagnosis& d) {
   rows.push_back(
       {tr("walls"), say("{} left", metres(minus ? r.right_m : r.left_m)),
        say("{} right of the base origin, with {} ahead", metres(minus ? r.left_m : r.right_m), d.ahead.axis)});
-  rows.push_back({tr("roof"), metres(story.ends.roof_m), tr("above the floor")});
+  rows.push_back({tr("roof"), metres(supposed.ends.roof_m), tr("above the floor")});
 }
 
-void add_near(Rows& rows, const MountStory& story) {
-  const RangeNoise& n = story.noise;
+void add_near(Rows& rows, const SupposedMount& supposed) {
+  const RangeNoise& n = supposed.noise;
   rows.push_back({tr("range noise"), millimetres(n.best_m()),
                   say("{} in directions that came again ({} of all); {} off floor and walls, rock included",
                       millimetres(n.repeated_m), percent(n.repeated_share), millimetres(n.plane_m))});
-  const BodySeen& b = story.body;
+  const BodySeen& b = supposed.body;
   if (b.slices < 2) {
     rows.push_back({tr("body"), tr("unknown"), tr("a single frame does not show what stays in place")});
     return;
@@ -152,9 +152,9 @@ std::string diagnosis_text(const Diagnosis& d) {
   add_frames(rows, d.stamps);
   if (d.mount) {
     add_floor(rows, *d.mount);
-    if (d.mount->story.floor.is_found()) {
+    if (d.mount->likely.floor.is_found()) {
       add_road(rows, d);
-      add_near(rows, d.mount->story);
+      add_near(rows, d.mount->likely);
     }
   }
   std::string text = wrapped_table({tr("what"), tr("found"), tr("how")}, rows);

@@ -23,7 +23,7 @@ std::string picture_of(const RecordingRun& run, const pose_wall_points& points, 
   std::vector<std::string> parts = {say("frame {}", frame)};
   for (const Paragraph& p : explained.explanation.paragraphs) {
     const bool of_frame = p.subject == POSE_WALL_TRACE_FRAME;
-    parts.push_back(say("{} {}", of_frame ? tr("itself") : subject_words(p.subject), verdict_words(p.verdict)));
+    parts.push_back(say("{} {}", of_frame ? tr("itself") : subject_words(p.subject), acceptance_words(p.acceptance)));
   }
   return picture::frame_picture({run.loaded.config.get(), &explained.traced->result, &points,
                                  tr("pose_wall: why this frame came out as it did"), in_a_row(parts)});
@@ -76,7 +76,7 @@ std::optional<Explained> explain_one(const RecordingRun& run, FrameSequence& inp
 }
 
 ExplainedRecording explain_all(const RecordingRun& run, FrameSequence& inputs) {
-  ExplainedRecording all{Digest(*run.loaded.config.get()), std::nullopt, false};
+  ExplainedRecording all{RecordingSummary(*run.loaded.config.get()), std::nullopt, false};
   FrameRunner runner(run.loaded.config, run.rate_hz, run.loaded.motion);
   ProgressBar bar(inputs.frames(), run.shows_progress);
   RivalsSeen rivals;
@@ -87,16 +87,16 @@ ExplainedRecording explain_all(const RecordingRun& run, FrameSequence& inputs) {
     std::optional<Explained> worst;
     FrameOutcome outcome =
         runner.run(std::move(*sourced), [&](const auto& cloud, const auto& points, const pose_wall_result& result) {
-          const bool is_worst = all.digest.is_worst(result);
-          if (!is_worst && !all.digest.is_new(result)) return;
+          const bool is_worst = all.summary.is_worst(result);
+          if (!is_worst && !all.summary.is_new(result)) return;
           TracedFrame traced = trace_frame(run.loaded.config, before, cloud);
-          all.digest.add_notes(result, *traced.trace);
+          all.summary.add_notes(result, *traced.trace);
           if (is_worst) worst = explained_of(run, std::move(traced), rivals, points, i);
         });
     if (outcome.result) rivals.add(*outcome.result, i);
     tell_unreadable(bar, outcome);
     bar.advance(outcome.source);
-    all.digest.add(outcome);
+    all.summary.add(outcome);
     if (!worst || !outcome.result) continue;
     worst->outcome = std::move(outcome);
     expect_same_bits(*worst);

@@ -11,8 +11,8 @@
 
 #include "io/config_file/load_config.hpp"
 #include "io/inputs/frame_sequence.hpp"
-#include "study/explain/digest.hpp"
 #include "study/explain/explanation.hpp"
+#include "study/explain/summary.hpp"
 #include "study/explain/traced_frame.hpp"
 
 namespace pose_wall::tools::explain {
@@ -36,7 +36,7 @@ struct RecordingRun {
 std::optional<Explained> explain_one(const RecordingRun& run, FrameSequence& inputs, std::uint64_t frame);
 
 struct ExplainedRecording {
-  Digest digest;
+  RecordingSummary summary;
   std::optional<Explained> worst;  // nothing where no frame could be read
   bool interrupted = false;
 };

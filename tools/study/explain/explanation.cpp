@@ -78,11 +78,11 @@ void tell(const std::vector<Note>& notes, const std::vector<Note>& refusals, Par
 }
 
 // The plane that the gates are about.
-std::string first_plane(const std::vector<PlaneWords>& planes, Verdict verdict) {
+std::string first_plane(const std::vector<PlaneWords>& planes, Acceptance acceptance) {
   if (planes.empty()) return "";
   const PlaneWords& p = planes.front();
   const bool chosen = p.candidate.fate == POSE_WALL_TRACE_CHOSEN;
-  if (!chosen && verdict != Verdict::kRefused) return "";
+  if (!chosen && acceptance != Acceptance::kRefused) return "";
   if (p.candidate.fate == POSE_WALL_TRACE_OUT_OF_RANGE) {
     return say("The strongest plane lies {} ({}): {}.", p.where, p.shows, p.fate);
   }
@@ -143,7 +143,7 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
     return (n.info.reasons & reasons_of(result, subject)) != 0;
   });
   Paragraph out{
-      subject, is_refused ? Verdict::kRefused : (is_doubted ? Verdict::kDoubted : Verdict::kAccepted), {}, {}};
+      subject, is_refused ? Acceptance::kRefused : (is_doubted ? Acceptance::kDoubted : Acceptance::kAccepted), {}, {}};
   std::vector<PlaneWords> planes = planes_of(config, result, notes, subject);
   std::stable_partition(planes.begin(), planes.end(),
                         [](const PlaneWords& p) { return p.candidate.fate == POSE_WALL_TRACE_CHOSEN; });
@@ -151,7 +151,7 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
   if (is_refused && notes.floor_attempts() > 0 && subject == POSE_WALL_TRACE_FLOOR) {
     out.sentences.push_back(looked_for(notes));
   }
-  add_once(out.sentences, first_plane(planes, out.verdict));
+  add_once(out.sentences, first_plane(planes, out.acceptance));
   tell(refusals, refusals, &out);
   if (find(refusals, POSE_WALL_TRACE_WALL_CHOSEN) != nullptr) {
     tell(notes.failed(POSE_WALL_TRACE_WALLS, POSE_WALL_TRACE_TELLS), refusals, &out);
@@ -169,8 +169,10 @@ Paragraph plane_paragraph(const pose_wall_config& config, const pose_wall_result
 Paragraph frame_paragraph(const pose_wall_config& config, const pose_wall_result& result, const Notes& notes) {
   const bool refused = notes.refused(POSE_WALL_TRACE_FRAME);
   const bool doubted = !notes.failed(POSE_WALL_TRACE_FRAME, POSE_WALL_TRACE_DOUBTS).empty();
-  Paragraph out{
-      POSE_WALL_TRACE_FRAME, refused ? Verdict::kRefused : (doubted ? Verdict::kDoubted : Verdict::kAccepted), {}, {}};
+  Paragraph out{POSE_WALL_TRACE_FRAME,
+                refused ? Acceptance::kRefused : (doubted ? Acceptance::kDoubted : Acceptance::kAccepted),
+                {},
+                {}};
   for (const std::uint32_t effect : {POSE_WALL_TRACE_REFUSES, POSE_WALL_TRACE_DOUBTS, POSE_WALL_TRACE_TELLS}) {
     for (const Note& note : notes.failed(POSE_WALL_TRACE_FRAME, effect)) {
       tell({note}, {}, &out);
@@ -191,22 +193,22 @@ Paragraph frame_paragraph(const pose_wall_config& config, const pose_wall_result
 
 }  // namespace
 
-const char* verdict_name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kAccepted:
+const char* acceptance_name(Acceptance acceptance) {
+  switch (acceptance) {
+    case Acceptance::kAccepted:
       return "accepted";
-    case Verdict::kDoubted:
+    case Acceptance::kDoubted:
       return "doubted";
     default:
       return "refused";
   }
 }
 
-std::string verdict_words(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kAccepted:
+std::string acceptance_words(Acceptance acceptance) {
+  switch (acceptance) {
+    case Acceptance::kAccepted:
       return tr("accepted");
-    case Verdict::kDoubted:
+    case Acceptance::kDoubted:
       return tr("doubted");
     default:
       return tr("refused");

@@ -14,13 +14,13 @@
 
 namespace pose_wall::tools::explain {
 
-enum class Verdict { kAccepted, kDoubted, kRefused };
-const char* verdict_name(Verdict verdict);   // "accepted", "doubted", "refused": for programs
-std::string verdict_words(Verdict verdict);  // for people
+enum class Acceptance { kAccepted, kDoubted, kRefused };
+const char* acceptance_name(Acceptance acceptance);   // "accepted", "doubted", "refused": for programs
+std::string acceptance_words(Acceptance acceptance);  // for people
 
 struct Paragraph {
   std::uint32_t subject;
-  Verdict verdict;
+  Acceptance acceptance;
   std::vector<std::string> sentences;
   std::vector<std::string> helps;  // what would help, each once
 };

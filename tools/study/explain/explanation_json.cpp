@@ -18,7 +18,7 @@ Json paragraphs_json(const Explanation& explanation) {
   Json out = Json::array();
   for (const Paragraph& p : explanation.paragraphs) {
     out.push_back({{"of", subject_name(p.subject)},
-                   {"verdict", verdict_name(p.verdict)},
+                   {"verdict", acceptance_name(p.acceptance)},
                    {"sentences", p.sentences},
                    {"to_look_at", p.helps}});
   }

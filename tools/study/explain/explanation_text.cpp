@@ -96,7 +96,7 @@ std::string to_look_at(const std::vector<std::string>& helps) {
 std::string sentences_text(const Explanation& explanation) {
   std::string out;
   for (const Paragraph& p : explanation.paragraphs) {
-    out += say("{}: {}", capital(subject_words(p.subject)), verdict_words(p.verdict)) + "\n";
+    out += say("{}: {}", capital(subject_words(p.subject)), acceptance_words(p.acceptance)) + "\n";
     out += wrapped(paragraph(p.sentences), kIndent, kWidth);
     if (!p.helps.empty()) out += wrapped(to_look_at(p.helps), kIndent, kWidth);
     out += "\n";

@@ -19,10 +19,10 @@ namespace {
 constexpr std::size_t kErrorsKept = 5;
 constexpr double kAbsoluteFrom_s = 1e6;  // no scan takes so long: such times count from 1970
 
-template <typename Look>
-void for_each_point(const pose_wall_cloud& cloud, const Look& look) {
+template <typename Visit>
+void for_each_point(const pose_wall_cloud& cloud, const Visit& visit) {
   for (std::uint32_t row = 0; row < cloud.height; ++row) {
-    for (std::uint32_t column = 0; column < cloud.width; ++column) look(row, column);
+    for (std::uint32_t column = 0; column < cloud.width; ++column) visit(row, column);
   }
 }
 

@@ -38,7 +38,7 @@ FrameRunner::FrameRunner(const api::Config& config, double rate_hz, const pose_w
   engine_.engine().set_clock(steady_ns);
 }
 
-FrameOutcome FrameRunner::run(SourcedFrame sourced, const Look& look) {
+FrameOutcome FrameRunner::run(SourcedFrame sourced, const Notice& notice) {
   FrameOutcome outcome;
   outcome.frame = next_frame_++;
   outcome.source = std::move(sourced.name);
@@ -59,13 +59,13 @@ FrameOutcome FrameRunner::run(SourcedFrame sourced, const Look& look) {
     outcome.processor_ms = processor_millis() - start_processor_ms;
     if (status != POSE_WALL_OK) throw FrameError(pose_wall_status_text(status));
     outcome.result = result;
-    if (look) {
+    if (notice) {
       pose_wall_points points{};
       engine_.engine().last_points(points);
-      look(engine_.given(), points, result);
+      notice(engine_.given(), points, result);
     }
   } catch (const std::exception& error) {
-    outcome.result.reset();  // also where it was the look that failed
+    outcome.result.reset();  // also where it was the notice that failed
     outcome.error = error.what();
   }
   return outcome;

@@ -25,10 +25,10 @@ class FrameRunner {
               const pose_wall_motion_settings& motion = default_motion_settings());
 
   // A processed frame: the cloud as the engine was given it and what became of its points. For the call only.
-  using Look = std::function<void(const pose_wall_cloud&, const pose_wall_points&, const pose_wall_result&)>;
+  using Notice = std::function<void(const pose_wall_cloud&, const pose_wall_points&, const pose_wall_result&)>;
 
   // Frames are numbered in the order of the calls. Never throws: what is wrong with a frame stands in the outcome.
-  FrameOutcome run(SourcedFrame sourced, const Look& look = {});
+  FrameOutcome run(SourcedFrame sourced, const Notice& notice = {});
 
   // What it remembers can be saved before a frame.
   pose_wall_engine* engine() { return engine_.engine().get(); }

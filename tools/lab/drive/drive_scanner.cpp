@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "lab/drive/sight.hpp"
+#include "lab/drive/drive_scanner.hpp"
 
 #include "io/language/language.hpp"
 
@@ -50,7 +50,7 @@ pose_wall_cloud cloud_of(const sim::Frame& frame, std::int64_t stamp_ns) {
   return cloud;
 }
 
-DriveSight::DriveSight(const sim::SensorModel& model)
+DriveScanner::DriveScanner(const sim::SensorModel& model)
     : config_(drive_config(model)), block_(bytes_for(drive_scanner_settings())) {
   const pose_wall_planar_scanner_settings settings = drive_scanner_settings();
   require_ok(engine_.open(config_), translatable("the settings of the drive"));
@@ -58,7 +58,7 @@ DriveSight::DriveSight(const sim::SensorModel& model)
              translatable("the settings of the scan"));
 }
 
-pose_wall_planar_floor DriveSight::floor_of(const pose_wall_cloud& cloud) {
+pose_wall_planar_floor DriveScanner::floor_of(const pose_wall_cloud& cloud) {
   pose_wall_planar_floor floor{};
   floor.struct_size = sizeof floor;
   if (frames_ > 1 && cloud.stamp_ns - floor_ns_ < kFloorEach_ns) return floor;  // the scanner holds the last one
@@ -73,7 +73,7 @@ pose_wall_planar_floor DriveSight::floor_of(const pose_wall_cloud& cloud) {
   return own_plane();
 }
 
-const pose_wall_planar_scan& DriveSight::look(const pose_wall_cloud& cloud) {
+const pose_wall_planar_scan& DriveScanner::scan(const pose_wall_cloud& cloud) {
   ++frames_;
   const pose_wall_planar_floor floor = floor_of(cloud);
   scan_.struct_size = sizeof scan_;

@@ -16,14 +16,14 @@ namespace pose_wall::tools {
 // Of a simulated frame, as long as that lives and unchanged; a frame without returns has points that are none.
 pose_wall_cloud cloud_of(const sim::Frame& frame, std::int64_t stamp_ns);
 
-class DriveSight {
+class DriveScanner {
  public:
   // Throws PlanarError.
-  explicit DriveSight(const sim::SensorModel& model);
+  explicit DriveScanner(const sim::SensorModel& model);
 
   // Its arrays live until the next call. Where the engine has no floor that the scanner takes, the machine's own plane
   // stands for it. Throws PlanarError.
-  const pose_wall_planar_scan& look(const pose_wall_cloud& cloud);
+  const pose_wall_planar_scan& scan(const pose_wall_cloud& cloud);
   std::size_t floors() const { return floors_; }  // that the engine was asked for
   std::size_t own_planes() const { return own_planes_; }
 

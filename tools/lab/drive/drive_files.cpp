@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "lab/drive/story_files.hpp"
+#include "lab/drive/drive_files.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ struct Stop {
 };
 
 // A stop begins where the machine was let go before. The first, at the start, is none.
-std::vector<Stop> stops_of(const std::vector<StoryFrame>& frames) {
+std::vector<Stop> stops_of(const std::vector<DriveFrame>& frames) {
   std::vector<Stop> stops;
   bool is_open = false;
   for (std::size_t k = 1; k < frames.size(); ++k) {
@@ -43,7 +43,7 @@ MapPlace place_of(const pose_wall_planar_pose& pose) {
   return {pose.x_m, pose.y_m};
 }
 
-void add_stops(const std::vector<StoryFrame>& frames, TextTable* table) {
+void add_stops(const std::vector<DriveFrame>& frames, TextTable* table) {
   struct Sum {
     std::size_t count = 0;
     double lasts_s = 0.0;
@@ -61,16 +61,16 @@ void add_stops(const std::vector<StoryFrame>& frames, TextTable* table) {
   }
 }
 
-double nearest_person_m(const std::vector<StoryFrame>& frames) {
+double nearest_person_m(const std::vector<DriveFrame>& frames) {
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (const StoryFrame& frame : frames) nearest_m = std::min(nearest_m, frame.nearest_m);
+  for (const DriveFrame& frame : frames) nearest_m = std::min(nearest_m, frame.nearest_m);
   return nearest_m;
 }
 
-std::string people_text(const DriveStory& story) {
-  const double nearest_m = nearest_person_m(story.frames());
-  return std::isfinite(nearest_m) ? say("{}, the nearest at {:.2f} m", story.people().size(), nearest_m)
-                                  : std::to_string(story.people().size());
+std::string people_text(const DriveRun& drive) {
+  const double nearest_m = nearest_person_m(drive.frames());
+  return std::isfinite(nearest_m) ? say("{}, the nearest at {:.2f} m", drive.people().size(), nearest_m)
+                                  : std::to_string(drive.people().size());
 }
 
 // By sim::loss_name.
@@ -81,12 +81,12 @@ std::string loss_words(const std::string& name) {
 
 }  // namespace
 
-std::string story_as_csv(const std::vector<StoryFrame>& frames) {
+std::string drive_as_csv(const std::vector<DriveFrame>& frames) {
   std::string csv = csv_line({"time_s",      "phase",       "true_x_m",  "true_y_m", "true_yaw_rad", "x_m",
                               "y_m",         "yaw_rad",     "place",     "sigma_m",  "stop",         "reasons",
                               "allowed_m_s", "limit_x_m",   "limit_y_m", "wish_m_s", "wish_rad_s",   "speed_m_s",
                               "turn_rad_s",  "off_route_m", "person_m",  "lost",     "contact"});
-  for (const StoryFrame& row : frames) {
+  for (const DriveFrame& row : frames) {
     csv += csv_line({csv_number(row.time_s),
                      pilot_phase_name(row.phase),
                      csv_number(row.truth.x_m),
@@ -114,20 +114,20 @@ std::string story_as_csv(const std::vector<StoryFrame>& frames) {
   return csv;
 }
 
-std::string story_picture(const DriveStory& story, const StoryEnd& end, const TaughtRoads& roads,
+std::string drive_picture(const DriveRun& drive, const DriveEnd& end, const TaughtRoads& roads,
                           const std::string& title) {
-  const std::vector<StoryFrame>& frames = story.frames();
+  const std::vector<DriveFrame>& frames = drive.frames();
   MapScene scene;
   scene.grid = roads.map.grid();
   scene.title = title;
   scene.subtitle = say("{:.1f} m in {:.0f} s, {} stops, {} contacts", end.driven_m, end.time_s, stops_of(frames).size(),
                        end.contacts);
   scene.margin_m = kShownAround_m;
-  draw_route(story.first_route(), drive_plan_settings(scene.grid, kMargin_m), &scene);
+  draw_route(drive.first_route(), drive_plan_settings(scene.grid, kMargin_m), &scene);
   MapLine driven{{}, kTrailColour, 1.6};
-  for (const StoryFrame& frame : frames) driven.places.push_back(place_of(frame.truth));
+  for (const DriveFrame& frame : frames) driven.places.push_back(place_of(frame.truth));
   scene.lines.push_back(driven);
-  for (const std::vector<MapPlace>& way : story.people_ways()) {
+  for (const std::vector<MapPlace>& way : drive.people_ways()) {
     scene.lines.push_back({way, kClosureColour, 1.6, "4 3"});
     scene.dots.push_back({way.back(), kClosureColour, ""});
   }
@@ -135,14 +135,14 @@ std::string story_picture(const DriveStory& story, const StoryEnd& end, const Ta
   const std::vector<MapPlace> outline = machine_outline(drive_plan_settings(scene.grid, kMargin_m));
   scene.machines.push_back({frames.front().truth, outline, kTrailColour, tr("start")});
   scene.machines.push_back({frames.back().truth, outline, kPathColour, tr("end")});
-  scene.machines.push_back({story.goal(), {}, kPathColour, tr("goal")});
+  scene.machines.push_back({drive.goal(), {}, kPathColour, tr("goal")});
   scene.legend.push_back({kTrailColour, tr("driven")});
   scene.legend.push_back({kClosureColour, tr("people")});
   scene.legend.push_back({kBadColour, tr("stops")});
   return map_picture(scene);
 }
 
-std::string story_table(const DriveStory& story, const StoryEnd& end, const TaughtRoads& roads) {
+std::string drive_table(const DriveRun& drive, const DriveEnd& end, const TaughtRoads& roads) {
   TextTable table({tr("drive"), ""});
   table.add_row(
       {tr("teaching drive"), say("{:.1f} m, {} scans, {} closures", roads.driven_m, roads.scans, roads.closures)});
@@ -156,10 +156,10 @@ std::string story_table(const DriveStory& story, const StoryEnd& end, const Taug
   table.add_row({tr("frames unique and wrong"), std::to_string(end.wrong_places)});
   table.add_row({tr("off the route, worst"), fmt::format("{:.3f} m", end.off_route_worst_m)});
   table.add_row({tr("floors that the engine did not measure"), say("{} of {}", end.own_planes, end.floors)});
-  table.add_row({tr("people"), people_text(story)});
+  table.add_row({tr("people"), people_text(drive)});
   table.add_row(
       {tr("returns lost"), end.loss.empty() ? tr("none") : say("{}, {:.1f} s", loss_words(end.loss), end.loss_s)});
-  add_stops(story.frames(), &table);
+  add_stops(drive.frames(), &table);
   table.add_row({tr("contacts"), std::to_string(end.contacts)});
   table.add_row({tr("goal"), end.has_arrived ? tr("reached") : tr("not reached")});
   return table.text();

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "study/explain/digest_json.hpp"
+#include "study/explain/summary_json.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "study/explain/digest_text.hpp"
 #include "study/explain/gate_list.hpp"
+#include "study/explain/summary_text.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {
 
 constexpr std::size_t kStretchesMost = 1000;
 
-Json quantities_json(const Digest& digest) {
+Json quantities_json(const RecordingSummary& summary) {
   Json out = Json::array();
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    const QuantityDigest& quantity = digest.quantities()[q];
+    const QuantitySummary& quantity = summary.quantities()[q];
     Json states;
     for (std::uint32_t s = 0; s < quantity.states.size(); ++s) states[pose_wall_state_name(s)] = quantity.states[s];
     const std::uint32_t cause = quantity.cause();
@@ -28,10 +28,10 @@ Json quantities_json(const Digest& digest) {
   return out;
 }
 
-Json reasons_json(const Digest& digest) {
+Json reasons_json(const RecordingSummary& summary) {
   Json out = Json::array();
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
-    const ReasonDigest& reason = digest.reasons()[bit];
+    const ReasonSummary& reason = summary.reasons()[bit];
     if (reason.frames == 0) continue;
     Json gates = Json::array();
     for (const std::uint32_t gate : reason.gates) gates.push_back(gate_list()[gate].name);
@@ -44,17 +44,17 @@ Json story_json(const Story& story) {
   return {{"kind", story_name(story.kind)}, {"words", story_words(story)}};
 }
 
-Json stretches_json(const Digest& digest) {
+Json stretches_json(const RecordingSummary& summary) {
   Json out = Json::array();
-  for (const Stretch& s : digest.longest_stretches(kStretchesMost)) {
+  for (const Stretch& s : summary.longest_stretches(kStretchesMost)) {
     out.push_back({{"first", s.first}, {"last", s.last}, {"story", story_json(s.story)}});
   }
   return out;
 }
 
-Json stories_json(const Digest& digest) {
+Json stories_json(const RecordingSummary& summary) {
   Json out = Json::array();
-  for (const StoryDigest& s : digest.stories()) {
+  for (const StorySummary& s : summary.stories()) {
     out.push_back({{"story", story_json(s.story)}, {"frames", s.frames}, {"first", s.first}});
   }
   return out;
@@ -62,18 +62,18 @@ Json stories_json(const Digest& digest) {
 
 }  // namespace
 
-Json digest_json(const Digest& digest, const std::string& command) {
+Json summary_json(const RecordingSummary& summary, const std::string& command) {
   Json to_see = Json::array();
-  for (const FrameToSee& f : frames_to_see(digest)) {
+  for (const FrameToSee& f : frames_to_see(summary)) {
     to_see.push_back({{"frame", f.frame}, {"why", f.why}, {"command", command_for(command, f.frame)}});
   }
-  return {{"frames", digest.frames()},
-          {"unreadable", digest.unreadable()},
-          {"quantities", quantities_json(digest)},
-          {"reasons", reasons_json(digest)},
-          {"stories", stories_json(digest)},
-          {"stretch_count", digest.stretch_count()},
-          {"stretches", stretches_json(digest)},
+  return {{"frames", summary.frames()},
+          {"unreadable", summary.unreadable()},
+          {"quantities", quantities_json(summary)},
+          {"reasons", reasons_json(summary)},
+          {"stories", stories_json(summary)},
+          {"stretch_count", summary.stretch_count()},
+          {"stretches", stretches_json(summary)},
           {"frames_to_look_at", to_see}};
 }
 

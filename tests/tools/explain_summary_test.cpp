@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the digest counts states, reasons and stretches as the frames have them and names the worst frame; its memory
-// is bounded; its commands explain the frames that they name; a frame is found by number, name or stamp, and a fault
-// names what is allowed. Does not prove: that the chosen frames are those that a person would choose.
+// Proves: the summary counts states, reasons and stretches as the frames have them and names the worst frame; its
+// memory is bounded; its commands explain the frames that they name; a frame is found by number, name or stamp, and a
+// fault names what is allowed. Does not prove: that the chosen frames are those that a person would choose.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@
 #include "english_left.hpp"
 #include "pose_wall.hpp"
 #include "ran_command.hpp"
-#include "study/explain/digest.hpp"
-#include "study/explain/digest_text.hpp"
+#include "study/explain/summary.hpp"
+#include "study/explain/summary_text.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::explain {
@@ -60,99 +60,99 @@ pose_wall_result without_left_wall(std::uint32_t reason) {
   return result;
 }
 
-void add(Digest* digest, const pose_wall_result& result) {
+void add(RecordingSummary* summary, const pose_wall_result& result) {
   FrameOutcome outcome;
-  outcome.frame = digest->frames();
+  outcome.frame = summary->frames();
   outcome.result = result;
-  digest->add(outcome);
+  summary->add(outcome);
 }
 
-TEST(Digest, CountsStatesReasonsAndStretches) {
+TEST(RecordingSummary, CountsStatesReasonsAndStretches) {
   const api::Config config;
-  Digest digest(*config.get());
-  EXPECT_FALSE(digest.worst());
-  add(&digest, good_frame());
-  EXPECT_TRUE(digest.is_new(without_left_wall(POSE_WALL_R_WALL_SHORT)));
-  digest.add_notes(without_left_wall(POSE_WALL_R_WALL_SHORT), pose_wall_trace{});
-  for (int i = 0; i < 3; ++i) add(&digest, without_left_wall(POSE_WALL_R_WALL_SHORT));
-  EXPECT_FALSE(digest.is_new(without_left_wall(POSE_WALL_R_WALL_SHORT)));
-  EXPECT_TRUE(digest.is_new(without_left_wall(POSE_WALL_R_WALL_LEANS))) << "a reason that no notes were read of";
-  digest.add(FrameOutcome{});  // could not be read
-  for (int i = 0; i < 2; ++i) add(&digest, without_left_wall(POSE_WALL_R_WALL_SEEN_THROUGH));
+  RecordingSummary summary(*config.get());
+  EXPECT_FALSE(summary.worst());
+  add(&summary, good_frame());
+  EXPECT_TRUE(summary.is_new(without_left_wall(POSE_WALL_R_WALL_SHORT)));
+  summary.add_notes(without_left_wall(POSE_WALL_R_WALL_SHORT), pose_wall_trace{});
+  for (int i = 0; i < 3; ++i) add(&summary, without_left_wall(POSE_WALL_R_WALL_SHORT));
+  EXPECT_FALSE(summary.is_new(without_left_wall(POSE_WALL_R_WALL_SHORT)));
+  EXPECT_TRUE(summary.is_new(without_left_wall(POSE_WALL_R_WALL_LEANS))) << "a reason that no notes were read of";
+  summary.add(FrameOutcome{});  // could not be read
+  for (int i = 0; i < 2; ++i) add(&summary, without_left_wall(POSE_WALL_R_WALL_SEEN_THROUGH));
 
-  EXPECT_EQ(digest.frames(), 7U);
-  EXPECT_EQ(digest.unreadable(), 1U);
-  const QuantityDigest& left = digest.quantities()[POSE_WALL_D_LF];
+  EXPECT_EQ(summary.frames(), 7U);
+  EXPECT_EQ(summary.unreadable(), 1U);
+  const QuantitySummary& left = summary.quantities()[POSE_WALL_D_LF];
   EXPECT_EQ(left.states[POSE_WALL_INVALID], 5U);
   EXPECT_EQ(left.states[POSE_WALL_VALID], 1U);
   EXPECT_EQ(left.cause(), static_cast<std::uint32_t>(POSE_WALL_PART_RANGE_BIAS));
   EXPECT_NEAR(left.levels.median(), 0.003, 1e-12);
   std::string told;
-  for (const Stretch& s : digest.longest_stretches(10)) {
+  for (const Stretch& s : summary.longest_stretches(10)) {
     told += std::to_string(s.first) + "-" + std::to_string(s.last) + " " + story_words(s.story) + "\n";
   }
   EXPECT_EQ(told,
             "0-0 all seven values valid\n1-3 left wall refused (wall_short)\n4-4 could not be read\n"
             "5-6 left wall refused (wall_seen_through)\n");
-  EXPECT_EQ(digest.longest_stretches(1).at(0).first, 1U);
-  EXPECT_EQ(digest.stories().front().frames, 5U);
-  EXPECT_EQ(digest.stories().front().first, 1U);
-  const std::string text = digest_text(digest, "pose_wall explain road");
+  EXPECT_EQ(summary.longest_stretches(1).at(0).first, 1U);
+  EXPECT_EQ(summary.stories().front().frames, 5U);
+  EXPECT_EQ(summary.stories().front().first, 1U);
+  const std::string text = summary_text(summary, "pose_wall explain road");
   for (const char* part : {"7 frames; 1 of them could not be read", "wall_short", "1–3",
                            "left wall refused (wall_short)", "pose_wall explain road --frame 1\n"}) {
     EXPECT_TRUE(contains(text, part)) << part << "\n" << text;
   }
 }
 
-TEST(Digest, TheWorstHasTheLowestStatesAndThenTheLargestLevel) {
+TEST(RecordingSummary, TheWorstHasTheLowestStatesAndThenTheLargestLevel) {
   const api::Config config;
-  Digest digest(*config.get());
-  add(&digest, good_frame());
-  EXPECT_EQ(digest.worst()->frame, 0U);
+  RecordingSummary summary(*config.get());
+  add(&summary, good_frame());
+  EXPECT_EQ(summary.worst()->frame, 0U);
   pose_wall_result wide = good_frame();
   wide.quantity[POSE_WALL_D_RF] = crafted_value(POSE_WALL_DEGRADED, 2.0, 2.0, {1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
-  EXPECT_TRUE(digest.is_worst(wide));
-  add(&digest, wide);
+  EXPECT_TRUE(summary.is_worst(wide));
+  add(&summary, wide);
   pose_wall_result wider = good_frame();
   wider.quantity[POSE_WALL_D_RF] = crafted_value(POSE_WALL_DEGRADED, 2.0, 2.0, {3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
-  add(&digest, wider);
-  EXPECT_EQ(digest.worst()->frame, 2U);
-  add(&digest, without_left_wall(POSE_WALL_R_WALL_SHORT));
-  EXPECT_EQ(digest.worst()->frame, 3U);
-  EXPECT_EQ(digest.widest()->frame, 2U);
-  EXPECT_EQ(digest.widest()->widest, static_cast<std::uint32_t>(POSE_WALL_D_RF));
-  EXPECT_FALSE(digest.is_worst(wider)) << "the first of equals stays";
-  const std::vector<FrameToSee> frames = frames_to_see(digest);
+  add(&summary, wider);
+  EXPECT_EQ(summary.worst()->frame, 2U);
+  add(&summary, without_left_wall(POSE_WALL_R_WALL_SHORT));
+  EXPECT_EQ(summary.worst()->frame, 3U);
+  EXPECT_EQ(summary.widest()->frame, 2U);
+  EXPECT_EQ(summary.widest()->widest, static_cast<std::uint32_t>(POSE_WALL_D_RF));
+  EXPECT_FALSE(summary.is_worst(wider)) << "the first of equals stays";
+  const std::vector<FrameToSee> frames = frames_to_see(summary);
   EXPECT_EQ(frames.front().frame, 3U);
   EXPECT_EQ(frames.front().why.size(), 2U) << "it is the first of its story, too";
 }
 
-TEST(Digest, AStretchHasAReasonInCommonAndNamesThoseOfSomeFrames) {
+TEST(RecordingSummary, AStretchHasAReasonInCommonAndNamesThoseOfSomeFrames) {
   const api::Config config;
-  Digest digest(*config.get());
+  RecordingSummary summary(*config.get());
   for (const std::uint32_t more : {0U, std::uint32_t{POSE_WALL_R_WALL_LEANS}, 0U}) {
-    add(&digest, without_left_wall(POSE_WALL_R_WALL_SHORT | more));
+    add(&summary, without_left_wall(POSE_WALL_R_WALL_SHORT | more));
   }
-  add(&digest, without_left_wall(POSE_WALL_R_WALL_LEANS));
-  const std::vector<Stretch> stretches = digest.longest_stretches(10);
+  add(&summary, without_left_wall(POSE_WALL_R_WALL_LEANS));
+  const std::vector<Stretch> stretches = summary.longest_stretches(10);
   ASSERT_EQ(stretches.size(), 2U);
   EXPECT_EQ(stretches[0].last, 2U);
   EXPECT_EQ(story_words(stretches[0].story), "left wall refused (wall_short; at times wall_leans)");
   EXPECT_EQ(story_words(stretches[1].story), "left wall refused (wall_leans)");
-  ASSERT_EQ(digest.stories().size(), 1U);
-  EXPECT_EQ(story_words(digest.stories()[0].story), "left wall refused (at times wall_short, wall_leans)");
+  ASSERT_EQ(summary.stories().size(), 1U);
+  EXPECT_EQ(story_words(summary.stories()[0].story), "left wall refused (at times wall_short, wall_leans)");
 }
 
-TEST(Digest, StretchesAreBoundedAndTheLongestStay) {
+TEST(RecordingSummary, StretchesAreBoundedAndTheLongestStay) {
   const api::Config config;
-  Digest digest(*config.get());
-  for (int i = 0; i < 3; ++i) add(&digest, good_frame());
+  RecordingSummary summary(*config.get());
+  for (int i = 0; i < 3; ++i) add(&summary, good_frame());
   for (std::uint32_t i = 0; i < 10000; ++i) {
-    add(&digest, without_left_wall(i % 2 == 0 ? POSE_WALL_R_WALL_SHORT : POSE_WALL_R_WALL_LEANS));
+    add(&summary, without_left_wall(i % 2 == 0 ? POSE_WALL_R_WALL_SHORT : POSE_WALL_R_WALL_LEANS));
   }
-  EXPECT_EQ(digest.stretch_count(), 10001U);
-  EXPECT_LE(digest.longest_stretches(100000).size(), 4001U);
-  EXPECT_EQ(digest.longest_stretches(1).at(0).frames(), 3U);
+  EXPECT_EQ(summary.stretch_count(), 10001U);
+  EXPECT_LE(summary.longest_stretches(100000).size(), 4001U);
+  EXPECT_EQ(summary.longest_stretches(1).at(0).frames(), 3U);
 }
 
 // Six frames; of frames 3 and 4 the floor gives no return.
@@ -189,26 +189,26 @@ struct MixedRoad {
 TEST(ExplainDigest, NamesTheStretchWithoutFloorAndItsWorstFrame) {
   const MixedRoad road;
   const nlohmann::json page = road.page({});
-  const nlohmann::json& digest = page.at("digest");
-  EXPECT_EQ(digest.at("frames"), 6);
+  const nlohmann::json& summary = page.at("digest");
+  EXPECT_EQ(summary.at("frames"), 6);
   bool found = false;
-  for (const nlohmann::json& s : digest.at("stretches")) {
+  for (const nlohmann::json& s : summary.at("stretches")) {
     if (s.at("story").at("kind") != "floor_refused") continue;
     found = true;
     EXPECT_EQ(s.at("first"), 3);
     EXPECT_EQ(s.at("last"), 4);
   }
-  EXPECT_TRUE(found) << digest;
+  EXPECT_TRUE(found) << summary;
   bool gates_named = false;
-  for (const nlohmann::json& reason : digest.at("reasons")) {
+  for (const nlohmann::json& reason : summary.at("reasons")) {
     if (reason.at("reason") != "floor_not_found") continue;
     EXPECT_EQ(reason.at("frames"), 2);
     gates_named = !reason.at("gates").empty();
   }
-  EXPECT_TRUE(gates_named) << digest;
+  EXPECT_TRUE(gates_named) << summary;
   const int worst = page.at("worst_frame").at("frame");
   EXPECT_TRUE(worst == 3 || worst == 4) << worst;
-  for (const nlohmann::json& to_see : digest.at("frames_to_look_at")) {
+  for (const nlohmann::json& to_see : summary.at("frames_to_look_at")) {
     std::istringstream command_line(to_see.at("command").get<std::string>());
     std::vector<std::string> words;
     for (std::string word; command_line >> word;) words.push_back(word);

@@ -57,7 +57,7 @@ void check_mount(const Diagnosis& d, Reasons& against) {
     if (against.empty()) against.push_back(tr("no frame has enough returns"));
     return;
   }
-  const FloorSeen& floor = d.mount->story.floor;
+  const FloorSeen& floor = d.mount->likely.floor;
   if (!floor.is_found()) {
     against.push_back(say("the floor is seen in {:.0f} % of the frames", 100.0 * floor.measured));
     return;
@@ -67,7 +67,7 @@ void check_mount(const Diagnosis& d, Reasons& against) {
     return;
   }
   // Upright is how sensors are mounted; the other way round somebody has to say it.
-  if (d.mount->story.is_flipped && !d.mount->is_sure) {
+  if (d.mount->likely.is_flipped && !d.mount->is_sure) {
     against.push_back(say("{}: a roof, or the floor under a sensor upside down? --height M or extrinsic_roll decides",
                           d.mount->reason));
   }
@@ -75,9 +75,9 @@ void check_mount(const Diagnosis& d, Reasons& against) {
 
 // Once, by the clearest sign.
 void check_standing(const Diagnosis& d, Reasons& against) {
-  const MountStory& story = d.mount->story;
-  const FloorSeen& floor = story.floor;
-  const RoadAxis& road = story.road;
+  const SupposedMount& supposed = d.mount->likely;
+  const FloorSeen& floor = supposed.floor;
+  const RoadAxis& road = supposed.road;
   if (has_moved(floor.tilt_spread_rad * kDegPerRad, floor.tilt_sigma_rad * kDegPerRad, kTiltMoved_deg)) {
     against.push_back(say("the sensor moved during the recording (its tilt by {:.1f} deg): let it stand",
                           floor.tilt_spread_rad * kDegPerRad));
@@ -94,7 +94,7 @@ void check_standing(const Diagnosis& d, Reasons& against) {
 }
 
 void check_road(const Diagnosis& d, Reasons& against) {
-  const RoadAxis& road = d.mount->story.road;
+  const RoadAxis& road = d.mount->likely.road;
   if (!road.is_found) {
     against.push_back(tr("no side walls are seen along any axis"));
   } else if (road.is_ambiguous) {
@@ -117,7 +117,7 @@ std::string shares_between(const Preview::Numbers& shares, double least, double 
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void grade(const Diagnosis& d, Verdict& v) {
+void grade(const Diagnosis& d, RecordingVerdict& v) {
   if (!d.preview) return;
   const Preview::Numbers& valid = d.preview->valid;
   constexpr double kNoLimit = 2.0;
@@ -163,15 +163,15 @@ void doubt_recording(const Diagnosis& d, Reasons& buts) {
 }
 
 void doubt_mount(const Diagnosis& d, Reasons& buts) {
-  const MountStory& story = d.mount->story;
-  if (!d.mount->is_sure && !story.is_flipped) {
+  const SupposedMount& supposed = d.mount->likely;
+  if (!d.mount->is_sure && !supposed.is_flipped) {
     buts.push_back(say("upright or upside down is not certain ({}): --height M decides", d.mount->reason));
   }
-  if (story.floor.tilt_level_rad * kDegPerRad > 1.0) {
+  if (supposed.floor.tilt_level_rad * kDegPerRad > 1.0) {
     buts.push_back(
-        say("the tilt of the mounting is known within {:.1f} deg only", story.floor.tilt_level_rad * kDegPerRad));
+        say("the tilt of the mounting is known within {:.1f} deg only", supposed.floor.tilt_level_rad * kDegPerRad));
   }
-  const double noise_m = story.noise.best_m();
+  const double noise_m = supposed.noise.best_m();
   if (noise_m > kNoiseMax_m) buts.push_back(say("ranges scatter by {:.0f} mm", 1e3 * noise_m));
   for (const Change& change : d.proposal.changes()) {
     const bool is_mount = change.key == "forward_axis" || change.key.rfind("extrinsic_", 0) == 0;
@@ -181,21 +181,21 @@ void doubt_mount(const Diagnosis& d, Reasons& buts) {
   if (!d.ahead.axis.empty() && !d.ahead.is_known) {
     buts.push_back(say("{} is a guess: the frames do not show which end of the road is ahead", d.ahead.axis));
   }
-  if (story.road.is_found && std::fabs(story.road.off_line_rad) * kDegPerRad > kOffLineTold_deg) {
+  if (supposed.road.is_found && std::fabs(supposed.road.off_line_rad) * kDegPerRad > kOffLineTold_deg) {
     buts.push_back(
         say("the road lies {:.1f} deg off {}: does the machine stand so, or the sensor on it "
             "(extrinsic_yaw)?",
-            story.road.off_line_rad * kDegPerRad, story.road.line));
+            supposed.road.off_line_rad * kDegPerRad, supposed.road.line));
   }
 }
 
 void ask_to_confirm(const Diagnosis& d, Reasons& confirm) {
   if (!d.stamps.has_stamps()) confirm.push_back(tr("the frames carry no stamps: rate and gaps are those of --rate"));
-  if (!d.mount || !d.mount->story.floor.is_found()) return;
-  const MountStory& story = d.mount->story;
+  if (!d.mount || !d.mount->likely.floor.is_found()) return;
+  const SupposedMount& supposed = d.mount->likely;
   if (!d.mount->is_sure) {
-    const char* const way = story.is_flipped ? tr("upside down") : tr("upright");
-    std::string question = say("is the sensor mounted {}, {:.2f} m above the floor?", way, story.floor.height_m);
+    const char* const way = supposed.is_flipped ? tr("upside down") : tr("upright");
+    std::string question = say("is the sensor mounted {}, {:.2f} m above the floor?", way, supposed.floor.height_m);
     if (d.mount->other) question += say(" The other plane is {:.2f} m away.", d.mount->other->floor.height_m);
     confirm.push_back(std::move(question));
   }
@@ -205,13 +205,14 @@ void ask_to_confirm(const Diagnosis& d, Reasons& confirm) {
            "(extrinsic_x, extrinsic_y, extrinsic_z)"));
   }
   if (d.ahead.is_known) confirm.push_back(say("{} is ahead: {}", d.ahead.axis, d.ahead.reason));
-  if (!story.body.boxes_base.empty()) confirm.push_back(tr("the body boxes hold the machine and nothing else"));
-  if (!story.body.unexplained.empty()) {
-    confirm.push_back(say("things near the sensor that may belong to the machine: {}", story.body.unexplained.size()));
-  }
-  if (story.body.passing_share > kPassingMax) {
+  if (!supposed.body.boxes_base.empty()) confirm.push_back(tr("the body boxes hold the machine and nothing else"));
+  if (!supposed.body.unexplained.empty()) {
     confirm.push_back(
-        say("{:.0f} % of the near returns moved: no box holds a boom or people", 100.0 * story.body.passing_share));
+        say("things near the sensor that may belong to the machine: {}", supposed.body.unexplained.size()));
+  }
+  if (supposed.body.passing_share > kPassingMax) {
+    confirm.push_back(
+        say("{:.0f} % of the near returns moved: no box holds a boom or people", 100.0 * supposed.body.passing_share));
   }
 }
 
@@ -230,21 +231,21 @@ std::string rule_text() {
       100.0 * kValidAll, kDurationAsked_s, 100.0 * kValidSome);
 }
 
-std::string Verdict::headline() const {
+std::string RecordingVerdict::headline() const {
   if (grade == Grade::kUsable) return say("usable: {}", reason);
   return grade == Grade::kUsableInPart ? say("usable in part: {}", reason) : say("not usable because {}", reason);
 }
 
-std::string Verdict::line() const {
+std::string RecordingVerdict::line() const {
   return buts.empty() ? headline() : say("{}. But {}", headline(), fmt::join(buts, "; "));
 }
 
-Verdict judge(const Diagnosis& d) {
-  Verdict v;
+RecordingVerdict judge(const Diagnosis& d) {
+  RecordingVerdict v;
   Reasons against;
   check_frames(d, against);
   check_mount(d, against);
-  const bool has_floor = d.mount && d.mount->story.floor.is_found();
+  const bool has_floor = d.mount && d.mount->likely.floor.is_found();
   if (has_floor) {
     check_standing(d, against);
     check_road(d, against);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// One story of how the sensor hangs on the machine, upright or upside down, and all that is seen if it is true.
+// How the sensor hangs on the machine, upright or upside down, and all that is seen if it is true.
 
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace pose_wall::tools::doctor {
 
-struct MountStory {
+struct SupposedMount {
   bool is_flipped = false;
   api::Config config;     // as told, then levelled
   double tilt_rad = 0.0;  // of the floor, in the mounting as told (or that turned upside down)
@@ -28,11 +28,11 @@ struct MountStory {
   RangeNoise noise;
 };
 
-MountStory tell_story(const api::Config& told, bool flipped, const std::vector<KeptFrame>& frames);
+SupposedMount suppose_mount(const api::Config& told, bool flipped, const std::vector<KeptFrame>& frames);
 
 struct MountChoice {
-  MountStory story;
-  std::optional<MountStory> other;  // where a floor is seen in that, too
+  SupposedMount likely;
+  std::optional<SupposedMount> other;  // where a floor is seen in that, too
   bool is_sure = false;
   std::string reason;
   bool contradicts_height = false;  // no plane lies where --height says

@@ -33,7 +33,7 @@ class ThinnedRow {
   std::size_t seen_ = 0, stride_ = 1;
 };
 
-struct QuantityDigest {
+struct QuantitySummary {
   std::array<std::size_t, 4> states{};                 // by pose_wall_state
   ThinnedRow levels;                                   // of frames in which the value is not invalid
   std::array<std::size_t, POSE_WALL_PARTS> largest{};  // how often each part was the level's largest
@@ -42,13 +42,13 @@ struct QuantityDigest {
   std::uint32_t cause() const;  // the part that was largest most often; POSE_WALL_PARTS where there is none
 };
 
-struct ReasonDigest {
+struct ReasonSummary {
   std::size_t frames = 0;
   std::vector<std::uint32_t> gates;  // that failed with it in the frames that were traced, in the order of the pipeline
 };
 
 // Frames alike, wherever they stand.
-struct StoryDigest {
+struct StorySummary {
   Story story;
   std::size_t frames = 0;
   std::uint64_t first = 0;
@@ -70,9 +70,9 @@ struct Badness {
   bool is_worse_than(const Badness& other) const;
 };
 
-class Digest {
+class RecordingSummary {
  public:
-  explicit Digest(const pose_wall_config& config);
+  explicit RecordingSummary(const pose_wall_config& config);
 
   // Both before the frame is added. is_new: it is the first of its story or has a reason without notes so far, so that
   // its notes are worth their time. is_worst: it is worse than all before. Few frames are either.
@@ -86,9 +86,9 @@ class Digest {
 
   std::size_t frames() const { return frames_; }
   std::size_t unreadable() const { return unreadable_; }
-  const std::array<QuantityDigest, POSE_WALL_QUANTITIES>& quantities() const { return quantities_; }
-  const std::array<ReasonDigest, POSE_WALL_REASON_COUNT>& reasons() const { return reasons_; }
-  std::vector<StoryDigest> stories() const;  // most frequent first
+  const std::array<QuantitySummary, POSE_WALL_QUANTITIES>& quantities() const { return quantities_; }
+  const std::array<ReasonSummary, POSE_WALL_REASON_COUNT>& reasons() const { return reasons_; }
+  std::vector<StorySummary> stories() const;  // most frequent first
   std::size_t stretch_count() const { return stretch_count_; }
   std::vector<Stretch> longest_stretches(std::size_t most) const;  // in the order of the recording
 
@@ -102,9 +102,9 @@ class Digest {
 
   std::array<double, POSE_WALL_QUANTITIES> alert_limit_;  // rad or m
   std::size_t frames_ = 0, unreadable_ = 0, traced_ = 0, stretch_count_ = 0;
-  std::array<QuantityDigest, POSE_WALL_QUANTITIES> quantities_;
-  std::array<ReasonDigest, POSE_WALL_REASON_COUNT> reasons_;
-  std::map<std::pair<StoryKind, std::uint32_t>, StoryDigest> stories_;  // by kind and subjects: some dozens at most
+  std::array<QuantitySummary, POSE_WALL_QUANTITIES> quantities_;
+  std::array<ReasonSummary, POSE_WALL_REASON_COUNT> reasons_;
+  std::map<std::pair<StoryKind, std::uint32_t>, StorySummary> stories_;  // by kind and subjects: some dozens at most
   std::uint32_t traced_reasons_ = 0;
   std::vector<Stretch> stretches_;
   std::optional<Badness> worst_, widest_;
@@ -116,6 +116,6 @@ struct FrameToSee {
   std::vector<std::string> why;
 };
 // The worst frame first, then the widest level, then the first frames of the most frequent stories.
-std::vector<FrameToSee> frames_to_see(const Digest& digest);
+std::vector<FrameToSee> frames_to_see(const RecordingSummary& summary);
 
 }  // namespace pose_wall::tools::explain

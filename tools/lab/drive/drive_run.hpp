@@ -12,16 +12,16 @@
 #include <string>
 #include <vector>
 
+#include "lab/drive/drive_scanner.hpp"
 #include "lab/drive/guard.hpp"
 #include "lab/drive/pilot.hpp"
-#include "lab/drive/sight.hpp"
 #include "lab/drive/taught_roads.hpp"
 #include "lab/sim/network_people.hpp"
 #include "study/planar/map_localiser.hpp"
 
 namespace pose_wall::tools {
 
-struct StorySettings {
+struct DriveRunSettings {
   std::uint64_t seed = 1;
   int people = 3;
   bool people_stay = false;
@@ -33,7 +33,7 @@ struct StorySettings {
 };
 
 // What was true, believed and done at a frame.
-struct StoryFrame {
+struct DriveFrame {
   double time_s = 0.0;
   PilotPhase phase = PilotPhase::kLocating;
   pose_wall_planar_pose truth{}, believed{};  // of base in map; NaN: not believed
@@ -49,7 +49,7 @@ struct StoryFrame {
   std::string loss;  // at work; empty: none
 };
 
-struct StoryEnd {
+struct DriveEnd {
   bool has_arrived = false;
   std::string reason;  // of an end short of the goal
   double driven_m = 0.0, time_s = 0.0;
@@ -63,16 +63,16 @@ struct StoryEnd {
   std::size_t plans = 0, floors = 0, own_planes = 0;
 };
 
-class DriveStory {
+class DriveRun {
  public:
   // All must outlive it.
-  DriveStory(const sim::Network& network, const sim::SensorModel& model, const TaughtRoads& roads,
-             const StorySettings& settings);
+  DriveRun(const sim::Network& network, const sim::SensorModel& model, const TaughtRoads& roads,
+           const DriveRunSettings& settings);
 
-  // notice gets each frame; false ends the story.
-  StoryEnd run(const std::function<bool(const StoryFrame&)>& notice);
+  // notice gets each frame; false ends the drive.
+  DriveEnd run(const std::function<bool(const DriveFrame&)>& notice);
 
-  const std::vector<StoryFrame>& frames() const { return frames_; }
+  const std::vector<DriveFrame>& frames() const { return frames_; }
   const std::vector<sim::Person>& people() const { return people_; }
   // Of each, in map.
   const std::vector<std::vector<MapPlace>>& people_ways() const { return people_ways_; }
@@ -82,21 +82,21 @@ class DriveStory {
  private:
   sim::CloudScene scene();
   Motion measured_motion();
-  StoryFrame take_frame();
-  void report(StoryFrame* row);
+  DriveFrame take_frame();
+  void report(DriveFrame* row);
   void move(const Motion& before, const Motion& after);
   void begin_trouble();
-  void judge(const StoryFrame& row, StoryEnd* end);
+  void judge(const DriveFrame& row, DriveEnd* end);
   sim::Footprint footprint() const;
   bool touches() const;
 
   const sim::Network& network_;
   const sim::SensorModel& model_;
   const TaughtRoads& roads_;
-  StorySettings settings_;
+  DriveRunSettings settings_;
   pose_wall_planar_pose goal_;
   sim::TrackDrive machine_;
-  DriveSight sight_;
+  DriveScanner scanner_;
   MapLocaliser finder_;
   DriveGuard guard_;
   DrivePilot pilot_;
@@ -104,7 +104,7 @@ class DriveStory {
   std::vector<std::vector<MapPlace>> people_ways_;
   std::optional<sim::Loss> loss_;
   PlannedRoute first_route_;
-  std::vector<StoryFrame> frames_;
+  std::vector<DriveFrame> frames_;
   Motion command_;
   pose_wall_planar_pose odometry_before_{};
   double followed_from_m_ = 0.0, loss_began_s_ = -1.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "lab/drive/story.hpp"
+#include "lab/drive/drive_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ MapLocaliser localiser_in(const std::string& trail) {
 }
 
 // Of the machine's middle.
-sim::PlanePose start_of(const sim::Network& network, const TaughtRoads& roads, const StorySettings& settings) {
+sim::PlanePose start_of(const sim::Network& network, const TaughtRoads& roads, const DriveRunSettings& settings) {
   if (!settings.start) return draw_start(network, roads, settings.seed);
   const pose_wall_planar_pose middle = combined(*settings.start, {-kTurnAhead_m, 0.0, 0.0});
   return {middle.x_m, middle.y_m, middle.yaw_rad};
@@ -91,22 +91,22 @@ double off_route_m(const PlannedRoute& route, const pose_wall_planar_pose& at) {
 
 }  // namespace
 
-DriveStory::DriveStory(const sim::Network& network, const sim::SensorModel& model, const TaughtRoads& roads,
-                       const StorySettings& settings)
+DriveRun::DriveRun(const sim::Network& network, const sim::SensorModel& model, const TaughtRoads& roads,
+                   const DriveRunSettings& settings)
     : network_(network),
       model_(model),
       roads_(roads),
       settings_(settings),
       goal_(settings.goal ? *settings.goal : first_room(roads)),
       machine_(drive_tracks(), &network, start_of(network, roads, settings), sim::mix(settings.seed ^ 0xd2u)),
-      sight_(model),
+      scanner_(model),
       finder_(localiser_in(roads.trail)),
       guard_(model, /*has_looked=*/true),
       pilot_(roads.map, goals_of(goal_, !settings.goal), kStorySpeed_m_s, settings.patience_s),
       odometry_before_(pose_of(machine_.odometry())) {}
 
 // When the machine has its first route, people stand along it, and what will be lost is drawn.
-void DriveStory::begin_trouble() {
+void DriveRun::begin_trouble() {
   first_route_ = pilot_.route();
   followed_from_m_ = machine_.driven_m();
   std::vector<sim::Place> way;
@@ -124,7 +124,7 @@ void DriveStory::begin_trouble() {
   if (settings_.loses_walls) loss_ = sim::draw_loss(network_, way, sim::mix(settings_.seed ^ 0x105u));
 }
 
-sim::CloudScene DriveStory::scene() {
+sim::CloudScene DriveRun::scene() {
   sim::CloudScene scene;
   for (const sim::Person& person : people_) scene.pillars.push_back(person.pillar());
   if (!loss_) return scene;
@@ -136,13 +136,13 @@ sim::CloudScene DriveStory::scene() {
   return scene;
 }
 
-sim::Footprint DriveStory::footprint() const {
+sim::Footprint DriveRun::footprint() const {
   const pose_wall_planar_pose base = true_base(machine_);
   return {{base.x_m, base.y_m, base.yaw_rad}, kFront_m, kRear_m, kHalfWidth_m};
 }
 
 // The footprint meets a person, or one of its edges the rock.
-bool DriveStory::touches() const {
+bool DriveRun::touches() const {
   const pose_wall_planar_pose base = true_base(machine_);
   for (const sim::Person& person : people_) {
     if (footprint().distance_m(person.at()) < person.pillar().radius_m) return true;
@@ -161,7 +161,7 @@ bool DriveStory::touches() const {
 }
 
 // Half of the frame's time the old command holds.
-void DriveStory::move(const Motion& before, const Motion& after) {
+void DriveRun::move(const Motion& before, const Motion& after) {
   constexpr double kTouches_m_s = 0.01;  // slower it does not touch, it is touched
   for (const Motion& motion : {before, after}) {
     machine_.step(track_speeds(motion), kHalfFrame_s);
@@ -174,7 +174,7 @@ void DriveStory::move(const Motion& before, const Motion& after) {
 }
 
 // By the tracks' counters and the gyroscope. Tracks that stand say so; the gyroscope's noise does not.
-Motion DriveStory::measured_motion() {
+Motion DriveRun::measured_motion() {
   const pose_wall_planar_pose odometry = pose_of(machine_.odometry());
   const pose_wall_planar_pose step = seen_from(odometry_before_, odometry);
   odometry_before_ = odometry;
@@ -183,8 +183,8 @@ Motion DriveStory::measured_motion() {
   return {step.x_m / kFrame_s, step.yaw_rad / kFrame_s};
 }
 
-StoryFrame DriveStory::take_frame() {
-  StoryFrame row;
+DriveFrame DriveRun::take_frame() {
+  DriveFrame row;
   row.time_s = machine_.time_s();
   const auto stamp_ns = static_cast<std::int64_t>(1e9 * row.time_s + 0.5);
   const sim::CloudScene seen = scene();
@@ -193,22 +193,22 @@ StoryFrame DriveStory::take_frame() {
       sim::network_cloud(network_, model_.sensor, true_sensor(machine_, model_),
                          static_cast<std::uint32_t>(frames_.size()), sim::mix(settings_.seed ^ 0xf2au), seen);
   const pose_wall_cloud cloud = cloud_of(frame, stamp_ns);
-  DrivePilot::Look look;
-  look.stamp_ns = stamp_ns;
-  look.now_ns = stamp_ns + static_cast<std::int64_t>(1e9 * kResult_s);
-  look.scan = &sight_.look(cloud);
+  DrivePilot::View view;
+  view.stamp_ns = stamp_ns;
+  view.now_ns = stamp_ns + static_cast<std::int64_t>(1e9 * kResult_s);
+  view.scan = &scanner_.scan(cloud);
   const pose_wall_planar_pose odometry = pose_of(machine_.odometry());
-  look.where = &finder_.process(*look.scan, &odometry);
-  look.measured = measured_motion();
-  row.wished = pilot_.wish(look);
-  row.command = guard_.limit(cloud, look.now_ns, look.measured, row.wished);
+  view.where = &finder_.process(*view.scan, &odometry);
+  view.measured = measured_motion();
+  row.wished = pilot_.wish(view);
+  row.command = guard_.limit(cloud, view.now_ns, view.measured, row.wished);
   pilot_.obeyed(row.command, guard_.last());
   report(&row);
   return row;
 }
 
 // What is true, and what the parts said.
-void DriveStory::report(StoryFrame* row) {
+void DriveRun::report(DriveFrame* row) {
   const pose_wall_planar_localise_result& where = finder_.last();
   const pose_wall_planar_stop_result& stop = guard_.last();
   row->truth = roads_.in_map(true_base(machine_));
@@ -231,7 +231,7 @@ void DriveStory::report(StoryFrame* row) {
   }
 }
 
-void DriveStory::judge(const StoryFrame& row, StoryEnd* end) {
+void DriveRun::judge(const DriveFrame& row, DriveEnd* end) {
   if (first_route_.poses.empty() && row.phase == PilotPhase::kFollowing) begin_trouble();
   if (row.place_state == POSE_WALL_PLANAR_LOCALISE_UNIQUE) {
     if (!(end->unique_after_s > 0.0) && row.phase != PilotPhase::kLocating) {
@@ -254,12 +254,12 @@ void DriveStory::judge(const StoryFrame& row, StoryEnd* end) {
   }
 }
 
-StoryEnd DriveStory::run(const std::function<bool(const StoryFrame&)>& notice) {
-  StoryEnd end;
+DriveEnd DriveRun::run(const std::function<bool(const DriveFrame&)>& notice) {
+  DriveEnd end;
   bool goes_on = true;
   while (goes_on && machine_.time_s() < settings_.time_most_s) {
     const Motion before = command_;
-    const StoryFrame row = take_frame();
+    const DriveFrame row = take_frame();
     frames_.push_back(row);
     command_ = row.command;
     judge(row, &end);
@@ -273,8 +273,8 @@ StoryEnd DriveStory::run(const std::function<bool(const StoryFrame&)>& notice) {
   end.time_s = machine_.time_s();
   end.contacts = contacts_;
   end.plans = pilot_.plans();
-  end.floors = sight_.floors();
-  end.own_planes = sight_.own_planes();
+  end.floors = scanner_.floors();
+  end.own_planes = scanner_.own_planes();
   return end;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "study/explain/digest_text.hpp"
+#include "study/explain/summary_text.hpp"
 
 #include <fmt/format.h>
 
@@ -26,18 +26,18 @@ std::string share(std::size_t part, std::size_t whole) {
   return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
-std::string cause_text(const QuantityDigest& quantity) {
+std::string cause_text(const QuantitySummary& quantity) {
   const std::uint32_t cause = quantity.cause();
   if (cause >= POSE_WALL_PARTS) return "-";
   return say("{} (in {})", spoken_part(cause), share(quantity.largest[cause], quantity.with_cause()));
 }
 
-std::string values_text(const Digest& digest) {
-  const std::size_t measured = digest.frames() - digest.unreadable();
+std::string values_text(const RecordingSummary& summary) {
+  const std::size_t measured = summary.frames() - summary.unreadable();
   TextTable table(
       {tr("quantity"), tr("valid"), tr("degraded"), tr("held"), tr("invalid"), tr("median level"), tr("largest part")});
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    const QuantityDigest& quantity = digest.quantities()[q];
+    const QuantitySummary& quantity = summary.quantities()[q];
     const auto of = [&](std::uint32_t state) { return share(quantity.states[state], measured); };
     const double level = quantity.levels.median();
     table.add_row({pose_wall_quantity_name(q), of(POSE_WALL_VALID), of(POSE_WALL_DEGRADED), of(POSE_WALL_HELD),
@@ -59,23 +59,23 @@ std::string gates_text(const std::vector<std::uint32_t>& gates) {
   return names.empty() ? "-" : listed(names);
 }
 
-std::vector<std::uint32_t> reasons_by_count(const Digest& digest) {
+std::vector<std::uint32_t> reasons_by_count(const RecordingSummary& summary) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
-    if (digest.reasons()[bit].frames > 0) order.push_back(bit);
+    if (summary.reasons()[bit].frames > 0) order.push_back(bit);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return digest.reasons()[a].frames > digest.reasons()[b].frames;
+    return summary.reasons()[a].frames > summary.reasons()[b].frames;
   });
   return order;
 }
 
-std::string reasons_text(const Digest& digest) {
-  const std::size_t measured = digest.frames() - digest.unreadable();
+std::string reasons_text(const RecordingSummary& summary) {
+  const std::size_t measured = summary.frames() - summary.unreadable();
   TextTable table({tr("reason"), tr("gates behind it"), tr("frames"), tr("share")});
   std::string meanings;
-  for (const std::uint32_t bit : reasons_by_count(digest)) {
-    const ReasonDigest& reason = digest.reasons()[bit];
+  for (const std::uint32_t bit : reasons_by_count(summary)) {
+    const ReasonSummary& reason = summary.reasons()[bit];
     table.add_row({pose_wall_reason_name(bit), gates_text(reason.gates), std::to_string(reason.frames),
                    share(reason.frames, measured)});
     meanings += wrapped(say("{}: {}.", pose_wall_reason_name(bit), reason_words(bit)), 2, kDigestWidth);
@@ -83,24 +83,24 @@ std::string reasons_text(const Digest& digest) {
   return meanings.empty() ? std::string(tr("none")) + "\n" : table.text(2) + "\n" + meanings;
 }
 
-std::string stretches_text(const Digest& digest) {
+std::string stretches_text(const RecordingSummary& summary) {
   std::string list;
-  for (const Stretch& s : digest.longest_stretches(kStretchesShown)) {
+  for (const Stretch& s : summary.longest_stretches(kStretchesShown)) {
     const std::string story = story_words(s.story);
     list += wrapped(s.frames() == 1 ? say("{}: {}", s.first, story)
                                     : say("{}–{} ({}): {}", s.first, s.last, frames_text(s.frames()), story),
                     2, kDigestWidth);
   }
   std::string heading = tr("Stretches of frames alike");
-  if (digest.stretch_count() > kStretchesShown) {
-    heading += say(" (the {} longest of {})", kStretchesShown, digest.stretch_count());
+  if (summary.stretch_count() > kStretchesShown) {
+    heading += say(" (the {} longest of {})", kStretchesShown, summary.stretch_count());
   }
   return heading + "\n" + list;
 }
 
-std::string to_see_text(const Digest& digest, const std::string& command) {
+std::string to_see_text(const RecordingSummary& summary, const std::string& command) {
   std::string text;
-  for (const FrameToSee& f : frames_to_see(digest)) {
+  for (const FrameToSee& f : frames_to_see(summary)) {
     text += wrapped(say("Frame {}: {}.", f.frame, clauses(f.why)), 2, kDigestWidth);
     text += "    " + command_for(command, f.frame) + "\n";
   }
@@ -113,13 +113,13 @@ std::string command_for(const std::string& command, std::uint64_t frame) {
   return fmt::format("{} --frame {}", command, frame);
 }
 
-std::string digest_text(const Digest& digest, const std::string& command) {
-  std::string text = frames_text(digest.frames());
-  if (digest.unreadable() > 0) text += say("; {} of them could not be read", digest.unreadable());
-  text += fmt::format("\n\n{}\n{}\n", tr("Values"), values_text(digest));
-  text += fmt::format("{}\n{}\n", tr("Reasons"), reasons_text(digest));
-  text += fmt::format("{}\n", stretches_text(digest));
-  return text + fmt::format("{}\n{}", tr("Frames worth a look"), to_see_text(digest, command));
+std::string summary_text(const RecordingSummary& summary, const std::string& command) {
+  std::string text = frames_text(summary.frames());
+  if (summary.unreadable() > 0) text += say("; {} of them could not be read", summary.unreadable());
+  text += fmt::format("\n\n{}\n{}\n", tr("Values"), values_text(summary));
+  text += fmt::format("{}\n{}\n", tr("Reasons"), reasons_text(summary));
+  text += fmt::format("{}\n", stretches_text(summary));
+  return text + fmt::format("{}\n{}", tr("Frames worth a look"), to_see_text(summary, command));
 }
 
 }  // namespace pose_wall::tools::explain

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "study/doctor/mount_story.hpp"
+#include "study/doctor/supposed_mount.hpp"
 
 #include <fmt/format.h>
 
@@ -23,26 +23,26 @@ constexpr double kTiltMin_deg = 0.3;
 constexpr double kHeightOff_m = 0.3;
 constexpr std::size_t kBodyCells = 20;
 
-double usable(const MountStory& story) {
-  return story.floor.is_found() ? 0.5 * story.floor.measured + 0.5 * story.road.score : 0.0;
+double usable(const SupposedMount& supposed) {
+  return supposed.floor.is_found() ? 0.5 * supposed.floor.measured + 0.5 * supposed.road.score : 0.0;
 }
 
-MountChoice chosen(MountStory a, MountStory b, bool is_sure, std::string reason) {
+MountChoice chosen(SupposedMount a, SupposedMount b, bool is_sure, std::string reason) {
   MountChoice choice{std::move(a), std::nullopt, is_sure, std::move(reason), false};
   if (b.floor.is_found()) choice.other = std::move(b);
   return choice;
 }
 
 // What stands under a sensor carries it.
-bool carries(const MountStory& a, const MountStory& b) {
+bool carries(const SupposedMount& a, const SupposedMount& b) {
   return a.floor.is_found() && a.body.cells_below >= kBodyCells && a.body.cells_below >= 3 * b.body.cells_below;
 }
 
-bool has_height(const MountStory& story, double height_m) {
-  return story.floor.is_found() && std::fabs(story.floor.height_m - height_m) <= kHeightOff_m;
+bool has_height(const SupposedMount& supposed, double height_m) {
+  return supposed.floor.is_found() && std::fabs(supposed.floor.height_m - height_m) <= kHeightOff_m;
 }
 
-MountChoice by_height(MountStory upright, MountStory flipped, double height_m) {
+MountChoice by_height(SupposedMount upright, SupposedMount flipped, double height_m) {
   const bool up = has_height(upright, height_m), down = has_height(flipped, height_m);
   if (up == down) {
     std::string reason = up ? say("--height {:.2f} m fits floor and roof alike", height_m)
@@ -56,7 +56,7 @@ MountChoice by_height(MountStory upright, MountStory flipped, double height_m) {
   return chosen(std::move(flipped), std::move(upright), true, std::move(reason));
 }
 
-MountChoice by_what_is_seen(MountStory upright, MountStory flipped) {
+MountChoice by_what_is_seen(SupposedMount upright, SupposedMount flipped) {
   if (carries(upright, flipped)) {
     return chosen(std::move(upright), std::move(flipped), true, tr("the machine's body is on the floor's side"));
   }
@@ -76,12 +76,12 @@ MountChoice by_what_is_seen(MountStory upright, MountStory flipped) {
                 tr("floor and roof look alike here; upright is the usual way"));
 }
 
-void look_around(MountStory& story, const api::Config& config, const std::vector<KeptFrame>& frames) {
-  story.road = look_along_road(config, frames, kSearchFrames);
-  const RoadFrame frame(story.config, story.floor, story.road.azimuth_base_rad);
-  story.ends = look_at_ends(frames, frame, story.road);
-  story.body = look_for_body(frames, frame, story.road, story.ends);
-  story.noise = look_at_noise(frames, frame, story.road);
+void look_around(SupposedMount& supposed, const api::Config& config, const std::vector<KeptFrame>& frames) {
+  supposed.road = look_along_road(config, frames, kSearchFrames);
+  const RoadFrame frame(supposed.config, supposed.floor, supposed.road.azimuth_base_rad);
+  supposed.ends = look_at_ends(frames, frame, supposed.road);
+  supposed.body = look_for_body(frames, frame, supposed.road, supposed.ends);
+  supposed.noise = look_at_noise(frames, frame, supposed.road);
 }
 
 api::Config without(api::Config config, const std::vector<Box>& boxes) {
@@ -98,38 +98,38 @@ api::Config without(api::Config config, const std::vector<Box>& boxes) {
 
 }  // namespace
 
-MountStory tell_story(const api::Config& told, bool flipped, const std::vector<KeptFrame>& frames) {
-  MountStory story;
-  story.is_flipped = flipped;
-  story.config = told;
-  if (flipped) flip_mount(story.config);
-  api::Config search = story.config;
+SupposedMount suppose_mount(const api::Config& told, bool flipped, const std::vector<KeptFrame>& frames) {
+  SupposedMount supposed;
+  supposed.is_flipped = flipped;
+  supposed.config = told;
+  if (flipped) flip_mount(supposed.config);
+  api::Config search = supposed.config;
   search.set("ground_tilt_max_deg", std::max(told.number("ground_tilt_max_deg"), kSearchTilt_deg));
-  story.floor = look_at_floor(search, frames, kSearchFrames);
-  if (!story.floor.is_found()) return story;
-  const api::Config unlevelled = story.config;
-  level_mount(story.config, story.floor.up_lidar);
-  story.floor = look_at_floor(story.config, frames, kFloorFrames);
-  if (!story.floor.is_found()) return story;
-  story.tilt_rad = tilt_rad(unlevelled, story.floor.up_lidar);
-  story.config = unlevelled;
-  if (story.tilt_rad * kDegPerRad >= kTiltMin_deg) level_mount(story.config, story.floor.up_lidar);
+  supposed.floor = look_at_floor(search, frames, kSearchFrames);
+  if (!supposed.floor.is_found()) return supposed;
+  const api::Config unlevelled = supposed.config;
+  level_mount(supposed.config, supposed.floor.up_lidar);
+  supposed.floor = look_at_floor(supposed.config, frames, kFloorFrames);
+  if (!supposed.floor.is_found()) return supposed;
+  supposed.tilt_rad = tilt_rad(unlevelled, supposed.floor.up_lidar);
+  supposed.config = unlevelled;
+  if (supposed.tilt_rad * kDegPerRad >= kTiltMin_deg) level_mount(supposed.config, supposed.floor.up_lidar);
 
-  look_around(story, story.config, frames);
+  look_around(supposed, supposed.config, frames);
   // False returns of the housing and a body close by may hide the road: once more without them.
-  if (!story.road.is_found && !story.body.boxes_base.empty()) {
-    look_around(story, without(story.config, story.body.boxes_base), frames);
+  if (!supposed.road.is_found && !supposed.body.boxes_base.empty()) {
+    look_around(supposed, without(supposed.config, supposed.body.boxes_base), frames);
   }
-  return story;
+  return supposed;
 }
 
 MountChoice choose_mount(const api::Config& told, bool is_told, std::optional<double> height_m,
                          const std::vector<KeptFrame>& frames) {
-  MountStory upright = tell_story(told, false, frames);
+  SupposedMount upright = suppose_mount(told, false, frames);
   if (is_told && upright.floor.is_found()) {
     return {std::move(upright), std::nullopt, true, tr("as the config's extrinsic says"), false};
   }
-  MountStory flipped = tell_story(told, true, frames);
+  SupposedMount flipped = suppose_mount(told, true, frames);
   if (height_m) return by_height(std::move(upright), std::move(flipped), *height_m);
   return by_what_is_seen(std::move(upright), std::move(flipped));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "study/explain/digest.hpp"
+#include "study/explain/summary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,11 +71,11 @@ double ThinnedRow::median() const {
   return quantile(kept_, 0.5);
 }
 
-std::size_t QuantityDigest::with_cause() const {
+std::size_t QuantitySummary::with_cause() const {
   return std::accumulate(largest.begin(), largest.end(), std::size_t{0});
 }
 
-std::uint32_t QuantityDigest::cause() const {
+std::uint32_t QuantitySummary::cause() const {
   const auto most = std::max_element(largest.begin(), largest.end());
   return *most == 0 ? std::uint32_t{POSE_WALL_PARTS} : static_cast<std::uint32_t>(most - largest.begin());
 }
@@ -84,11 +84,11 @@ bool Badness::is_worse_than(const Badness& other) const {
   return states != other.states ? states < other.states : ratio > other.ratio;
 }
 
-Digest::Digest(const pose_wall_config& config) : alert_limit_{} {
+RecordingSummary::RecordingSummary(const pose_wall_config& config) : alert_limit_{} {
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) alert_limit_[q] = alert_limit(config, q);
 }
 
-Badness Digest::badness_of(const pose_wall_result& result) const {
+Badness RecordingSummary::badness_of(const pose_wall_result& result) const {
   Badness out;
   out.frame = frames_;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
@@ -103,18 +103,18 @@ Badness Digest::badness_of(const pose_wall_result& result) const {
   return out;
 }
 
-bool Digest::is_new(const pose_wall_result& result) const {
+bool RecordingSummary::is_new(const pose_wall_result& result) const {
   if (traced_ >= kTracedMax) return false;
   const Story story = story_of(result);
   const bool has_new_reason = (all_reasons(result) & ~traced_reasons_) != 0;
   return has_new_reason || stories_.find({story.kind, story.subjects}) == stories_.end();
 }
 
-bool Digest::is_worst(const pose_wall_result& result) const {
+bool RecordingSummary::is_worst(const pose_wall_result& result) const {
   return !worst_ || badness_of(result).is_worse_than(*worst_);
 }
 
-void Digest::add_notes(const pose_wall_result& result, const pose_wall_trace& trace) {
+void RecordingSummary::add_notes(const pose_wall_result& result, const pose_wall_trace& trace) {
   ++traced_;
   traced_reasons_ |= all_reasons(result);
   for (const Note& note : Notes(trace).all()) {
@@ -128,8 +128,8 @@ void Digest::add_notes(const pose_wall_result& result, const pose_wall_trace& tr
   }
 }
 
-void Digest::add_story(const Story& story) {
-  StoryDigest& known = stories_[{story.kind, story.subjects}];
+void RecordingSummary::add_story(const Story& story) {
+  StorySummary& known = stories_[{story.kind, story.subjects}];
   if (known.frames++ == 0) {
     known.story = story;
     known.first = frames_;
@@ -146,7 +146,7 @@ void Digest::add_story(const Story& story) {
   ++stretch_count_;
 }
 
-void Digest::add(const FrameOutcome& outcome) {
+void RecordingSummary::add(const FrameOutcome& outcome) {
   if (!outcome.result) {
     ++unreadable_;
     add_story(Story{});
@@ -170,33 +170,33 @@ void Digest::add(const FrameOutcome& outcome) {
   ++frames_;
 }
 
-std::vector<StoryDigest> Digest::stories() const {
-  std::vector<StoryDigest> all;
+std::vector<StorySummary> RecordingSummary::stories() const {
+  std::vector<StorySummary> all;
   for (const auto& [key, known] : stories_) all.push_back(known);
-  std::stable_sort(all.begin(), all.end(), [](const StoryDigest& a, const StoryDigest& b) {
+  std::stable_sort(all.begin(), all.end(), [](const StorySummary& a, const StorySummary& b) {
     return a.frames != b.frames ? a.frames > b.frames : a.first < b.first;
   });
   return all;
 }
 
-std::vector<Stretch> Digest::longest_stretches(std::size_t most) const {
+std::vector<Stretch> RecordingSummary::longest_stretches(std::size_t most) const {
   std::vector<Stretch> longest = stretches_;
   keep_longest(&longest, most);
   return longest;
 }
 
-std::vector<FrameToSee> frames_to_see(const Digest& digest) {
+std::vector<FrameToSee> frames_to_see(const RecordingSummary& summary) {
   std::vector<FrameToSee> all;
-  if (!digest.worst()) return all;
-  see(&all, digest.worst()->frame, tr("the worst, by the lowest states and then the largest level over its limit"));
-  const Badness& widest = *digest.widest();
+  if (!summary.worst()) return all;
+  see(&all, summary.worst()->frame, tr("the worst, by the lowest states and then the largest level over its limit"));
+  const Badness& widest = *summary.widest();
   if (widest.widest < POSE_WALL_QUANTITIES) {
     see(&all, widest.frame,
         say("the largest level over its limit: {} at {:.1f} times the alert limit",
             pose_wall_quantity_name(widest.widest), widest.ratio));
   }
   std::size_t told = 0;
-  for (const StoryDigest& s : digest.stories()) {
+  for (const StorySummary& s : summary.stories()) {
     if (s.story.kind == StoryKind::kValid || s.story.kind == StoryKind::kUnreadable) continue;
     if (told++ == kStoriesToSee) break;
     see(&all, s.first,
