@@ -307,8 +307,8 @@ class Discovery(Ros2):
 
     def of_cyclone(self, capture):
         """Its messages, in tshark's words, as far as they are written."""
-        read = subprocess.run(["tshark", "-r", str(capture), "-Y", "rtps", "-O", "rtps"], capture_output=True, text=True,
-                              timeout=120, check=False).stdout
+        words = ["tshark", "-r", str(capture), "-Y", "rtps", "-O", "rtps"]
+        read = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False).stdout
         parts = (part for part in re.split(r"\nFrame \d+", read) if "Eclipse" in part or "Cyclone" in part)
         return "\n".join(parts).replace("topicName", "topic").replace("topic name", "topic")
 
