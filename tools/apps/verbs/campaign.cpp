@@ -34,6 +34,7 @@
 #include "lab/campaign/merge.hpp"
 #include "lab/campaign/motion_card.hpp"
 #include "lab/campaign/motion_record.hpp"
+#include "lab/campaign/motion_trials.hpp"
 #include "lab/campaign/part.hpp"
 #include "lab/campaign/plan.hpp"
 #include "lab/campaign/runner.hpp"
@@ -184,11 +185,30 @@ int run_ablation(const CampaignOptions& options) {
   return kExitDone;
 }
 
+int run_motion_trials(const CampaignOptions& options) {
+  const bool sweeps = !options.sweep.empty();
+  const campaign::MotionTrialRequest request =
+      sweeps ? campaign::motion_sweep(options.sweep) : campaign::motion_ablation(options.ablate);
+  if (!request.fault.empty()) {
+    throw std::invalid_argument(fmt::format("--motion {}: {}", sweeps ? "--sweep" : "--ablate", request.fault));
+  }
+  check_settings(options.engine, options.quiet);
+  const std::vector<campaign::Run> runs = campaign::make_plan(options.plan);
+  const campaign::MotionTrials trials = campaign::run_motion_trials(
+      request, campaign::make_manifest(options.plan, runs, options.engine), runs, {options.jobs, !options.quiet});
+  fmt::print("{}", options.json ? campaign::motion_trials_json(trials) : campaign::motion_trials_text(trials));
+  return kExitDone;
+}
+
+int run_trials(const CampaignOptions& options) {
+  if (options.plan.motion) return run_motion_trials(options);
+  return options.sweep.empty() ? run_ablation(options) : run_sweep(options);
+}
+
 // Sweep or ablation.
 int table_verb(const CampaignOptions& options) {
   try {
-    return done_or_complaint("campaign",
-                             [&] { return options.sweep.empty() ? run_ablation(options) : run_sweep(options); });
+    return done_or_complaint("campaign", [&] { return run_trials(options); });
   } catch (const Interrupted&) {
     fmt::print(stderr, "interrupted: --sweep and --ablate keep nothing; start it again\n");
     return kExitInterrupted;
@@ -254,8 +274,9 @@ void demand_only_what_goes_along(const CLI::App& verb, const CampaignOptions& op
   }
   if (prints_table(options)) {
     demand_only(verb,
-                {options.sweep.empty() ? "--ablate" : "--sweep", "--size", "--scenes", "--kind", "--sensors", "--draws",
-                 "--first-draw", "--frames", "--scans", "--seed", "--jobs", "--config", "--set", "--json", "--quiet"},
+                {options.sweep.empty() ? "--ablate" : "--sweep", "--motion", "--size", "--scenes", "--kind",
+                 "--sensors", "--draws", "--first-draw", "--frames", "--scans", "--seed", "--jobs", "--config", "--set",
+                 "--json", "--quiet"},
                 "prints a table and leaves no records");
   }
 }
@@ -292,7 +313,7 @@ void demand_words_go_together(const CLI::App& verb, const CampaignOptions& optio
 
 // Without the motion library nothing takes a machine's motion out of a scan.
 void take_scans(CampaignOptions& options) {
-  const bool is_instant = prints_table(options) && options.scans.empty();
+  const bool is_instant = prints_table(options) && options.scans.empty() && !options.plan.motion;
   if (!options.scans.empty()) options.plan.scans = campaign::scans_named(options.scans);
   if (is_instant) options.plan.scans = campaign::Scans::kInstant;
 }
@@ -356,12 +377,22 @@ void add_part_options(CLI::App& verb, CampaignOptions& options) {
 void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
   verb.add_option("--sweep", options.sweep,
                   "GATE=A,B,...: print the results of the runs with the table's limit of a gate, and with each of "
-                  "these limits; pose_wall explain --gates lists the gates")
-      ->check(campaign::sweep_fault, "");
+                  "these limits; pose_wall explain --gates lists the gates. With --motion: of a gate of motion")
+      ->check(
+          [](const std::string& words) {
+            return campaign::names_motion_gate(words) ? campaign::motion_sweep(words).fault
+                                                      : campaign::sweep_fault(words);
+          },
+          "");
   verb.add_option("--ablate", options.ablate,
                   "each, or GATE,...: print what becomes valid, and what becomes wrong, without each gate alone, or "
                   "without these gates together")
-      ->check([](const std::string& words) { return campaign::gate_rows(words).fault; }, "");
+      ->check(
+          [](const std::string& words) {
+            return campaign::names_motion_gate(words) ? campaign::motion_ablation(words).fault
+                                                      : campaign::gate_rows(words).fault;
+          },
+          "");
   verb.add_flag("--json", options.json, "With --sweep or --ablate: the table as JSON");
 }
 
@@ -376,6 +407,7 @@ void add_footer(CLI::App& verb) {
       "  pose_wall campaign --merge /tmp/parts/* --gate --output /tmp/card\n"
       "  pose_wall campaign --sweep wall_length=1,3,4 --scenes rough,props --sensors os1-64 --draws 20\n"
       "  pose_wall campaign --ablate each --kind adversarial --draws 3\n"
+      "  pose_wall campaign --motion --sweep matched=40,160 --size small\n"
       "Exit status: 0 done, 1 a record or card cannot be read or written, 2 bad usage or config, records of "
       "another\n"
       "campaign in the folder, or parts that are no whole campaign, 3 the gate failed, 130 interrupted by Ctrl-C (the "

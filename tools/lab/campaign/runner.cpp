@@ -68,24 +68,10 @@ sim::Simulator simulator_of(const Run& run) {
 // One run as the table in its file.
 using Measure = std::function<std::string(const Run&, const EngineChoice&, const std::function<void()>& on_frame)>;
 
-std::string measure_motion(const Run& run, const EngineChoice& choice, const std::function<void()>& on_frame) {
-  const sim::Simulator simulator(make_motion_setup(motion_class_of_record(run.scene), run.sensor, run.seed), run.seed);
-  const sim::Sequence& sequence = simulator.setup().sequence;
-  const LoadedConfig loaded = config_for(simulator.setup(), choice);
-  MotionRunner runner(loaded.config, loaded.motion, sequence.rate_hz);
-  std::string table = csv_line(motion_record_head());
-  for (std::uint32_t i = 0; i < run.frames; ++i) {
-    const sim::Frame rendered = simulator.render(i);
-    SourcedFrame sourced;
-    sourced.name = fmt::format("{}/{}/{}#{}", run.scene, run.sensor, run.draw, i);
-    sourced.stamp_ns = rendered.stamp_ns;
-    sourced.frame = rendered_frame(rendered, sequence.scan_s > 0.0);
-    const MotionOutcome outcome = runner.run(std::move(sourced));
-    if (!outcome.result) throw std::runtime_error(fmt::format("{}: motion: {}", outcome.source, outcome.error));
-    table += csv_line(motion_record_cells(run, outcome, simulator, i));
-    on_frame();
-  }
-  return table;
+Measure motion_measure() {
+  return [](const Run& run, const EngineChoice& choice, const std::function<void()>& on_frame) {
+    return measure_motion(run, choice, {}, on_frame);
+  };
 }
 
 Measure engine_measure() {
@@ -118,6 +104,27 @@ Frame rendered_frame(const sim::Frame& rendered, bool scan_takes_time) {
     copy_point(rendered, i, scan_takes_time, bytes.data() + i * layout.point_step);
   }
   return describe_frame(std::move(bytes), layout);
+}
+
+std::string measure_motion(const Run& run, const EngineChoice& choice, const MotionLibrary& library,
+                           const std::function<void()>& on_frame) {
+  const sim::Simulator simulator(make_motion_setup(motion_class_of_record(run.scene), run.sensor, run.seed), run.seed);
+  const sim::Sequence& sequence = simulator.setup().sequence;
+  const LoadedConfig loaded = config_for(simulator.setup(), choice);
+  MotionRunner runner(loaded.config, loaded.motion, sequence.rate_hz, library);
+  std::string table = csv_line(motion_record_head());
+  for (std::uint32_t i = 0; i < run.frames; ++i) {
+    const sim::Frame rendered = simulator.render(i);
+    SourcedFrame sourced;
+    sourced.name = fmt::format("{}/{}/{}#{}", run.scene, run.sensor, run.draw, i);
+    sourced.stamp_ns = rendered.stamp_ns;
+    sourced.frame = rendered_frame(rendered, sequence.scan_s > 0.0);
+    const MotionOutcome outcome = runner.run(std::move(sourced));
+    if (!outcome.result) throw std::runtime_error(fmt::format("{}: motion: {}", outcome.source, outcome.error));
+    table += csv_line(motion_record_cells(run, outcome, simulator, i));
+    on_frame();
+  }
+  return table;
 }
 
 LoadedConfig config_for(const sim::Setup& setup, const EngineChoice& choice) {
@@ -156,7 +163,7 @@ RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& 
 
 void run_all(const std::vector<Run>& runs, const Work& work) {
   work_on(runs, work.crew, [&work]() -> RunWork {
-    const Measure table_of = work.motion ? Measure(measure_motion) : engine_measure();
+    const Measure table_of = work.motion ? motion_measure() : engine_measure();
     return [&work, table_of](const Run& run, const std::function<void()>& on_frame) {
       write_record_file(record_file(work.folder, run), table_of(run, work.choice, on_frame), work.campaign);
     };

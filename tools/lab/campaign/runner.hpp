@@ -19,6 +19,7 @@
 #include "lab/sim/setup.hpp"
 #include "lab/sim/simulator.hpp"
 #include "pose_wall.h"
+#include "study/motion/motion_runner.hpp"
 
 namespace pose_wall::tools::campaign {
 
@@ -34,6 +35,10 @@ struct Instrument {
 // One run. The instrument is opened anew; `on_frame` is called after each frame.
 RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& instrument,
                   const std::function<void()>& on_frame);
+
+// One run of motion as the table in its file.
+std::string measure_motion(const Run& run, const EngineChoice& choice, const MotionLibrary& library,
+                           const std::function<void()>& on_frame);
 
 // A frame of the simulator as `pose_wall sim` writes it and `pose_wall motion` reads it: with the fields t and ring
 // where the scan takes time.

@@ -12,14 +12,16 @@
 
 namespace pose_wall::tools {
 
-MotionRunner::MotionRunner(const api::Config& config, const pose_wall_motion_settings& settings, double rate_hz)
-    : block_(static_cast<std::size_t>((pose_wall_motion_memory_needed() + sizeof(Line) - 1) / sizeof(Line))),
+MotionRunner::MotionRunner(const api::Config& config, const pose_wall_motion_settings& settings, double rate_hz,
+                           MotionLibrary library)
+    : library_(std::move(library)),
+      block_(static_cast<std::size_t>((pose_wall_motion_memory_needed() + sizeof(Line) - 1) / sizeof(Line))),
       stamps_(rate_hz) {
   pose_wall_motion_fault fault{};
   if (pose_wall_motion_settings_check(&settings, &fault) == POSE_WALL_E_VALUE_RANGE) {
     throw ConfigError(std::string("motion: ") + fault.rule);
   }
-  const std::int32_t status = pose_wall_motion_open(config.get(), &settings, block_.data(), block_bytes(), &motion_);
+  const std::int32_t status = library_.open(config.get(), &settings, block_.data(), block_bytes(), &motion_);
   if (status != POSE_WALL_OK) throw ConfigError(std::string("motion: ") + pose_wall_status_text(status));
 }
 
@@ -37,7 +39,7 @@ MotionOutcome MotionRunner::run(SourcedFrame sourced) {
   pose_wall_motion_result result{};
   result.struct_size = sizeof result;
   const Clock::time_point start = Clock::now();
-  const std::int32_t status = pose_wall_motion_process(motion_, &sourced.frame->cloud, &result);
+  const std::int32_t status = library_.process(motion_, &sourced.frame->cloud, &result);
   outcome.total_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   if (status == POSE_WALL_OK) {
     outcome.result = result;

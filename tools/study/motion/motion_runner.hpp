@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,10 +29,20 @@ struct MotionOutcome {
   double total_ms = 0.0;                          // in the library, elapsed
 };
 
+// What opens a motion and gives it frames: the library as delivered, or another of the same sources in its place.
+struct MotionLibrary {
+  std::function<std::int32_t(const pose_wall_config*, const pose_wall_motion_settings*, void* block,
+                             std::uint64_t block_bytes, pose_wall_motion**)>
+      open = pose_wall_motion_open;
+  std::function<std::int32_t(pose_wall_motion*, const pose_wall_cloud*, pose_wall_motion_result*)> process =
+      pose_wall_motion_process;
+};
+
 class MotionRunner {
  public:
   // Throws ConfigError when the library refuses config or settings.
-  MotionRunner(const api::Config& config, const pose_wall_motion_settings& settings, double rate_hz);
+  MotionRunner(const api::Config& config, const pose_wall_motion_settings& settings, double rate_hz,
+               MotionLibrary library = {});
 
   // Frames are numbered in the order of the calls. Never throws: what is wrong with a frame stands in the outcome.
   MotionOutcome run(SourcedFrame sourced);
@@ -46,6 +57,7 @@ class MotionRunner {
     unsigned char bytes[POSE_WALL_BLOCK_ALIGNMENT];
   };
 
+  MotionLibrary library_;
   std::vector<Line> block_;
   pose_wall_motion* motion_ = nullptr;
   FrameStamps stamps_;
