@@ -27,13 +27,23 @@ std::uint64_t saved_word(Number number) {
   }
 }
 
+// Not inlined, both of them: the engine's memento has some hundreds of numbers.
+[[gnu::noinline]] inline void put_low_bytes(std::uint64_t word, std::uint32_t bytes, unsigned char* to) {
+  for (std::uint32_t k = 0; k < bytes; ++k) to[k] = static_cast<unsigned char>(word >> (8U * k));
+}
+[[gnu::noinline]] inline std::uint64_t low_bytes_at(const unsigned char* from, std::uint32_t bytes) {
+  std::uint64_t word = 0;
+  for (std::uint32_t k = 0; k < bytes; ++k) word |= static_cast<std::uint64_t>(from[k]) << (8U * k);
+  return word;
+}
+
 class SavedWriter {
  public:
   explicit SavedWriter(unsigned char* to) : to_(to) {}
   template <typename Number>
   void put(Number number) {
-    const std::uint64_t word = saved_word(number);
-    for (std::uint32_t k = 0; k < sizeof(Number); ++k) *to_++ = static_cast<unsigned char>(word >> (8U * k));
+    put_low_bytes(saved_word(number), sizeof(Number), to_);
+    to_ += sizeof(Number);
   }
   void put_bytes(const void* bytes, std::uint32_t count) {
     std::memcpy(to_, bytes, count);
@@ -49,8 +59,8 @@ class SavedReader {
   explicit SavedReader(const unsigned char* from) : from_(from) {}
   template <typename Number>
   Number get() {
-    std::uint64_t word = 0;
-    for (std::uint32_t k = 0; k < sizeof(Number); ++k) word |= static_cast<std::uint64_t>(*from_++) << (8U * k);
+    const std::uint64_t word = low_bytes_at(from_, sizeof(Number));
+    from_ += sizeof(Number);
     if constexpr (std::is_floating_point<Number>::value) {
       const auto bits = static_cast<BitsOf<Number>>(word);
       Number number;
