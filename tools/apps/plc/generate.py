@@ -6,8 +6,7 @@ in tools/apps/live/modbus/README.md, those of the stop's image in README.md, wha
 FB_PoseWall as plain text, PLCopen XML and SCL. States and numbers are those of the headers.
 
 usage: generate.py [--check] ROOT      --check: writes nothing; exit status 1 if a file would change, or if
-                                       tests/checks/abi_layout.txt pins other offsets than image.def gives
-       generate.py --members FILE      writes the members that tests/checks/abi_layout.c looks at; each build does"""
+                                       tests/checks/abi_layout.txt pins other offsets than image.def gives"""
 
 import itertools
 import pathlib
@@ -27,7 +26,6 @@ import structured_text_words as words  # noqa: E402  pylint: disable=wrong-impor
 
 BEGIN = "/* From here on written by tools/apps/plc/generate.py from tools/apps/plc/image.def. */\n"
 END = "/* Up to here. */\n"
-LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n// Copyright (c) 2026 the pose_wall authors\n"
 
 
 def c_struct(structs, struct):
@@ -63,14 +61,6 @@ def header(structs, path, text):
              for name in description.images(structs).values()]
     parts = ["\n".join(sizes), *(c_struct(structs, struct) for struct in structs.values())]
     return before + BEGIN + "\n" + "\n\n".join(parts) + "\n\n" + END + after
-
-
-def layout_members(structs):
-    lines = [LICENCE + "//\n// Written by tools/apps/plc/generate.py from tools/apps/plc/image.def.\n"]
-    for struct in structs.values():
-        lines += [f"MEMBER({struct.name}, {member.name});" for member in struct.members]
-        lines.append(f'padded += struct_end("{struct.name}", sizeof({struct.name}));')
-    return "\n".join(lines) + "\n"
 
 
 def layout_faults(structs, pinned_text):
@@ -111,9 +101,6 @@ def check(root):
 
 
 def main():
-    if "--members" in sys.argv:
-        pathlib.Path(sys.argv[-1]).write_text(layout_members(description.read_structs()), encoding="utf-8")
-        return
     root = pathlib.Path(sys.argv[-1])
     if "--check" in sys.argv:
         faults = check(root)
