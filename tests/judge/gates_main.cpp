@@ -25,9 +25,7 @@
 namespace pose_wall::judge {
 namespace {
 
-using tools::campaign::GateFailures;
-using tools::campaign::Gates;
-using tools::campaign::StandingChanges;
+using namespace tools::campaign;
 
 constexpr const char* kEach = "each";
 

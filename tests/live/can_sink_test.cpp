@@ -33,9 +33,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-using pose_wall::test::fact;
-using pose_wall::test::opened_news;
-using pose_wall::test::SaidStop;
+using namespace pose_wall::test;
 
 constexpr std::size_t kFramesOfBoth = POSE_WALL_CAN_IMAGE2_FRAMES + POSE_WALL_CAN_MOTION_IMAGE_FRAMES;
 

@@ -76,9 +76,7 @@ extern "C" int fsync(int file) {
 namespace pose_wall::tools {
 namespace {
 
-using pose_wall::test::Synced;
-using pose_wall::test::synced_files;
-using pose_wall::test::watch_syncs;
+using namespace pose_wall::test;
 
 class LastingFile : public ::testing::Test {
  protected:

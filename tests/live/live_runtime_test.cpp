@@ -19,9 +19,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-using pose_wall::test::becomes_true;
-using pose_wall::test::fact;
-using pose_wall::test::FrameCatcher;
+using namespace pose_wall::test;
 
 // A road 5 m wide and 3.2 m high, seen from 1.2 m above its floor.
 LiveFrame road_frame(std::int64_t stamp_ns, float aside_m = 0.0F) {

@@ -29,10 +29,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-using pose_wall::test::fact;
-using pose_wall::test::kPatience;
-using pose_wall::test::opened_news;
-using pose_wall::test::SaidStop;
+using namespace pose_wall::test;
 using Text = std::string;
 
 // Images whose every byte tells which image it is of.

@@ -29,12 +29,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-using pose_wall::test::fact;
-using pose_wall::test::Hall;
-using pose_wall::test::hall_frame;
-using pose_wall::test::hall_settings;
-using pose_wall::test::synced_files;
-using pose_wall::test::watch_syncs;
+using namespace pose_wall::test;
 
 constexpr std::int64_t kFrame_ns = 100'000'000;
 

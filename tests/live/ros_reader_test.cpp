@@ -18,10 +18,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-using pose_wall::test::fact;
-using pose_wall::test::FrameCatcher;
-using pose_wall::test::tf_message;
-using pose_wall::test::view_of;
+using namespace pose_wall::test;
 
 constexpr const char* kCloudType = "sensor_msgs/PointCloud2";
 

@@ -23,11 +23,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-using pose_wall::test::becomes_true;
-using pose_wall::test::fact;
-using pose_wall::test::Hall;
-using pose_wall::test::hall_frame;
-using pose_wall::test::hall_settings;
+using namespace pose_wall::test;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr auto kStop = static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP);

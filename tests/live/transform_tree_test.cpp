@@ -20,9 +20,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-using pose_wall::test::tf_message;
-using pose_wall::test::TfLink;
-using pose_wall::test::view_of;
+using namespace pose_wall::test;
 
 constexpr double kTurn = 1.5707963267948966;  // a quarter
 // Of 1/2: cosine and sine of half of kTurn, as a quaternion has them.

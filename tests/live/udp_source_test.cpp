@@ -30,11 +30,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-using pose_wall::test::becomes_true;
-using pose_wall::test::fact;
-using pose_wall::test::FrameCatcher;
-using pose_wall::test::free_udp_port;
-using pose_wall::test::LoopbackSender;
+using namespace pose_wall::test;
 
 // Ten turns a second, as sensors leave the factory.
 constexpr std::int64_t kTurn_ns = 100'000'000;

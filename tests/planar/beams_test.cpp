@@ -15,11 +15,7 @@ namespace {
 
 using pose_wall::kPi;
 using pose_wall::Span;
-using pose_wall::planar::Beam;
-using pose_wall::planar::BeamEnd;
-using pose_wall::planar::BeamScan;
-using pose_wall::planar::check_scan;
-using pose_wall::planar::read_beams;
+using namespace pose_wall::planar;
 
 pose_wall_planar_scan quarter(const std::vector<float>& ranges) {
   pose_wall_planar_scan scan{};

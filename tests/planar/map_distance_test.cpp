@@ -10,9 +10,7 @@ namespace {
 using pose_wall::Random;
 using pose_wall::planar::GridMap;
 using pose_wall::planar::kTileSide;
-using pose_wall::planar::test::expect_true_distances;
-using pose_wall::planar::test::map_settings;
-using pose_wall::planar::test::OpenedMap;
+using namespace pose_wall::planar::test;
 
 // A record with things drawn into it.
 pose_wall_planar_tile drawn_tile(const OpenedMap& map, std::int32_t column, std::int32_t row, std::uint32_t things,

@@ -14,13 +14,7 @@ namespace {
 
 using pose_wall::kPi;
 using pose_wall::Random;
-using pose_wall::planar::test::drawn_scan;
-using pose_wall::planar::test::expect_true_distances;
-using pose_wall::planar::test::map_settings;
-using pose_wall::planar::test::one_beam;
-using pose_wall::planar::test::OpenedMap;
-using pose_wall::planar::test::range_to;
-using pose_wall::planar::test::rough_road;
+using namespace pose_wall::planar::test;
 
 void drive(const OpenedMap& map, double from_x, double to_x) {
   Random random(44);

@@ -16,26 +16,8 @@ namespace {
 
 namespace gate = pose_wall::planar::gate;
 
-using pose_wall::Arena;
-using pose_wall::kPi;
-using pose_wall::limit_of;
-using pose_wall::Random;
-using pose_wall::Span;
-using pose_wall::planar::between;
-using pose_wall::planar::compose;
-using pose_wall::planar::Fit;
-using pose_wall::planar::fit_pose;
-using pose_wall::planar::Found;
-using pose_wall::planar::kRefit;
-using pose_wall::planar::Matcher;
-using pose_wall::planar::Pose2;
-using pose_wall::planar::Prior;
-using pose_wall::planar::ScanPoint;
-using pose_wall::planar::Slide;
-using pose_wall::planar::slide_of;
-using pose_wall::planar::SurfaceMap;
-using pose_wall::planar::told_by;
-using pose_wall::planar::Turn2;
+using namespace pose_wall;
+using namespace pose_wall::planar;
 
 class Bench {
  public:

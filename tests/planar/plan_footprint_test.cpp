@@ -16,11 +16,7 @@ namespace {
 
 using pose_wall::planar::Pose2;
 using pose_wall::planar::route::along_arc;
-using pose_wall::test::DrawnGrid;
-using pose_wall::test::GridSweeps;
-using pose_wall::test::is_rectangle_free;
-using pose_wall::test::Rectangle;
-using pose_wall::test::rectangle_of;
+using namespace pose_wall::test;
 
 pose_wall_planar_plan_settings usual_plan() {
   pose_wall_planar_plan_settings settings;

@@ -19,14 +19,7 @@
 
 namespace {
 
-using pose_wall::test::AlignedBlock;
-using pose_wall::test::Dirt;
-using pose_wall::test::DrawnGrid;
-using pose_wall::test::is_rectangle_free;
-using pose_wall::test::Rectangle;
-using pose_wall::test::rectangle_of;
-using pose_wall::test::TrialPlanner;
-using pose_wall::test::turned;
+using namespace pose_wall::test;
 
 pose_wall_planar_plan_settings small_plan() {
   pose_wall_planar_plan_settings settings;

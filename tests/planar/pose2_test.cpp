@@ -8,11 +8,7 @@
 namespace {
 
 using pose_wall::kPi;
-using pose_wall::planar::between;
-using pose_wall::planar::compose;
-using pose_wall::planar::inverse;
-using pose_wall::planar::Pose2;
-using pose_wall::planar::wrapped;
+using namespace pose_wall::planar;
 
 TEST(Pose2, AQuarterTurnToTheLeftThenAStepForwardGoesAlongY) {
   const Pose2 there = compose({1.0, 2.0, kPi / 2.0}, {3.0, 0.0, 0.0});

@@ -11,16 +11,8 @@
 
 namespace {
 
-using pose_wall::Arena;
-using pose_wall::kPi;
-using pose_wall::Random;
-using pose_wall::Span;
-using pose_wall::planar::between;
-using pose_wall::planar::compose;
-using pose_wall::planar::Edge;
-using pose_wall::planar::error_of;
-using pose_wall::planar::Pose2;
-using pose_wall::planar::PoseGraph;
+using namespace pose_wall;
+using namespace pose_wall::planar;
 
 class Graph {
  public:

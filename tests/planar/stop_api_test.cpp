@@ -14,16 +14,7 @@
 
 namespace {
 
-using pose_wall::test::AlignedBlock;
-using pose_wall::test::Dirt;
-using pose_wall::test::Draw;
-using pose_wall::test::encounter_settings;
-using pose_wall::test::Pattern;
-using pose_wall::test::round_thing;
-using pose_wall::test::Scan;
-using pose_wall::test::Sensor;
-using pose_wall::test::StopUnderTest;
-using pose_wall::test::World;
+using namespace pose_wall::test;
 
 constexpr std::int64_t kFrame_ns = 100000000;
 

@@ -15,21 +15,9 @@
 
 namespace {
 
-using pose_wall::Arena;
-using pose_wall::default_settings;
-using pose_wall::Mount;
-using pose_wall::planar::FloorLooks;
-using pose_wall::planar::Ground;
-using pose_wall::planar::Rays;
-using pose_wall::planar::Sight;
-using pose_wall::planar::StopSettings;
-using pose_wall::planar::StopTable;
-using pose_wall::test::Draw;
-using pose_wall::test::Pattern;
-using pose_wall::test::round_thing;
-using pose_wall::test::Scan;
-using pose_wall::test::Sensor;
-using pose_wall::test::World;
+using namespace pose_wall;
+using namespace pose_wall::planar;
+using namespace pose_wall::test;
 
 class SightUnderTest {
  public:

@@ -16,12 +16,7 @@ namespace {
 
 using pose_wall::default_settings;
 using pose_wall::Span;
-using pose_wall::planar::Hazard;
-using pose_wall::planar::kSweepLevels;
-using pose_wall::planar::StopSettings;
-using pose_wall::planar::StopTable;
-using pose_wall::planar::Sweep;
-using pose_wall::planar::SweepMotion;
+using namespace pose_wall::planar;
 using pose_wall::test::Draw;
 
 constexpr double kReaction_s = 0.8;

@@ -15,13 +15,8 @@
 
 namespace {
 
-using pose_wall::test::drawn_route;
+using namespace pose_wall::test;
 using DrivenGround = pose_wall::test::Ground;
-using pose_wall::test::LoopRun;
-using pose_wall::test::LoopTracker;
-using pose_wall::test::Moment;
-using pose_wall::test::route_of;
-using pose_wall::test::run_loop;
 
 pose_wall_planar_track_settings usual_track() {
   pose_wall_planar_track_settings settings;

@@ -20,11 +20,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 struct Road {
   Road() {

@@ -25,11 +25,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::CloudMessage;
-using test::mcap;
-using test::Packing;
-using test::TempFolder;
-using test::WrittenMessage;
+using namespace test;
 
 constexpr std::uint32_t kFrames = 2;
 const std::vector<std::pair<std::string, std::string>> kRos1Topics = {{"/points", "sensor_msgs/PointCloud2"},

@@ -15,11 +15,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
-using test::WrittenMessage;
+using namespace test;
 
 using BagTopics = std::vector<std::pair<std::string, std::string>>;
 

@@ -22,14 +22,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::bytes_of;
-using test::command;
-using test::contains;
-using test::number_at;
-using test::Ran;
-using test::raw;
-using test::refusal;
-using test::TempFolder;
+using namespace test;
 
 struct Point {
   double x, y, z;

@@ -21,11 +21,7 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-using test::card_of;
-using test::good_run;
-using test::kAngleLimit_rad;
-using test::kDistanceLimit_m;
-using test::value_with_error;
+using namespace test;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 

@@ -29,12 +29,7 @@ namespace {
 using campaign::Phase;
 using campaign::PlanRequest;
 using campaign::RunRecord;
-using test::contains;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
-using test::text_of;
-using test::value_with_error;
+using namespace test;
 
 using Runs = std::vector<campaign::Run>;
 

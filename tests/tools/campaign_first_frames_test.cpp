@@ -19,11 +19,7 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-using test::card_of;
-using test::contains;
-using test::good_run;
-using test::joined;
-using test::value_with_error;
+using namespace test;
 
 // The first of the frames is not valid in any value.
 RunRecord begun_run(const std::string& scene, std::uint32_t draw, std::uint32_t frames, const char* speed) {

@@ -13,11 +13,7 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-using test::card_of;
-using test::contains;
-using test::good_run;
-using test::joined;
-using test::value_with_error;
+using namespace test;
 
 std::string faults_of(const std::vector<RunRecord>& records) {
   return joined(gate_faults(card_of(records)));

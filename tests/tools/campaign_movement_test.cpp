@@ -32,9 +32,7 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-using test::contains;
-using test::Ran;
-using test::TempFolder;
+using namespace test;
 
 PlanRequest request_for(const std::vector<std::string>& scenes, std::uint32_t draws) {
   PlanRequest request;

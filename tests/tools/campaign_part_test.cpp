@@ -26,10 +26,7 @@ namespace {
 
 using campaign::make_plan;
 using campaign::runs_of_part;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 using Runs = std::vector<campaign::Run>;
 using RunName = std::tuple<std::string, std::string, std::uint32_t, std::uint64_t, std::uint32_t>;

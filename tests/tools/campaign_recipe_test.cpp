@@ -19,11 +19,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::run_all_of;
-using test::table_of;
-using test::TempFolder;
+using namespace test;
 
 constexpr std::size_t kFrames = 5;  // of each run: a few are enough, the event is in the last
 

@@ -22,9 +22,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::Ran;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 // Two scenes, one with an event, one sensor, two draws of a few frames.
 Ran campaign_in(const std::string& folder, const std::vector<std::string>& more = {}) {

@@ -23,11 +23,7 @@ namespace pose_wall::tools {
 namespace {
 
 using nlohmann::json;
-using test::command;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 // Two draws of four frames of two scenes that a sparse sensor sees.
 const test::CampaignRuns kSweptRuns({"--scenes", "clean,partial", "--sensors", "vlp16", "--draws", "2", "--frames", "4",

@@ -17,11 +17,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::english_in;
-using test::Ran;
-using test::TempFolder;
+using namespace test;
 
 class CommandInChinese : public ::testing::Test {
  protected:

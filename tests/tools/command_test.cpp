@@ -18,12 +18,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::raw;
-using test::table_of;
-using test::TempFolder;
+using namespace test;
 
 std::string kitti_point(float x) {
   return raw(x) + raw(2.0F) + raw(3.0F) + raw(0.5F);

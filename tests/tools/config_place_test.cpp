@@ -17,9 +17,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::TempFolder;
+using namespace test;
 
 // Works in a folder of its own, with configs that only the variable names.
 class ConfigPlaceTest : public ::testing::Test {

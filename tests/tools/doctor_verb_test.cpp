@@ -19,11 +19,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 struct Road {
   explicit Road(const std::vector<std::string>& more, const std::string& frames = "4") {

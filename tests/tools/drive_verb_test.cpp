@@ -24,9 +24,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
+using namespace test;
 
 // A road of 60 m, taught.
 class TaughtRoad {

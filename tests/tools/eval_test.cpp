@@ -18,10 +18,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
+using namespace test;
 
 // Ten frames of roll: the states that are given, the last ones invalid.
 struct Roll {

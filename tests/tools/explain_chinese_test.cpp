@@ -23,9 +23,7 @@
 namespace pose_wall::tools::explain {
 namespace {
 
-using test::command;
-using test::contains;
-using test::english_in;
+using namespace test;
 
 class ExplainInChinese : public ::testing::Test {
  protected:

@@ -26,12 +26,7 @@
 namespace pose_wall::tools::explain {
 namespace {
 
-using test::command;
-using test::contains;
-using test::crafted_value;
-using test::Ran;
-using test::TempFolder;
-using test::unmeasured_value;
+using namespace test;
 
 TEST(ThinnedRow, IsExactForShortRowsAndBoundedForLongOnes) {
   ThinnedRow row;

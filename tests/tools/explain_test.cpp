@@ -27,10 +27,7 @@
 namespace pose_wall::tools::explain {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
+using namespace test;
 
 // A frame without floor, with notes.
 struct Noted {

@@ -18,9 +18,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::contains;
-using test::raw;
-using test::TempFolder;
+using namespace test;
 
 const char* const kEndings[] = {".pcd",  ".PCD",    ".bin", ".ply",  ".xyz", ".txt", ".csv", ".asc",
                                 ".pcap", ".pcapng", ".bag", ".mcap", ".db3", ".dat", ""};

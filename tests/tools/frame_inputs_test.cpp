@@ -21,11 +21,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::bytes_of;
-using test::number_at;
-using test::raw;
-using test::refusal;
-using test::TempFolder;
+using namespace test;
 
 const std::string kPoint = raw(1.0F) + raw(2.0F) + raw(3.0F) + raw(0.5F);
 

@@ -15,12 +15,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::add;
-using test::contains;
-using test::expect_at;
-using test::HesaiPacket;
-using test::payload_of;
-using test::point_at;
+using namespace test;
 
 constexpr std::int64_t kCaptured_ns = 1'000'000'000;
 

@@ -28,9 +28,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::TempFolder;
+using namespace test;
 
 using Move = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 

@@ -16,10 +16,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
+using namespace test;
 
 std::string road(const TempFolder& folder, const std::string& name, const std::string& sensor) {
   EXPECT_EQ(command({"sim", "-q", "--sensor", sensor, "--frames", "2", "--output", folder.file(name)}).exit_status, 0);

@@ -18,14 +18,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::CloudMessage;
-using test::command;
-using test::contains;
-using test::mcap;
-using test::mcap_record;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
+using namespace test;
 
 const char* const kClouds = "sensor_msgs/msg/PointCloud2";
 

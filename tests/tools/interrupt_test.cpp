@@ -30,13 +30,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ended;
-using test::interrupted_when_told;
-using test::Stream;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 // Two frames as a command line of two thousand.
 std::vector<std::string> long_run(const TempFolder& folder, std::vector<std::string> words) {

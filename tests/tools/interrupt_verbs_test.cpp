@@ -23,14 +23,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ended;
-using test::interrupted_when_told;
-using test::Ran;
-using test::Stream;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 constexpr std::size_t kSound = 2, kBroken = 2000;  // frames
 

@@ -16,12 +16,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::bytes_of;
-using test::command;
-using test::contains;
-using test::number_at;
-using test::raw;
-using test::TempFolder;
+using namespace test;
 
 Frame ply_frame(bool big_endian, bool is_double) {
   const std::string type = is_double ? "double" : "float";

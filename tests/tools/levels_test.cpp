@@ -30,15 +30,7 @@ namespace pose_wall::tools {
 namespace {
 
 using explain::level_sum;
-using test::command;
-using test::contains;
-using test::crafted_value;
-using test::Parts;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
-using test::text_of;
-using test::unmeasured_value;
+using namespace test;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 

@@ -24,17 +24,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::add;
-using test::contains;
-using test::livox_capture;
-using test::livox_packets;
-using test::LivoxStream;
-using test::raw;
-using test::read;
-using test::ReadCapture;
-using test::refusal_of;
-using test::TempFolder;
-using test::view_of;
+using namespace test;
 
 // Nearly as many beams as a HAP has in 0.1 s.
 sim::SceneSetup road() {

@@ -14,10 +14,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::CdrWriter;
-using test::contains;
-using test::raw;
-using test::with_length;
+using namespace test;
 
 constexpr std::uint64_t kBase_ns = 1'700'000'000'000'000'123;
 

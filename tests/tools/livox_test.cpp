@@ -14,10 +14,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::add;
-using test::expect_at;
-using test::mid360_payload;
-using test::raw;
+using namespace test;
 
 constexpr std::uint64_t kStart_ns = 1'700'000'000'000'000'000;
 constexpr std::uint64_t kMs = 1'000'000;

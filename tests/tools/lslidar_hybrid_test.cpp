@@ -16,13 +16,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::add;
-using test::contains;
-using test::expect_at;
-using test::hybrid_payload;
-using test::HybridPoint;
-using test::kHybridMark;
-using test::LslidarDevice;
+using namespace test;
 
 constexpr std::uint32_t kTenMetres = 256'000;  // a CH128X1 counts 1/256 cm, as its driver divides
 

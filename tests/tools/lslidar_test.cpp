@@ -16,13 +16,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::add;
-using test::contains;
-using test::expect_at;
-using test::lslidar_turns;
-using test::LslidarDevice;
-using test::LslidarPacket;
-using test::point_at;
+using namespace test;
 
 std::unique_ptr<ScanAssembler> lslidar_named(const char* name = "auto") {
   SensorChoice choice;

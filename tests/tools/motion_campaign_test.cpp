@@ -21,12 +21,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 Ran motion_campaign_in(const std::string& folder, const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"campaign",  "--motion", "--output", folder, "--scenes", "rough,distorted",

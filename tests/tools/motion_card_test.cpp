@@ -23,12 +23,7 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-using test::Cells;
-using test::contains;
-using test::joined;
-using test::placed;
-using test::stepped;
-using test::with;
+using namespace test;
 
 constexpr double kStep_m = 0.1;
 constexpr int kFrames = 101;  // ten metres

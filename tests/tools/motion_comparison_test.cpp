@@ -22,17 +22,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::Cells;
-using test::command;
-using test::contains;
-using test::lost_frame;
-using test::motion_csv;
-using test::placed;
-using test::pose_truth_csv;
-using test::Ran;
-using test::stepped;
-using test::TempFolder;
-using test::with;
+using namespace test;
 
 constexpr double kTiny = 1e-9;
 constexpr double kQuarterTurn = 1.5707963267948966;

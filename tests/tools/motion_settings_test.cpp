@@ -18,10 +18,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
+using namespace test;
 
 TEST(MotionSettings, ReachTheLibraryInItsUnits) {
   const TempFolder folder;

@@ -20,17 +20,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::lost_frame;
-using test::motion_csv;
-using test::placed;
-using test::pose_truth_csv;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
-using test::text_of;
-using test::with;
+using namespace test;
 
 // A drive at 1 m/s, ten frames a second.
 struct Drive {

@@ -27,11 +27,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
+using namespace test;
 using Words = std::vector<std::string>;
 
 std::string road(const TempFolder& folder, const Words& more) {

@@ -21,14 +21,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::big;
-using test::payload_of;
-using test::raw;
-using test::read;
-using test::ReadCapture;
-using test::TempFolder;
-using test::VelodynePacket;
-using test::view_of;
+using namespace test;
 
 constexpr std::int64_t kPacket_us = 1327;  // of a VLP-16
 

@@ -28,25 +28,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::capture_of;
-using test::contains;
-using test::kOtherOusterSerial;
-using test::kOusterColumn_ns;
-using test::kOusterColumnsOfPacket;
-using test::kOusterColumnsOfTurn;
-using test::kOusterSerial;
-using test::ouster_json;
-using test::ouster_layout_of;
-using test::ouster_layouts;
-using test::ouster_serial_told;
-using test::OusterDescription;
-using test::OusterLayout;
-using test::OusterPacket;
-using test::read;
-using test::ReadCapture;
-using test::refusal_of;
-using test::TempFolder;
-using test::turns_of;
+using namespace test;
 
 std::vector<std::string> payloads_of(const std::vector<OusterPacket>& packets) {
   std::vector<std::string> payloads;

@@ -16,9 +16,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::contains;
-using test::TempFolder;
-using test::WrittenMessage;
+using namespace test;
 
 const std::vector<std::pair<std::string, std::string>> kPoints = {{"/points", "sensor_msgs/msg/PointCloud2"}};
 

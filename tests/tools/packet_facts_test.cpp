@@ -22,13 +22,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::big;
-using test::captured;
-using test::datagram;
-using test::payload_of;
-using test::raw;
-using test::read;
-using test::TempFolder;
+using namespace test;
 
 constexpr std::uint32_t kVlp16Packet_us = 1327;
 

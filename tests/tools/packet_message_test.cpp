@@ -14,12 +14,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::CdrWriter;
-using test::contains;
-using test::payload_of;
-using test::raw;
-using test::TempFolder;
-using test::with_length;
+using namespace test;
 
 // As a driver writes them: packets a millisecond apart.
 std::string message(const std::string& type, MessageEncoding encoding, const std::vector<std::string>& payloads,

@@ -16,11 +16,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::CdrWriter;
-using test::contains;
-using test::raw;
-using test::TempFolder;
-using test::WrittenMessage;
+using namespace test;
 
 // Fields one after another in either serialisation.
 class FieldWriter {

@@ -18,14 +18,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::capture_head;
-using test::captured;
-using test::datagram;
-using test::number_at;
-using test::raw;
-using test::read;
-using test::ReadCapture;
-using test::TempFolder;
+using namespace test;
 
 // Twelve blocks 6 degrees apart; all lasers at 10 m but laser 3, which has no return.
 std::string velodyne_packet(std::uint32_t first_azimuth_deg) {

@@ -14,11 +14,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::bytes_of;
-using test::contains;
-using test::number_at;
-using test::raw;
-using test::refusal;
+using namespace test;
 using ::testing::Test;
 
 std::string header(const std::string& fields, const std::string& size, const std::string& type,

@@ -24,14 +24,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::DrawnChamber;
-using test::DrawnRoom;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 constexpr int kScans = 126;  // once round
 

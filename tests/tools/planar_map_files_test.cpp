@@ -15,10 +15,7 @@
 
 namespace {
 
-using pose_wall::tools::MapFile;
-using pose_wall::tools::MapFileError;
-using pose_wall::tools::read_map_files;
-using pose_wall::tools::write_map_files;
+using namespace pose_wall::tools;
 
 class PlanarMapFiles : public testing::Test {
  protected:

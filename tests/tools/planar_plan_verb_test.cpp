@@ -20,12 +20,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 // 40 x 20 m, free within walls; a wall at x 20 leaves `gap_m` free in the middle.
 MapFile hall(double gap_m) {

@@ -19,12 +19,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::DrawnRoom;
-using test::Ran;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 nlohmann::json data_of(const std::string& page) {
   const std::string begin = "<script id=\"data\" type=\"application/json\">";

@@ -21,13 +21,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::DrawnRoom;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 TEST(ScanVerb, FramesOfARoadShowItsWalls) {
   const TempFolder folder;

@@ -13,11 +13,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::bytes_of;
-using test::contains;
-using test::number_at;
-using test::raw;
-using test::refusal;
+using namespace test;
 
 std::string vertex_header(const std::string& format) {
   return "ply\nformat " + format +

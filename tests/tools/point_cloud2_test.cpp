@@ -13,10 +13,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::cdr_message;
-using test::CloudMessage;
-using test::number_at;
-using test::ros1_message;
+using namespace test;
 
 DecodedCloud decode(MessageEncoding encoding, const std::string& message) {
   const Bytes bytes = test::bytes_of(message);

@@ -27,12 +27,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::table_of;
-using test::TempFolder;
-using test::text_of;
+using namespace test;
 
 // The same way back, by the rules of RFC 4648.
 std::string from_base64(const std::string& text) {

@@ -19,11 +19,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::add;
-using test::contains;
-using test::payload_of;
-using test::robosense_data;
-using test::RoboSenseExample;
+using namespace test;
 
 std::string told(const RoboSenseExample& example, const std::string& stated = "") {
   SensorChoice choice;
@@ -123,11 +119,6 @@ TEST(RoboSenseKinds, LostPacketsDoNotMakeAnotherSensor) {
 }
 
 #if POSE_WALL_HAS_PCAP
-
-using test::capture_of;
-using test::read;
-using test::refusal_of;
-using test::TempFolder;
 
 TEST(RoboSenseKinds, ACaptureIsReadWithItsDevicePacketOrASavedOne) {
   const TempFolder folder;

@@ -17,11 +17,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::add;
-using test::contains;
-using test::payload_of;
-using test::robosense_data;
-using test::RoboSenseExample;
+using namespace test;
 
 constexpr std::int64_t kCaptured_ns = 1'700'000'000'000'000'000;
 constexpr double kRad = M_PI / 180.0;

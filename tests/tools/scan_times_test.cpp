@@ -30,9 +30,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::TempFolder;
+using namespace test;
 using Words = std::vector<std::string>;
 using Change = std::function<void(sim::Frame&)>;
 

@@ -15,15 +15,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::add;
-using test::capture_of;
-using test::contains;
-using test::payload_of;
-using test::raw;
-using test::read;
-using test::ReadCapture;
-using test::refusal_of;
-using test::TempFolder;
+using namespace test;
 
 struct Example {
   SensorKind kind;

@@ -21,11 +21,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::bytes_of;
-using test::contains;
-using test::number_at;
-using test::refusal;
-using test::TempFolder;
+using namespace test;
 
 Frame read_plain(Bytes bytes) {
   return read_text_points(bytes);

@@ -18,9 +18,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using pose_wall::test::cloud_of;
-using pose_wall::test::config_for;
-using pose_wall::test::EngineUnderTest;
+using namespace pose_wall::test;
 
 struct Case {
   const char* scene;

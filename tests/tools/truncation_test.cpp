@@ -19,9 +19,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::bytes_of;
-using test::number_at;
-using test::raw;
+using namespace test;
 
 struct Format {
   const char* name;

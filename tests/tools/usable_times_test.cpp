@@ -20,11 +20,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::bytes_of;
-using test::command;
-using test::contains;
-using test::raw;
-using test::TempFolder;
+using namespace test;
 
 constexpr int kPoints = 1600;
 

@@ -15,12 +15,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::add;
-using test::contains;
-using test::expect_at;
-using test::payload_of;
-using test::point_at;
-using test::VelodynePacket;
+using namespace test;
 
 std::vector<VelodynePacket> packets_of(std::uint8_t product, std::uint32_t packet_us, std::size_t count = 8,
                                        std::uint8_t mode = 0x37) {

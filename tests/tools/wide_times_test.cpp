@@ -18,11 +18,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::bytes_of;
-using test::contains;
-using test::number_at;
-using test::raw;
-using test::refusal;
+using namespace test;
 
 constexpr std::uint64_t kEpoch_ns = 1'700'000'000'000'000'000U;
 constexpr std::uint64_t kScan_ns = 100'000'000U;

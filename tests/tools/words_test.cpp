@@ -26,10 +26,7 @@
 namespace pose_wall::tools {
 namespace {
 
-using test::command;
-using test::contains;
-using test::Ran;
-using test::TempFolder;
+using namespace test;
 
 // Two neighbours change places, the usual slip; the first letter is seldom wrong.
 std::string mistyped(std::string word) {

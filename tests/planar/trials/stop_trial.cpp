@@ -14,11 +14,7 @@
 
 namespace {
 
-using pose_wall::test::Draw;
-using pose_wall::test::Encounter;
-using pose_wall::test::Outcome;
-using pose_wall::test::Plan;
-using pose_wall::test::StopUnderTest;
+using namespace pose_wall::test;
 
 struct Arguments {
   std::uint64_t encounters = 1000, seed = 1, only = 0;

@@ -20,15 +20,7 @@
 namespace pose_wall {
 namespace {
 
-using test::arched_wall;
-using test::BandFixture;
-using test::kFloorZ_m;
-using test::Lidar;
-using test::Noise;
-using test::plain_wall;
-using test::RayScene;
-using test::Rock;
-using test::WallProfile;
+using namespace test;
 
 constexpr double kBentWall_m = 2.0;  // to the left, as in a road of 4 m
 constexpr std::uint32_t kRuns = 10;

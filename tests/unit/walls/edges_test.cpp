@@ -18,13 +18,7 @@
 namespace pose_wall {
 namespace {
 
-using test::BandFixture;
-using test::cross_panel;
-using test::Interval;
-using test::kEverywhere;
-using test::Lidar;
-using test::RayScene;
-using test::side_panel;
+using namespace test;
 
 constexpr double kMargin_m = 0.15;
 constexpr Interval kFull{test::kFloorZ_m, 1.8};

@@ -18,11 +18,7 @@
 namespace pose_wall {
 namespace {
 
-using test::arched_wall;
-using test::BandFixture;
-using test::kFloorZ_m;
-using test::plain_wall;
-using test::WallProfile;
+using namespace test;
 
 constexpr double kWall_m = 2.0;
 constexpr double kBandTop_m = 2.4;  // above the floor; wall_z_max is a decimetre more

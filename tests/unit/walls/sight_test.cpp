@@ -19,19 +19,7 @@
 namespace pose_wall {
 namespace {
 
-using test::BandFixture;
-using test::cross_panel;
-using test::Interval;
-using test::kEverywhere;
-using test::kOs0;
-using test::kOs1;
-using test::kVlp16;
-using test::level_panel;
-using test::Lidar;
-using test::Noise;
-using test::Panel;
-using test::RayScene;
-using test::side_panel;
+using namespace test;
 
 constexpr double kBehind_m = 0.15;
 constexpr double kRoof_m = 1.8;  // above the sensor; the band ends at 1.1

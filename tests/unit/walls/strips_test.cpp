@@ -18,11 +18,7 @@
 namespace pose_wall {
 namespace {
 
-using test::BandFixture;
-using test::Interval;
-using test::Noise;
-using test::RayScene;
-using test::Rock;
+using namespace test;
 
 constexpr double kWall_m = 2.5;
 constexpr Interval kWallHeights{test::kFloorZ_m, 1.8};
