@@ -54,6 +54,7 @@ void expect_common(const Calls<Settings, Part>& calls) {
   Newer<Settings> newer;
   EXPECT_EQ(calls.settings_check(&newer.known, nullptr), POSE_WALL_E_STRUCT_NEWER);
   EXPECT_EQ(calls.memory_needed(&newer.known, &bytes), POSE_WALL_E_STRUCT_NEWER);
+  EXPECT_EQ(bytes, of_defaults) << "what is refused tells no bytes";
   EXPECT_EQ(calls.open(&newer.known, block.data(), block.size(), &part), POSE_WALL_E_STRUCT_NEWER);
   newer.known.struct_size = 3;
   EXPECT_EQ(calls.settings_check(&newer.known, nullptr), POSE_WALL_E_STRUCT_SIZE);

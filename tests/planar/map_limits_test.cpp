@@ -259,37 +259,6 @@ TEST(MapLimits, PosesAndPlacesThatAreNoneAreRefusedWithoutAChange) {
   EXPECT_EQ(map.saved(), before);
 }
 
-TEST(MapLimits, SettingsOutsideTheirRangesNameTheMember) {
-  const auto fault_of = [](auto change) {
-    auto settings = map_settings();
-    change(settings);
-    pose_wall_planar_fault fault{"none", "none"};
-    EXPECT_EQ(pose_wall_planar_map_settings_check(&settings, &fault), POSE_WALL_E_VALUE_RANGE);
-    std::uint64_t bytes = 5;
-    EXPECT_EQ(pose_wall_planar_map_memory_needed(&settings, &bytes), POSE_WALL_E_VALUE_RANGE);
-    EXPECT_EQ(bytes, 5U);
-    return std::string(fault.member);
-  };
-  const double nan = std::nan("");
-  EXPECT_EQ(fault_of([](auto& s) { s.tiles = 0; }), "tiles");
-  EXPECT_EQ(fault_of([](auto& s) { s.tiles = 65537; }), "tiles");
-  EXPECT_EQ(fault_of([](auto& s) { s.eviction = 2; }), "eviction");
-  EXPECT_EQ(fault_of([](auto& s) { s.renewals = 70000; }), "renewals");
-  EXPECT_EQ(fault_of([&](auto& s) { s.cell_m = nan; }), "cell_m");
-  EXPECT_EQ(fault_of([](auto& s) { s.cell_m = 0.01; }), "cell_m");
-  EXPECT_EQ(fault_of([](auto& s) { s.distance_cap_m = 0.04; }), "distance_cap_m");
-  EXPECT_EQ(fault_of([](auto& s) { s.distance_cap_m = 6.1; }), "distance_cap_m");
-  EXPECT_EQ(fault_of([&](auto& s) { s.distance_cap_m = nan; }), "distance_cap_m");
-  EXPECT_EQ(fault_of([&](auto& s) { s.beam_max_m = nan; }), "beam_max_m");
-  EXPECT_EQ(fault_of([](auto& s) { s.hit_probability = 0.5; }), "hit_probability");
-  EXPECT_EQ(fault_of([](auto& s) { s.miss_probability = 0.5; }), "miss_probability");
-  EXPECT_EQ(fault_of([](auto& s) { s.most_probability = 0.75, s.occupied_probability = 0.8; }), "occupied_probability");
-  EXPECT_EQ(fault_of([](auto& s) { s.least_probability = 0.3, s.free_probability = 0.2; }), "free_probability");
-  auto settings = map_settings();
-  settings.struct_size -= 8;
-  EXPECT_EQ(pose_wall_planar_map_settings_check(&settings, nullptr), POSE_WALL_E_STRUCT_SIZE);
-}
-
 TEST(MapLimits, BlocksAndPointersThatAreNoneAreRefused) {
   const auto settings = map_settings();
   std::uint64_t bytes = 0;

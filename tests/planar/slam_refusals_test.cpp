@@ -2,34 +2,12 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include <cmath>
-#include <string>
 
 #include "driven_road.hpp"
 
 namespace {
 
 using namespace pose_wall::planar_test;
-
-TEST(SlamSettings, EachLimitIsNamed) {
-  pose_wall_planar_slam_settings settings;
-  ASSERT_EQ(pose_wall_planar_slam_settings_init(&settings), POSE_WALL_OK);
-  EXPECT_EQ(pose_wall_planar_slam_settings_check(&settings, nullptr), POSE_WALL_OK);
-  const auto refused = [&](auto change) {
-    pose_wall_planar_slam_settings changed = settings;
-    change(changed);
-    pose_wall_planar_fault fault{};
-    EXPECT_EQ(pose_wall_planar_slam_settings_check(&changed, &fault), POSE_WALL_E_VALUE_RANGE);
-    return std::string(fault.member != nullptr ? fault.member : "");
-  };
-  EXPECT_EQ(refused([](auto& s) { s.keyframes_most = 15; }), "keyframes_most");
-  EXPECT_EQ(refused([](auto& s) { s.keyframe_m = 0.04; }), "keyframe_m");
-  EXPECT_EQ(refused([](auto& s) { s.keyframe_rad = std::nan(""); }), "keyframe_rad");
-  EXPECT_EQ(refused([](auto& s) { s.odometry_m = 1.1; }), "odometry_m");
-  EXPECT_EQ(refused([](auto& s) { s.odometry_rad = -0.1; }), "odometry_rad");
-  settings.struct_size = 4;
-  EXPECT_EQ(pose_wall_planar_slam_settings_check(&settings, nullptr), POSE_WALL_E_STRUCT_SIZE);
-  EXPECT_EQ(pose_wall_planar_slam_settings_check(nullptr, nullptr), POSE_WALL_E_NULL);
-}
 
 TEST(SlamRefusals, ABadCallChangesNothing) {
   const sim::NetworkRun run = driven(small_plan(), 10.0, 3);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <string>
 
 #include "track_loop.hpp"
 #include "trials/trial_task.hpp"
@@ -265,14 +264,6 @@ TEST(Track, WrongArgumentsAreRefusedAndTheRouteStays) {
   pose_wall_planar_track_command command{};
   EXPECT_EQ(pose_wall_planar_track_step(tracker.tracker, &input, &command), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(pose_wall_planar_track_step(tracker.tracker, nullptr, &command), POSE_WALL_E_NULL);
-  pose_wall_planar_track_settings settings = usual_track();
-  pose_wall_planar_fault fault{"none", ""};
-  settings.settle_m = nan;
-  EXPECT_EQ(pose_wall_planar_track_settings_check(&settings, &fault), POSE_WALL_E_VALUE_RANGE);
-  EXPECT_EQ(std::string(fault.member), "settle_m");
-  std::uint64_t bytes = 7;
-  EXPECT_EQ(pose_wall_planar_track_memory_needed(&settings, &bytes), POSE_WALL_E_VALUE_RANGE);
-  EXPECT_EQ(bytes, 7U);
 }
 
 // A stop lets the machine stand: what is learnt must not change, and the next command begins at rest.
