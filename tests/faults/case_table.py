@@ -23,7 +23,6 @@ GROUPS = {
     "Keys": ("a text that is no value, for each key", "refused, nothing changed"),
     "Members": ("NaN written into a config past the functions", "found by the check"),
     "NumberKeys": ("numbers below and above a key's range, and at its ends", "refused; at its ends the contract holds"),
-    "Rules": ("keys that contradict each other", "nothing is opened"),
     "StageFailures": ("a step of the engine fails, once and for good", "told by others, degraded or held; never wrong"),
     "BitFlips": ("bits of the block flip between calls", "state: refused until opened again; scratch: same bits"),
     "SelfTestFaults": ("the same during the self test; a digest off by a bit", "the self test fails"),

@@ -232,30 +232,6 @@ TEST(RuntimeFaults, AClockThatLeapsBetweenFrames) {
   EXPECT_EQ(frame(&runtime, 1), "VVVVVVV");
 }
 
-TEST(RuntimeFaults, ACallbackThatDoesNotComeBackFromItsFrame) {
-  RuntimeUnderTest runtime;
-  runtime.start();
-  runtime.gate.shut();
-  EXPECT_EQ(runtime.push(room_frame(0), 0), POSE_WALL_OK);
-  runtime.gate.wait_until_somebody_is_inside();
-  // Readers have the frame, pushes do not block, the oldest go.
-  EXPECT_EQ(states_of(runtime.latest().result), "VVVVVVV");
-  for (std::uint32_t i = 1; i < 20; ++i) EXPECT_EQ(runtime.push(room_frame(i), i * kPeriod_ns), POSE_WALL_OK);
-  EXPECT_TRUE(accounts_balance(runtime.statistics()));
-  EXPECT_GT(runtime.statistics().dropped[POSE_WALL_RUNTIME_DROP_OVERTAKEN], 0U);
-  // It gets old by the reader's own clock, and nobody can act on it; where the worker hangs is told.
-  runtime.clock.advance(300 * kMs);
-  pose_wall_publication p{};
-  p.struct_size = sizeof p;
-  EXPECT_EQ(pose_wall_runtime_latest(runtime.get(), &p), POSE_WALL_RUNTIME_E_STALE);
-  EXPECT_EQ(states_of(p.result), "IIIIIII");
-  EXPECT_EQ(p.activity, std::uint32_t{POSE_WALL_RUNTIME_AT_CALLBACK});
-  runtime.clock.advance(-300 * kMs);
-  runtime.gate.open();
-  runtime.wait_idle();
-  EXPECT_EQ(runtime.latest().result.stamp_ns, 19 * kPeriod_ns);
-}
-
 TEST(RuntimeFaults, AStepOfItsEngineFailsForAWhile) {
   RuntimeUnderTest runtime;
   runtime.start();

@@ -58,51 +58,42 @@ void expect_nothing_to_act_on(const pose_wall_publication& p) {
   EXPECT_EQ(p.result.floor.found + p.result.left.found + p.result.right.found, 0U);
 }
 
-pose_wall_image image_of(const RuntimeUnderTest& runtime, std::int32_t expected) {
-  pose_wall_image image;
+template <typename Image>
+Image filled(const RuntimeUnderTest& runtime, std::int32_t expected,
+             std::int32_t (*fill)(const pose_wall_runtime*, Image*), std::int32_t (*check)(const Image*)) {
+  Image image;
   std::memset(&image, 0x55, sizeof image);
   image.struct_size = sizeof image;
-  EXPECT_EQ(pose_wall_runtime_image(runtime.get(), &image), expected);
-  EXPECT_EQ(pose_wall_image_check(&image), POSE_WALL_OK);
+  EXPECT_EQ(fill(runtime.get(), &image), expected);
+  EXPECT_EQ(check(&image), POSE_WALL_OK);
   return image;
+}
+
+pose_wall_image image_of(const RuntimeUnderTest& runtime, std::int32_t expected) {
+  return filled(runtime, expected, pose_wall_runtime_image, pose_wall_image_check);
 }
 
 pose_wall_image2 image2_of(const RuntimeUnderTest& runtime, std::int32_t expected) {
-  pose_wall_image2 image;
-  std::memset(&image, 0x55, sizeof image);
-  image.struct_size = sizeof image;
-  EXPECT_EQ(pose_wall_runtime_image2(runtime.get(), &image), expected);
-  EXPECT_EQ(pose_wall_image2_check(&image), POSE_WALL_OK);
-  return image;
+  return filled(runtime, expected, pose_wall_runtime_image2, pose_wall_image2_check);
 }
 
-void expect_an_image2_without_values(const RuntimeUnderTest& runtime, std::int32_t expected) {
-  const pose_wall_image2 image = image2_of(runtime, expected);
+template <typename Image>
+void expect_without_values(const Image& image) {
   EXPECT_EQ(image.verdict, std::uint32_t{POSE_WALL_INVALID});
   EXPECT_EQ(image.valid, 0U);
-  for (const pose_wall_image2_angle& a : {image.roll, image.pitch, image.yaw}) {
+  for (const auto& a : {image.roll, image.pitch, image.yaw}) {
     EXPECT_EQ(a.state, std::uint32_t{POSE_WALL_INVALID});
     EXPECT_EQ(a.protection_mdeg, POSE_WALL_IMAGE_NO_BOUND);
   }
-  for (const pose_wall_image2_distance& d : {image.d_lf, image.d_lb, image.d_rf, image.d_rb}) {
+  for (const auto& d : {image.d_lf, image.d_lb, image.d_rf, image.d_rb}) {
     EXPECT_EQ(d.state, std::uint32_t{POSE_WALL_INVALID});
     EXPECT_EQ(d.protection_mm, POSE_WALL_IMAGE_NO_BOUND);
   }
 }
 
-void expect_an_image_without_values(const RuntimeUnderTest& runtime, std::int32_t expected) {
-  const pose_wall_image image = image_of(runtime, expected);
-  EXPECT_EQ(image.verdict, std::uint32_t{POSE_WALL_INVALID});
-  EXPECT_EQ(image.valid, 0U);
-  for (const pose_wall_image_angle& a : {image.roll, image.pitch, image.yaw}) {
-    EXPECT_EQ(a.state, std::uint32_t{POSE_WALL_INVALID});
-    EXPECT_EQ(a.protection_mdeg, POSE_WALL_IMAGE_NO_BOUND);
-  }
-  for (const pose_wall_image_distance& d : {image.d_lf, image.d_lb, image.d_rf, image.d_rb}) {
-    EXPECT_EQ(d.state, std::uint32_t{POSE_WALL_INVALID});
-    EXPECT_EQ(d.protection_mm, POSE_WALL_IMAGE_NO_BOUND);
-  }
-  expect_an_image2_without_values(runtime, expected);
+void expect_images_without_values(const RuntimeUnderTest& runtime, std::int32_t expected) {
+  expect_without_values(image_of(runtime, expected));
+  expect_without_values(image2_of(runtime, expected));
 }
 
 // The frame is 299 ms old, and then 300: whoever reads, the worker is not asked.
@@ -129,7 +120,7 @@ void expect_it_gets_stale(RuntimeUnderTest* runtime, std::uint32_t activity, std
     EXPECT_NEAR(stale.p.result.quantity[POSE_WALL_YAW].age_s, static_cast<double>(stale.p.age_ns) * 1e-9, 1e-6);
     EXPECT_EQ(stale.p.result.quantity[POSE_WALL_YAW].value, r.p.result.quantity[POSE_WALL_YAW].value) << "readable";
     expect_nothing_to_act_on(stale.p);
-    expect_an_image_without_values(*runtime, POSE_WALL_RUNTIME_E_STALE);
+    expect_images_without_values(*runtime, POSE_WALL_RUNTIME_E_STALE);
   }
 }
 
@@ -309,7 +300,7 @@ TEST(Freshness, WhatIsNotThereIsWrittenAsSuch) {
     EXPECT_EQ(r.p.cause, 0U);
     EXPECT_EQ(r.p.age_ns, INT64_MAX);
     expect_nothing_to_act_on(r.p);
-    expect_an_image_without_values(runtime, status);
+    expect_images_without_values(runtime, status);
     EXPECT_EQ(image2_of(runtime, status).publication, 0U);
     EXPECT_EQ(image2_of(runtime, status).latency_ms, 0xFFFFFFFFU);
   };

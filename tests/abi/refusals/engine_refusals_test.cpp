@@ -57,6 +57,7 @@ const Call<W> kEngineCalls[] = {
 const Refusal<W> kNoConfigs[] = {
     {"", "config NULL", kNull, [](W* w) { w->config = nullptr; }},
     {"", "config of another layout", kSize, [](W* w) { w->config->layout += 1; }},
+    {"", "config of garbage", kSize, [](W* w) { std::memset(w->config, 0x41, sizeof *w->config); }},
     {"", "config of zeros", kSize, [](W* w) { std::memset(w->config, 0, sizeof *w->config); }},
 };
 
@@ -113,6 +114,8 @@ const Refusal<W> kEngineTable[] = {
     {"pose_wall_config_get_number", "key NULL", kNull, [](W* w) { w->key = nullptr; }},
     {"pose_wall_config_get_number", "value NULL", kNull, [](W* w) { w->number = nullptr; }},
     {"pose_wall_config_get_number", "no such key", POSE_WALL_E_KEY_UNKNOWN, unknown_key},
+    {"pose_wall_config_get_number", "a choice", POSE_WALL_E_VALUE_TYPE, [](W* w) { w->key = "forward_axis"; }},
+    {"pose_wall_config_get_number", "a box", POSE_WALL_E_VALUE_TYPE, [](W* w) { w->key = "body_box_1"; }},
     {"pose_wall_config_get_number", "a text", POSE_WALL_E_VALUE_TYPE, [](W* w) { w->key = "lidar_frame"; }},
     {"pose_wall_config_get_box", "key NULL", kNull, [](W* w) { w->box_key = nullptr; }},
     {"pose_wall_config_get_box", "value NULL", kNull, [](W* w) { w->box = nullptr; }},

@@ -21,7 +21,7 @@
 namespace pose_wall {
 namespace {
 
-const Axes kAxes = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+const Axes kAheadX = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
 constexpr double kWallLevel_rad = 0.01, kPlaceLevel = 0.004;
 
 pose_wall_odometry place(double x_m, double y_m, double yaw_rad, double roll_rad = 0.0) {
@@ -59,7 +59,7 @@ struct Road {
   }
   OdometryMemory seen_from(const pose_wall_odometry& o, const Settings& s) const {
     OdometryMemory memory;
-    remember_place(o, floor, levelling, walls, measured, s, kAxes, &memory);
+    remember_place(o, floor, levelling, walls, measured, s, kAheadX, &memory);
     return memory;
   }
 };
@@ -67,7 +67,7 @@ struct Road {
 Change change_between(const pose_wall_odometry& from, const pose_wall_odometry& to, const Settings& s) {
   const OdometryMemory memory = Road().seen_from(from, s);
   Change change = change_by_config(s, 0.1);
-  (void)change_by_odometry(to, memory, s, kAxes, &change);
+  (void)change_by_odometry(to, memory, s, kAheadX, &change);
   return change;
 }
 
@@ -125,7 +125,7 @@ TEST(TemporalOdometry, ErrorsOfPlacesDoNotAddUpAndDriftDoes) {
     at.drift_variance[5] += 1e-8;
     at.drift[5] += 1e-6;
     Change change = change_by_config(s, 0.1);
-    change_by_odometry(at, memory, s, kAxes, &change);
+    change_by_odometry(at, memory, s, kAheadX, &change);
     unknown.grow(change, POSE_WALL_YAW, 0.1);
     memory = road.seen_from(at, s);
   }
@@ -175,7 +175,7 @@ TEST(TemporalOdometry, ASurfaceThatNobodySawIsTheConfigsMatter) {
   for (const int q : {POSE_WALL_D_RF, POSE_WALL_D_RB}) road.measured.quantity[q].measured = false;
   const OdometryMemory memory = road.seen_from(place(0, 0, 0), s);
   Change change = change_by_config(s, 0.1);
-  change_by_odometry(place(0, 0.1, 0), memory, s, kAxes, &change);
+  change_by_odometry(place(0, 0.1, 0), memory, s, kAheadX, &change);
   EXPECT_TRUE(change.by_places[POSE_WALL_D_LF]);
   EXPECT_FALSE(change.by_places[POSE_WALL_D_RF]);
   EXPECT_EQ(change.carry[POSE_WALL_D_RF], 0.0);
@@ -189,7 +189,7 @@ TEST(TemporalOdometry, ADriftThatFallsIsOfAnotherRun) {
   const Change c = change_between(from, place(0, 0.1, 0), s);
   for (const bool by_places : c.by_places) EXPECT_FALSE(by_places);
   Change change = change_by_config(s, 0.1);
-  EXPECT_FALSE(change_by_odometry(place(0, 0.1, 0), Road().seen_from(from, s), s, kAxes, &change));
+  EXPECT_FALSE(change_by_odometry(place(0, 0.1, 0), Road().seen_from(from, s), s, kAheadX, &change));
 }
 
 TEST(TemporalOdometry, ANewRunForgetsWhatWasSeen) {
@@ -199,7 +199,7 @@ TEST(TemporalOdometry, ANewRunForgetsWhatWasSeen) {
   pose_wall_odometry other = place(0, 0, 0);
   other.run = 8;
   for (const int q : {POSE_WALL_D_LF, POSE_WALL_D_LB}) road.measured.quantity[q].stale = true;
-  remember_place(other, road.floor, road.levelling, road.walls, road.measured, s, kAxes, &memory);
+  remember_place(other, road.floor, road.levelling, road.walls, road.measured, s, kAheadX, &memory);
   EXPECT_EQ(memory.run, 8U);
   EXPECT_FALSE(memory.wall[0].exists);
   EXPECT_TRUE(memory.wall[1].exists);

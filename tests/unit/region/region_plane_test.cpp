@@ -15,6 +15,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/estimation/protection.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall {
