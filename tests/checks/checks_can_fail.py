@@ -38,7 +38,7 @@ class BrokenProject(unittest.TestCase):
         self.root = pathlib.Path(folder.name)
         self.write("include/pose_wall.h", HEADER)
         self.write("src/engine/c_api.cpp", SOURCE)
-        for folder_name in ("tools", "tests", "bench"):
+        for folder_name in ("tools/io/csv", "tests", "bench"):
             self.write(f"{folder_name}/empty.cpp", LICENCE)
 
     def write(self, path, text):
