@@ -189,13 +189,5 @@ TEST(PcdReader, HeadersThatDoNotFitAreRefusedWithTheirFault) {
   }
 }
 
-TEST(PcdReader, SurvivesDamage) {
-  const std::string fields = header("x y _ z intensity", "4 4 1 4 1", "F F U F U", "1 1 3 1 1", "4", "binary");
-  EXPECT_TRUE(test::survives_damage(read_pcd, fields + std::string(64, 'p')));
-  EXPECT_TRUE(test::survives_damage(read_pcd, xyz_header("3", "ascii") + "1 2 3\n4 5 6\n7 8 9\n"));
-  const std::string columns(36, 'c');
-  EXPECT_TRUE(test::survives_damage(read_pcd, xyz_header("3", "binary_compressed") + packed_body(columns)));
-}
-
 }  // namespace
 }  // namespace pose_wall::tools

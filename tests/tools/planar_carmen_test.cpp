@@ -2,14 +2,13 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves: every line of a CARMEN log is a scan or counted by its reason; stamps keep all digits; where nothing came
-// back is found from the log; gzip is read, and a damaged archive is refused; damage never ends a program.
+// back is found from the log; gzip is read, and a damaged archive is refused. Damage is in tests/fuzz.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -207,23 +206,6 @@ TEST(PlanarCarmen, ARangeWithoutAReturnIsUnknown) {
   EXPECT_EQ(scan.stamp_ns, 99'000'000'000);
   for (const std::size_t beam : {0U, 1U, 2U, 4U, 5U}) EXPECT_TRUE(std::isnan(ranges[beam])) << beam;
   EXPECT_FLOAT_EQ(ranges[3], 44.0F);
-}
-
-TEST(PlanarCarmen, SurvivesDamage) {
-  std::string text = kView + "PARAM a b\n";
-  for (int i = 0; i < 4; ++i) text += front(fmt::format("{}.25", i)) + robot(fmt::format("{}.75", i));
-  std::mt19937 random(3);
-  std::size_t read = 0;
-  for (int round = 0; round < 3000; ++round) {
-    std::string damaged = text.substr(0, random() % text.size() + 1);
-    for (int k = 0; k < round % 4; ++k) damaged[random() % damaged.size()] = static_cast<char>(random());
-    if (!refusal(damaged).empty()) continue;
-    ++read;
-    for (const CarmenScan& scan : parse_carmen_log(damaged).scans) {
-      ASSERT_TRUE(std::isfinite(scan.odometry.x_m) && std::isfinite(scan.laser.yaw_rad) && scan.range_max_m > 0.0);
-    }
-  }
-  EXPECT_GT(read, 500U);
 }
 
 TEST(PlanarCarmen, NamesTheFile) {

@@ -115,16 +115,5 @@ TEST(PlyReader, BadFilesAreRefusedWithTheirFault) {
   }
 }
 
-TEST(PlyReader, SurvivesDamage) {
-  const std::string body = vertex(1, 2, 3, false) + vertex(4, 5, 6, false);
-  EXPECT_TRUE(test::survives_damage(read_ply, vertex_header("binary_little_endian") + body));
-  EXPECT_TRUE(test::survives_damage(read_ply, vertex_header("ascii") + "1 2 3 4 5\n1 2 3 4 5\n"));
-  EXPECT_TRUE(test::survives_damage(read_ply,
-                                    "ply\nformat binary_big_endian 1.0\nelement face 3\nproperty list uint int "
-                                    "i\nelement vertex 1\nproperty float x\n"
-                                    "property float y\nproperty float z\nend_header\n" +
-                                        std::string(40, '\0')));
-}
-
 }  // namespace
 }  // namespace pose_wall::tools

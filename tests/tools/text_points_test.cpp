@@ -156,10 +156,6 @@ TEST(TextPoints, LayoutOptionNamesColumnsWhereTheFileDoesNot) {
   EXPECT_EQ(x_of(frame, 1), 4.0);
 }
 
-TEST(TextPoints, DamageNeverDescribesMoreThanThereIs) {
-  EXPECT_TRUE(test::survives_damage(read_plain, "# x y z intensity\n3\n1 2 3 0.5\n4;5;6;0.5\n-7.5e1,8,9,1\n"));
-}
-
 TEST(TextPoints, AFolderGivesItsTextOnlyWhereItHasNoOtherFrames) {
   const TempFolder folder;
   const auto names_in = [&folder](const char* name) {

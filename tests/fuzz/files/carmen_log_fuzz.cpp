@@ -31,6 +31,7 @@ void take_log(const CarmenLog& log) {
     require(scan.rising_ns > before_ns, "stamps rise");
     before_ns = scan.rising_ns;
     require(std::isfinite(scan.odometry.x_m) && std::isfinite(scan.laser.x_m), "poses are numbers");
+    require(std::isfinite(scan.laser.yaw_rad) && scan.range_max_m > 0.0, "a heading, and how far it sees");
     const pose_wall_planar_scan planar = planar_scan_of(scan, sensor, 0.02, &range_m);
     require(planar.beams == scan.range_m.size() && planar.range_m == range_m.data(), "as many beams as ranges");
     for (const float range : range_m) {

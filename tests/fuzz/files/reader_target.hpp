@@ -38,7 +38,11 @@ int feed_reader(Reader read, const std::uint8_t* data, std::size_t size) {
   tools::Bytes bytes(size);
   if (size > 0) std::memcpy(bytes.data(), data, size);
   try {
-    take_frame(read(std::move(bytes)));
+    const tools::Frame frame = read(std::move(bytes));
+    const auto* const begin = static_cast<const std::byte*>(frame.cloud.data);
+    const std::byte* const end = frame.bytes.data() + frame.bytes.size();
+    require(frame.cloud.data_bytes <= static_cast<std::size_t>(end - begin), "a frame describes what it holds");
+    take_frame(frame);
   } catch (const tools::FrameError& error) {
     require(error.what()[0] != '\0', "a refusal has a reason");
   }
