@@ -19,6 +19,7 @@
 
 #include "io/frames/whole_file.hpp"
 #include "live/synced_files.hpp"
+#include "support/said_by.hpp"
 #include "tools/test_files.hpp"
 
 namespace pose_wall::test {
@@ -99,12 +100,8 @@ TEST_F(LastingFile, IsOnTheDiskBeforeItsNameIsAndThenItsNameIs) {
 
 TEST_F(LastingFile, OfABrokenDiskLeavesTheEarlierOne) {
   watch_syncs(file_, true);
-  try {
-    write_lasting_file(file_, "new");
-    ADD_FAILURE() << "nothing was thrown";
-  } catch (const std::runtime_error& fault) {
-    EXPECT_EQ(std::string(fault.what()), file_.string() + ": cannot be written: Input/output error");
-  }
+  EXPECT_EQ(test::said_by<std::runtime_error>([&] { write_lasting_file(file_, "new"); }),
+            file_.string() + ": cannot be written: Input/output error");
   EXPECT_EQ(test::text_of(file_), "old");
   EXPECT_FALSE(std::filesystem::exists(part_of(file_)));
 }

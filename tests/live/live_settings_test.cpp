@@ -10,17 +10,13 @@
 
 #include "io/config_file/load_config.hpp"
 #include "io/packets/sensors.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 std::string fault_of(const std::string& setting) {
-  try {
-    load_config("", {setting});
-  } catch (const ConfigError& fault) {
-    return fault.what();
-  }
-  return "";
+  return test::said_by<ConfigError>([&] { load_config("", {setting}); });
 }
 
 TEST(LiveSettings, AreRefusedWithWhatIsAllowed) {

@@ -12,6 +12,7 @@
 #include "apps/live/edges.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/loopback.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -37,12 +38,7 @@ class MqttSinkTest : public ::testing::Test {
     }
   }
   std::string refusal(const std::string& topic) const {
-    try {
-      make(topic, port_);
-    } catch (const std::runtime_error& fault) {
-      return fault.what();
-    }
-    return "";
+    return test::said_by<std::runtime_error>([&] { make(topic, port_); });
   }
 
   const std::uint16_t port_ = pose_wall::test::free_tcp_port();

@@ -12,17 +12,13 @@
 #include <cmath>
 
 #include "io/config_file/load_config.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 std::string planar_fault_of(const std::vector<std::string>& settings) {
-  try {
-    load_config("", settings);
-  } catch (const ConfigError& fault) {
-    return fault.what();
-  }
-  return "";
+  return test::said_by<ConfigError>([&] { load_config("", settings); });
 }
 
 TEST(PlanarSettings, AreOffAndRefusedWithWhatIsAllowed) {

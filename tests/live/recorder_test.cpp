@@ -22,6 +22,7 @@
 #include "io/bags/open_bag.hpp"
 #include "io/box/box_replay.hpp"
 #include "live/frame_catcher.hpp"
+#include "support/said_by.hpp"
 #include "tools/test_files.hpp"
 
 namespace pose_wall::tools::live {
@@ -389,12 +390,8 @@ TEST_F(RecorderTest, AFolderThatVanishesIsNoticedAndMadeAgain) {
 TEST_F(RecorderTest, AFolderThatCannotBeIsRefusedAtTheStart) {
   folder_.write("recordings", "a file in its place");
   open("100");
-  try {
-    recorder_->start();
-    FAIL() << "started";
-  } catch (const std::runtime_error& fault) {
-    EXPECT_NE(std::string(fault.what()).find(recordings()), std::string::npos) << fault.what();
-  }
+  const std::string said = test::said_by<std::runtime_error>([&] { recorder_->start(); });
+  EXPECT_NE(said.find(recordings()), std::string::npos) << said;
 }
 
 TEST_F(RecorderTest, WithoutCloudsThereAreNone) {

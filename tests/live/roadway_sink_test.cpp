@@ -24,6 +24,7 @@
 #include "live/hall_frames.hpp"
 #include "live/synced_files.hpp"
 #include "study/planar/plane_pose.hpp"
+#include "support/said_by.hpp"
 #include "tools/test_files.hpp"
 
 namespace pose_wall::tools::live {
@@ -202,12 +203,11 @@ TEST_F(RoadwaySinkTest, MapsThatCannotBeReadAreNamed) {
   folder.write("broken.pwt", "no trail");
   folder.write("broken.yaml", "image: x.pgm\n");
   for (const char* file : {"nowhere.pwt", "broken.pwt", "nowhere.yaml", "broken.yaml"}) {
-    try {
-      open("localise", {"planar_map=" + folder.path() + "/" + file, "planar_map_whole=yes"});
-      FAIL() << file;
-    } catch (const std::runtime_error& fault) {
-      EXPECT_EQ(std::string(fault.what()).rfind("planar_map: " + folder.path() + "/" + file, 0), 0U) << fault.what();
-    }
+    const std::string path = folder.path() + "/" + file;
+    const std::string said = test::said_by<std::runtime_error>([&] {
+      open("localise", {"planar_map=" + path, "planar_map_whole=yes"});
+    });
+    EXPECT_EQ(said.rfind("planar_map: " + path, 0), 0U) << file << ": " << said;
   }
 }
 

@@ -19,6 +19,7 @@
 #include "apps/live/clocks.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/hall_frames.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -342,12 +343,8 @@ TEST(StopGuardOf, FramesThatComeFasterThanTheyAreAnsweredAreLostAndCounted) {
 TEST(StopGuardOf, RefusedSettingsAreNamedWithWhatIsAllowed) {
   LoadedConfig loaded = load_config("", hall_settings());
   loaded.planar.stop.floor_z_m = 99.0;
-  try {
-    const StopGuard guard(loaded, nullptr);
-    FAIL() << "floor_z_m is 99";
-  } catch (const std::runtime_error& refusal) {
-    EXPECT_STREQ(refusal.what(), "planar stop: floor_z_m must be from -10 to 10");
-  }
+  EXPECT_EQ(test::said_by<std::runtime_error>([&] { const StopGuard guard(loaded, nullptr); }),
+            "planar stop: floor_z_m must be from -10 to 10");
 }
 
 // Without a motion every motion is assumed.

@@ -24,6 +24,7 @@
 #include "live/frame_catcher.hpp"
 #include "live/loopback.hpp"
 #include "support/real_frames.hpp"
+#include "support/said_by.hpp"
 #include "tools/ouster_packets.hpp"
 #include "tools/test_files.hpp"
 
@@ -42,12 +43,7 @@ LoadedConfig live_config(std::uint16_t port, std::vector<std::string> more = {})
 
 std::string refusal_of(const LoadedConfig& loaded) {
   FrameCatcher catcher;
-  try {
-    make_udp_source(loaded)->start(catcher);
-  } catch (const std::runtime_error& fault) {
-    return fault.what();
-  }
-  return "";
+  return test::said_by<std::runtime_error>([&] { make_udp_source(loaded)->start(catcher); });
 }
 
 // A closed room in every direction, another range at every place.

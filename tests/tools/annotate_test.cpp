@@ -30,17 +30,9 @@ struct Road {
               0);
   }
   Ran annotate(const std::string& to, std::vector<std::string> more = {}) const {
-    std::vector<std::string> words = {"run",
-                                      "-q",
-                                      "-c",
-                                      folder.file("road/pose_wall.yaml"),
-                                      "-o",
-                                      folder.file("o.csv"),
-                                      "--annotate",
-                                      folder.file(to),
-                                      folder.file("road/frames")};
-    words.insert(words.end(), more.begin(), more.end());
-    return command(words);
+    return command({"run", "-q", "-c", folder.file("road/pose_wall.yaml"), "-o", folder.file("o.csv"), "--annotate",
+                    folder.file(to), folder.file("road/frames")},
+                   more);
   }
   std::vector<std::string> files_of(const std::string& name) const {
     std::vector<std::string> files;
@@ -144,9 +136,7 @@ TEST(Annotate, OthersFramesAreNotWrittenOver) {
   std::filesystem::create_directories(road.folder.file("other"));
   std::filesystem::copy(frame, road.folder.file("other/000000.pcd"));
   for (const char* to : {"road/frames", "other"}) {
-    const Ran ran = road.annotate(to);
-    EXPECT_EQ(ran.exit_status, 2) << to;
-    EXPECT_TRUE(contains(ran.errors, "choose another folder")) << ran.errors;
+    EXPECT_TRUE(test::says(road.annotate(to), 2, "choose another folder"));
   }
   const Ran single = command({"run", "-q", "--annotate", road.folder.file("road/frames"), frame});
   EXPECT_EQ(single.exit_status, 2);

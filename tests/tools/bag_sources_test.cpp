@@ -209,10 +209,8 @@ TEST(BagSources, VerbsSayWhoIsReadAndRefuseANameOfNobody) {
   }
   const TempFolder of_livox;
   for (const std::string& file : bags_of_two_lidars(of_livox)) {
-    const Ran several = command({"run", "-o", out, "--source", "livox_frame", file});
-    EXPECT_EQ(several.exit_status, 2);
-    EXPECT_TRUE(contains(several.errors, "several on /points are meant: lidar_id 0 (3 messages), lidar_id 1"))
-        << several.errors;
+    EXPECT_TRUE(test::says(command({"run", "-o", out, "--source", "livox_frame", file}), 2,
+                           "several on /points are meant: lidar_id 0 (3 messages), lidar_id 1"));
   }
   const std::string frame = folder.write("a.bin", std::string(16, '\0'));
   EXPECT_TRUE(contains(command({"run", "-o", out, "--source", "left", frame}).errors, "no input is a bag"));

@@ -161,11 +161,9 @@ TEST(CampaignDriveIn, EventsAreRepeatedByTheCampaignWithTheWay) {
 
 // Two draws of two scenes, one with an event; seven frames of the way and two of the scene each.
 Ran driven_campaign(const std::string& output, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"campaign",  "--output",   output,    "--scenes", "clean,partial",
-                                    "--sensors", "vlp16",      "--draws", "2",        "--frames",
-                                    "2",         "--drive-in", "0.5"};
-  words.insert(words.end(), more.begin(), more.end());
-  return test::command(words);
+  return test::command({"campaign", "--output", output, "--scenes", "clean,partial", "--sensors", "vlp16", "--draws",
+                        "2", "--frames", "2", "--drive-in", "0.5"},
+                       more);
 }
 
 TEST(CampaignDriveIn, RecordsHaveThePhaseAndProgressCountsTheWay) {
@@ -246,9 +244,9 @@ TEST(CampaignDriveIn, IsRefusedWhereItMeansNothing) {
   for (const char* metres : {"100.5", "-1", "nan", "far"}) {
     refused({"--drive-in", metres}, "'" + std::string(metres) + "' is refused; a number from 0 to 100 is allowed");
   }
-  const Ran sweep = test::command({"campaign", "--sweep", "wall_length=1", "--scenes", "clean", "--drive-in", "2"});
-  EXPECT_EQ(sweep.exit_status, 2);
-  EXPECT_TRUE(contains(sweep.errors, "--drive-in cannot go with it")) << sweep.errors;
+  EXPECT_TRUE(
+      test::says(test::command({"campaign", "--sweep", "wall_length=1", "--scenes", "clean", "--drive-in", "2"}), 2,
+                 "--drive-in cannot go with it"));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "io/csv/csv_table.hpp"
 #include "lab/campaign/plan.hpp"
 #include "ran_command.hpp"
+#include "support/said_by.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
@@ -75,12 +76,7 @@ TEST(CampaignPart, PartsCostAboutTheSame) {
 }
 
 std::string refusal_of(const std::string& text) {
-  try {
-    campaign::parse_part(text);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return test::said_by<std::invalid_argument>([&] { campaign::parse_part(text); });
 }
 
 TEST(CampaignPart, WhatIsNoPartIsRefusedWithWhatIsAllowed) {
@@ -226,32 +222,27 @@ TEST_F(ThreeParts, FoldersWithoutPartsAreRefused) {
   const TempFolder whole;
   ASSERT_EQ(campaign_with(whole.path(), {}).exit_status, 0);
   expect_refused(merge({whole.path()}, output()), whole.path() + ": holds a whole campaign; allowed are parts");
-  const Ran into_part = merge({part_folder(1), part_folder(2), part_folder(3)}, part_folder(2));
-  EXPECT_EQ(into_part.exit_status, 2);
-  EXPECT_TRUE(contains(into_part.errors, "--output is a part itself")) << into_part.errors;
+  EXPECT_TRUE(test::says(merge({part_folder(1), part_folder(2), part_folder(3)}, part_folder(2)), 2,
+                         "--output is a part itself"));
 }
 
 TEST_F(ThreeParts, AFolderKeepsToItsPart) {
-  const Ran other = campaign_with(part_folder(1), {"--part", "2/3"});
-  EXPECT_EQ(other.exit_status, 2);
-  EXPECT_TRUE(contains(other.errors, "part: the records have part 1/3, this campaign has part 2/3")) << other.errors;
+  EXPECT_TRUE(test::says(campaign_with(part_folder(1), {"--part", "2/3"}), 2,
+                         "part: the records have part 1/3, this campaign has part 2/3"));
   const Ran whole = campaign_with(part_folder(1), {});
   EXPECT_TRUE(contains(whole.errors, "part: the records have part 1/3, this campaign has all runs")) << whole.errors;
-  const Ran card = test::command({"campaign", "--card-only", "--output", part_folder(1)});
-  EXPECT_EQ(card.exit_status, 2);
-  EXPECT_TRUE(contains(card.errors, "holds part 1/3 of a campaign")) << card.errors;
+  EXPECT_TRUE(test::says(test::command({"campaign", "--card-only", "--output", part_folder(1)}), 2,
+                         "holds part 1/3 of a campaign"));
 }
 
 TEST(CampaignPart, OptionsThatNeedAllRunsAreRefused) {
   const TempFolder folder;
   for (const char* option : {"--gate", "--events=3"}) {
-    const Ran ran = campaign_with(folder.path(), {"--part", "1/2", option});
-    EXPECT_EQ(ran.exit_status, 2);
-    EXPECT_TRUE(contains(ran.errors, "--part makes no card: " + std::string(option).substr(0, 6))) << ran.errors;
+    EXPECT_TRUE(test::says(campaign_with(folder.path(), {"--part", "1/2", option}), 2,
+                           "--part makes no card: " + std::string(option).substr(0, 6)));
   }
-  const Ran ran = merge({folder.path()}, folder.file("whole"), {"--seed", "1"});
-  EXPECT_EQ(ran.exit_status, 2);
-  EXPECT_TRUE(contains(ran.errors, "--merge takes the records of the parts as they are: --seed")) << ran.errors;
+  EXPECT_TRUE(test::says(merge({folder.path()}, folder.file("whole"), {"--seed", "1"}), 2,
+                         "--merge takes the records of the parts as they are: --seed"));
 }
 
 TEST(CampaignPart, TheMergedCardMeetsTheGateAsOneRunDoes) {

@@ -19,17 +19,13 @@
 #include "lab/campaign/manifest.hpp"
 #include "lab/sim/scenes.hpp"
 #include "lab/sim/sensors.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
 
 std::string refusal(const PlanRequest& request) {
-  try {
-    make_plan(request);
-    return "";
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
+  return test::said_by<std::invalid_argument>([&] { make_plan(request); });
 }
 
 TEST(CampaignPlan, IsTheSameForTheSameRequestAndAnotherForAnotherSeed) {

@@ -27,11 +27,11 @@ constexpr std::size_t kFrames = 5;  // of each run: a few are enough, the event 
 // place of DIR.
 std::string command_of_last_frame(const std::string& folder, const std::string& again,
                                   const std::vector<std::string>& words, const std::string& draw = "3") {
-  std::vector<std::string> all = {
-      "campaign", "--quiet",  "--seed", "5",         "--draws", "1",        "--first-draw",
-      draw,       "--output", folder,   "--sensors", "vlp16",   "--frames", std::to_string(kFrames)};
-  all.insert(all.end(), words.begin(), words.end());
-  EXPECT_EQ(command(all).exit_status, 0);
+  EXPECT_EQ(command({"campaign", "--quiet", "--seed", "5", "--draws", "1", "--first-draw", draw, "--output", folder,
+                     "--sensors", "vlp16", "--frames", std::to_string(kFrames)},
+                    words)
+                .exit_status,
+            0);
   return test::command_of_event(folder, 0, kFrames - 1, again);
 }
 

@@ -152,15 +152,12 @@ TEST(Sweep, WhatCannotBeSweptIsRefusedByName) {
 
 TEST(Sweep, WhatCannotGoWithItIsRefusedByName) {
   const TempFolder folder;
-  const Ran kept = kSweptRuns.with({"--sweep", "wall_length=1", "--output", folder.path(), "--gate"});
-  EXPECT_EQ(kept.exit_status, 2);
-  EXPECT_TRUE(contains(kept.errors, "--output, --gate cannot go with it")) << kept.errors;
+  EXPECT_TRUE(test::says(kSweptRuns.with({"--sweep", "wall_length=1", "--output", folder.path(), "--gate"}), 2,
+                         "--output, --gate cannot go with it"));
   EXPECT_EQ(kSweptRuns.with({"--sweep", "wall_length=1", "--motion"}).exit_status, 2);
   EXPECT_EQ(kSweptRuns.with({"--sweep", "wall_length=1", "--sweep", "wall_lean=1"}).exit_status, 2)
       << "one gate at a time";
-  const Ran json_alone = kSweptRuns.with({"--json", "--output", folder.path()});
-  EXPECT_EQ(json_alone.exit_status, 2);
-  EXPECT_TRUE(contains(json_alone.errors, "--json needs --sweep")) << json_alone.errors;
+  EXPECT_TRUE(test::says(kSweptRuns.with({"--json", "--output", folder.path()}), 2, "--json needs --sweep"));
 }
 
 TEST(GateList, TellsEveryGateWithItsLimitAndNeedsNoFrame) {

@@ -87,9 +87,8 @@ TEST_F(CommandInChinese, FaultsOfSettings) {
 }
 
 TEST_F(CommandInChinese, AProblemOfYamlWithoutChineseStandsInBrackets) {
-  const Ran ran = command({"check-config", folder_.write("c.yaml", "%YAML 9.9\n---\nvoxel_leaf: 0.1\n")});
-  EXPECT_EQ(ran.exit_status, 2);
-  EXPECT_TRUE(contains(ran.errors, "格式有误（found incompatible YAML document）")) << ran.errors;
+  EXPECT_TRUE(test::says(command({"check-config", folder_.write("c.yaml", "%YAML 9.9\n---\nvoxel_leaf: 0.1\n")}), 2,
+                         "格式有误（found incompatible YAML document）"));
 }
 
 TEST_F(CommandInChinese, FaultsOfTables) {

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "io/numbers/quantile.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -135,12 +136,7 @@ TEST(CompareWithTruth, TablesThatDoNotFitAreRefused) {
   const std::string row = "0,0,1,1,1,1,valid\n";
   const CsvTable good = table(kHead + row);
   const auto refusal_of = [](const CsvTable& results, const CsvTable& truth) -> std::string {
-    try {
-      compare_with_truth(results, truth, {1, 1});
-      return "";
-    } catch (const CsvError& error) {
-      return error.what();
-    }
+    return test::said_by<CsvError>([&] { compare_with_truth(results, truth, {1, 1}); });
   };
   const std::pair<std::string, const char*> cases[] = {
       {refusal_of(good, table("frame,yaw\n0,1\n")), "results have no column 'yaw'"},

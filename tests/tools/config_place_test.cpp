@@ -12,6 +12,7 @@
 #include "io/config_file/config_place.hpp"
 #include "io/config_file/load_config.hpp"
 #include "ran_command.hpp"
+#include "support/said_by.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
@@ -74,14 +75,10 @@ TEST_F(ConfigPlaceTest, SeveralStandOverEachOtherInTheirOrder) {
   for (const char* words : {"mine, own", " mine ,own", "mine,\town "}) EXPECT_EQ(range_max(words), 8.0) << words;
   EXPECT_THROW(load_config("mine,nothing", {}), ConfigError);
   for (const std::string words : {"mine,", ",mine", "mine,,own", "mine, ,own", " "}) {
-    try {
-      load_config(words, {});
-      ADD_FAILURE() << words;
-    } catch (const ConfigError& refusal) {
-      EXPECT_EQ(refusal.what(), "'" + words +
-                                    "': a config is missing beside a comma; allowed: names and files with one comma "
-                                    "between, as vlp16,hand_held");
-    }
+    EXPECT_EQ(test::said_by<ConfigError>([&] { load_config(words, {}); }),
+              "'" + words +
+                  "': a config is missing beside a comma; allowed: names and files with one comma between, "
+                  "as vlp16,hand_held");
   }
 }
 
@@ -109,14 +106,7 @@ TEST_F(ConfigPlaceTest, HelpSaysWhereNamesAreLookedFor) {
 }
 
 TEST_F(ConfigPlaceTest, AMistypedNameIsAnsweredWithTheListAndAPathIsNoName) {
-  const auto refusal = [](const char* word) {
-    try {
-      load_config(word, {});
-      return std::string();
-    } catch (const ConfigError& error) {
-      return std::string(error.what());
-    }
-  };
+  const auto refusal = [](const char* word) { return test::said_by<ConfigError>([&] { load_config(word, {}); }); };
   EXPECT_TRUE(contains(refusal("vpl16"), "did you mean 'vlp16'?")) << refusal("vpl16");
   EXPECT_TRUE(contains(refusal("vpl16"), "Configs that are found by name: ")) << refusal("vpl16");
   EXPECT_TRUE(contains(refusal("config/mine.yaml"), "no such file; did you mean 'mine'?"))

@@ -23,15 +23,13 @@ using namespace test;
 
 struct Road {
   explicit Road(const std::vector<std::string>& more, const std::string& frames = "4") {
-    std::vector<std::string> words = {"sim",      "--quiet", "--sensor", "vlp16",
-                                      "--frames", frames,    "--output", folder.file("road")};
-    words.insert(words.end(), more.begin(), more.end());
-    EXPECT_EQ(command(words).exit_status, 0);
+    EXPECT_EQ(
+        command({"sim", "--quiet", "--sensor", "vlp16", "--frames", frames, "--output", folder.file("road")}, more)
+            .exit_status,
+        0);
   }
   Ran doctor(std::vector<std::string> more = {}) const {
-    std::vector<std::string> words = {"doctor", "--quiet", folder.file("road/frames")};
-    words.insert(words.end(), more.begin(), more.end());
-    return command(words);
+    return command({"doctor", "--quiet", folder.file("road/frames")}, more);
   }
 
   TempFolder folder;
@@ -51,9 +49,7 @@ TEST(DoctorVerb, WritesAFileThatLoadsAndNeverOverTheOneThatIsThere) {
             0);
   EXPECT_TRUE(contains(text_of(road.folder.file("o.csv")), ",valid,"));
 
-  const Ran again = road.doctor({"-o", file});
-  EXPECT_EQ(again.exit_status, 2);
-  EXPECT_TRUE(contains(again.errors, "--force")) << again.errors;
+  EXPECT_TRUE(test::says(road.doctor({"-o", file}), 2, "--force"));
   EXPECT_EQ(text_of(file), text);
   road.folder.write("out.yaml", "old");
   EXPECT_EQ(road.doctor({"--force", "-o", file}).exit_status, 0);

@@ -183,19 +183,13 @@ TEST(DriveVerb, FaultsOfUsage) {
       {{"drive", "--goal", "1,2"}, "--goal: '1,2' is refused; allowed: x,y,yaw"},
       {{"drive", "--gaol", "1,2,3"}, "--gaol"},
   };
-  for (const auto& [words, answer] : usage) {
-    const Ran ran = command(words);
-    EXPECT_EQ(ran.exit_status, 2) << ran.errors;
-    EXPECT_TRUE(contains(ran.errors, answer)) << answer << " in: " << ran.errors;
-  }
+  for (const auto& [words, answer] : usage) EXPECT_TRUE(test::says(command(words), 2, answer));
 }
 
 TEST(DriveVerb, TheFolderMustBeWritable) {
   const test::TempFolder folder;
   const std::string file = folder.write("in_the_way", "x");
-  const Ran ran = command({"drive", "-o", file});
-  EXPECT_EQ(ran.exit_status, 2) << ran.errors;
-  EXPECT_TRUE(contains(ran.errors, "in_the_way")) << ran.errors;
+  EXPECT_TRUE(test::says(command({"drive", "-o", file}), 2, "in_the_way"));
 }
 
 }  // namespace

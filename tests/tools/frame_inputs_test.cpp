@@ -16,6 +16,7 @@
 #include "io/frames/load_frame.hpp"
 #include "io/frames/natural_order.hpp"
 #include "io/frames/pcd_writer.hpp"
+#include "support/said_by.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
@@ -26,12 +27,7 @@ using namespace test;
 const std::string kPoint = raw(1.0F) + raw(2.0F) + raw(3.0F) + raw(0.5F);
 
 std::string load_refusal(const std::string& path) {
-  try {
-    load_frame(path);
-    return "";
-  } catch (const FrameError& error) {
-    return error.what();
-  }
+  return test::said_by<FrameError>([&] { load_frame(path); });
 }
 
 TEST(LoadFrame, WhereBytesDoNotTellTheEndingDecidesAndFaultsAreSaid) {

@@ -174,9 +174,7 @@ struct DrivenRoad {
   std::string settings() const { return folder.file("road/pose_wall.yaml"); }
   std::string frames() const { return folder.file("road/frames"); }
   std::string run(const std::string& name, const std::vector<std::string>& more) const {
-    std::vector<std::string> words = {"run", "-q", "-c", settings(), "-o", folder.file(name), frames()};
-    words.insert(words.end(), more.begin(), more.end());
-    EXPECT_EQ(command(words).exit_status, 0);
+    EXPECT_EQ(command({"run", "-q", "-c", settings(), "-o", folder.file(name), frames()}, more).exit_status, 0);
     return folder.file(name);
   }
 

@@ -10,6 +10,7 @@
 #include "io/bags/cloud_message.hpp"
 #include "io/frames/field_value.hpp"
 #include "packet_files.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -61,12 +62,7 @@ DecodedCloud decode(MessageEncoding encoding, const std::string& bytes) {
 }
 
 std::string refusal(MessageEncoding encoding, const std::string& bytes) {
-  try {
-    decode(encoding, bytes);
-    return "";
-  } catch (const FrameError& refused) {
-    return refused.what();
-  }
+  return test::said_by<FrameError>([&] { decode(encoding, bytes); });
 }
 
 void expect_points(const DecodedCloud& decoded) {

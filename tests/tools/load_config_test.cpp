@@ -15,6 +15,7 @@
 #include "io/config_file/key_table.hpp"
 #include "io/config_file/resolved_frames.hpp"
 #include "io/config_file/yaml_entries.hpp"
+#include "support/said_by.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
@@ -25,12 +26,7 @@ using test::TempFolder;
 using Settings = std::vector<std::string>;
 
 std::string refusal_of(const std::string& file, const Settings& settings) {
-  try {
-    load_config(file, settings);
-    return "";
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
+  return test::said_by<ConfigError>([&] { load_config(file, settings); });
 }
 
 std::string refusal_of_text(const std::string& yaml, const Settings& settings = {}) {

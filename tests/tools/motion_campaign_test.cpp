@@ -24,10 +24,9 @@ namespace {
 using namespace test;
 
 Ran motion_campaign_in(const std::string& folder, const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"campaign",  "--motion", "--output", folder, "--scenes", "rough,distorted",
-                                    "--sensors", "vlp16",    "--frames", "6",    "--quiet"};
-  words.insert(words.end(), more.begin(), more.end());
-  return command(words);
+  return command({"campaign", "--motion", "--output", folder, "--scenes", "rough,distorted", "--sensors", "vlp16",
+                  "--frames", "6", "--quiet"},
+                 more);
 }
 
 // All cells but times.
@@ -99,13 +98,11 @@ TEST(MotionCampaign, GoesOnWhereItStoppedAndRefusesRecordsOfTheEngine) {
   EXPECT_EQ(motion_campaign_in(folder.path()).exit_status, 0);
   EXPECT_EQ(numbers_of(gone), before);
   EXPECT_EQ(text_of(kept), kept_text) << "times and all: it was not measured again";
-  const Ran engine = command(
-      {"campaign", "--output", folder.path(), "--scenes", "rough", "--sensors", "vlp16", "--frames", "2", "--quiet"});
-  EXPECT_EQ(engine.exit_status, 2);
-  EXPECT_TRUE(contains(engine.errors, "library: the records have motion, this campaign has engine")) << engine.errors;
-  const Ran other = motion_campaign_in(folder.path(), {"--set", "motion_keyframe=0.3"});
-  EXPECT_EQ(other.exit_status, 2);
-  EXPECT_TRUE(contains(other.errors, "motion_keyframe=0.3")) << other.errors;
+  EXPECT_TRUE(test::says(command({"campaign", "--output", folder.path(), "--scenes", "rough", "--sensors", "vlp16",
+                                  "--frames", "2", "--quiet"}),
+                         2, "library: the records have motion, this campaign has engine"));
+  EXPECT_TRUE(
+      test::says(motion_campaign_in(folder.path(), {"--set", "motion_keyframe=0.3"}), 2, "motion_keyframe=0.3"));
 }
 
 // Of the same records, the truth of one of them moved.
@@ -123,9 +120,8 @@ TEST(MotionCampaign, TheGateIsTheExitStatus) {
     text += csv_line(cells);
   }
   std::ofstream(file) << text;
-  const Ran judged = command({"campaign", "--card-only", "--gate", "--quiet", "--output", folder.path()});
-  EXPECT_EQ(judged.exit_status, 3);
-  EXPECT_TRUE(contains(judged.errors, "gate: rough vlp16: step beyond its level, along: 1 of 5")) << judged.errors;
+  EXPECT_TRUE(test::says(command({"campaign", "--card-only", "--gate", "--quiet", "--output", folder.path()}), 3,
+                         "gate: rough vlp16: step beyond its level, along: 1 of 5"));
   EXPECT_EQ(command({"campaign", "--card-only", "--quiet", "--output", folder.path()}).exit_status, 0);
   std::ofstream(file) << "# pose_wall campaign of somebody else\n";
   EXPECT_EQ(command({"campaign", "--card-only", "--quiet", "--output", folder.path()}).exit_status, 1);

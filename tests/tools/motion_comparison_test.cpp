@@ -207,9 +207,7 @@ TEST(MotionComparison, DamagedTablesAreRefusedOrCompared) {
 
 Ran evaluated(const TempFolder& folder, const std::string& motion, const std::string& truth,
               const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {"eval", folder.write("motion.csv", motion), folder.write("truth.csv", truth)};
-  words.insert(words.end(), more.begin(), more.end());
-  return command(words);
+  return command({"eval", folder.write("motion.csv", motion), folder.write("truth.csv", truth)}, more);
 }
 
 TEST(EvalOfMotion, PrintsTablesAndJson) {
@@ -280,10 +278,10 @@ TEST(EvalOfMotion, WhatIsNoTableIsRefusedByLineAndColumn) {
 
 TEST(EvalOfMotion, TheBoundIsThatOfRun) {
   const TempFolder folder;
-  const Ran ran = evaluated(folder, motion_csv({placed(0, 0)}), pose_truth_csv(straight(1, 1.0)),
-                            {"--frames", folder.path(), "--range-noise", "0.01", "-c", folder.write("c.yaml", "")});
-  EXPECT_EQ(ran.exit_status, 2);
-  EXPECT_TRUE(contains(ran.errors, "--frames")) << ran.errors;
+  EXPECT_TRUE(
+      test::says(evaluated(folder, motion_csv({placed(0, 0)}), pose_truth_csv(straight(1, 1.0)),
+                           {"--frames", folder.path(), "--range-noise", "0.01", "-c", folder.write("c.yaml", "")}),
+                 2, "--frames"));
 }
 
 }  // namespace

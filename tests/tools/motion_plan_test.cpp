@@ -18,6 +18,7 @@
 #include "lab/sim/check_setup.hpp"
 #include "lab/sim/sensors.hpp"
 #include "lab/sim/simulator.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -177,12 +178,7 @@ TEST(MotionPlan, TheSizeDoesNotChangeWhatIsDrawn) {
 
 TEST(MotionPlan, MistypedNamesAreAnsweredWithTheNearest) {
   const auto refusal_of = [](PlanRequest request) -> std::string {
-    try {
-      make_plan(request);
-      return "";
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
+    return test::said_by<std::invalid_argument>([&] { make_plan(request); });
   };
   PlanRequest request = motion_request("small");
   request.scenes = {"smoth"};

@@ -91,8 +91,8 @@ TEST(MotionVerb, WhatCannotBeReadKeepsItsRow) {
   const TempFolder& folder = drive.folder;
   folder.write("road/frames/000001b.pcd", "no cloud\n");
   const Ran ran = drive.motion({"-o", folder.file("m.csv"), "--tum", folder.file("m.tum")});
-  EXPECT_EQ(ran.exit_status, 1);
-  EXPECT_TRUE(contains(ran.errors, "000001b.pcd") && contains(ran.errors, "unreadable: 1 of 5 frames")) << ran.errors;
+  EXPECT_TRUE(test::says(ran, 1, "000001b.pcd"));
+  EXPECT_TRUE(test::says(ran, 1, "unreadable: 1 of 5 frames"));
   const CsvTable table = table_of(folder.file("m.csv"));
   ASSERT_EQ(table.rows(), 5U);
   EXPECT_EQ(table.cell(2, *table.find_column("along_state")), "unreadable");
@@ -106,9 +106,7 @@ TEST(MotionVerb, OutputsAreNoInputsAndNotEachOther) {
   const TempFolder& folder = drive.folder;
   const std::string frame = folder.file("road/frames/000000.pcd"), before = text_of(frame);
   for (const std::string option : {"--output", "--tum", "--map"}) {
-    const Ran ran = drive.motion({"-q", option, frame});
-    EXPECT_EQ(ran.exit_status, 2) << option;
-    EXPECT_TRUE(contains(ran.errors, option + " " + frame + ": this is an input")) << ran.errors;
+    EXPECT_TRUE(test::says(drive.motion({"-q", option, frame}), 2, option + " " + frame + ": this is an input"));
     EXPECT_EQ(text_of(frame), before);
   }
   const std::string one = folder.file("one");
@@ -121,9 +119,7 @@ TEST(MotionVerb, OutputsAreNoInputsAndNotEachOther) {
 TEST(MotionVerb, AMistypedInputDoesNotCostTheLastTable) {
   const TempFolder folder;
   const std::string table = folder.write("m.csv", "kept\n");
-  const Ran ran = command({"motion", "-o", table, folder.file("not_there")});
-  EXPECT_EQ(ran.exit_status, 1);
-  EXPECT_TRUE(contains(ran.errors, "is left as it was")) << ran.errors;
+  EXPECT_TRUE(test::says(command({"motion", "-o", table, folder.file("not_there")}), 1, "is left as it was"));
   EXPECT_EQ(text_of(table), "kept\n");
 }
 
@@ -183,9 +179,7 @@ TEST(ReportOfMotion, OtherTablesAndMixturesAreRefused) {
   const std::string good = folder.write("m.csv", motion_csv({placed(0, 0)}));
   const std::string page = folder.file("m.html");
   const auto refused = [&](const std::vector<std::string>& inputs, int status, const char* said) {
-    std::vector<std::string> words = {"report", "-q", "-o", page};
-    words.insert(words.end(), inputs.begin(), inputs.end());
-    const Ran ran = command(words);
+    const Ran ran = command({"report", "-q", "-o", page}, inputs);
     EXPECT_EQ(ran.exit_status, status) << said;
     EXPECT_TRUE(contains(ran.errors, said)) << ran.errors;
     EXPECT_FALSE(std::filesystem::exists(page));

@@ -31,9 +31,7 @@ using namespace test;
 using Words = std::vector<std::string>;
 
 std::string road(const TempFolder& folder, const Words& more) {
-  Words words = {"sim", "-q", "-n", "6", "--sensor", "vlp16", "-o", folder.file("road")};
-  words.insert(words.end(), more.begin(), more.end());
-  EXPECT_EQ(command(words).exit_status, 0);
+  EXPECT_EQ(command({"sim", "-q", "-n", "6", "--sensor", "vlp16", "-o", folder.file("road")}, more).exit_status, 0);
   return folder.file("road/frames");
 }
 

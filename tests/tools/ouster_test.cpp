@@ -24,6 +24,7 @@
 #include "io/packets/ouster.hpp"
 #include "ouster_packets.hpp"
 #include "packet_files.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -108,12 +109,7 @@ TEST(OusterProfiles, EachIsReadByItsLayoutWithEitherHead) {
 
 TEST(OusterProfiles, AnUnknownOneIsRefusedWithThoseThatAreRead) {
   const auto refused = [](const OusterDescription& told) -> std::string {
-    try {
-      parse_ouster_metadata(ouster_json(told));
-      return "";
-    } catch (const FrameError& fault) {
-      return fault.what();
-    }
+    return test::said_by<FrameError>([&] { parse_ouster_metadata(ouster_json(told)); });
   };
   const std::string unknown = refused({"RNG19_RFL8_SIG16_NIR16_QUAD"});
   EXPECT_TRUE(contains(unknown, "'RNG19_RFL8_SIG16_NIR16_QUAD' is not read")) << unknown;
@@ -413,12 +409,7 @@ TEST(OusterMetadata, BeamsThatAreNoSensorsAreRefused) {
     std::string text = ouster_json({});
     const std::size_t at = text.find(from);
     if (at == std::string::npos) return "not found";
-    try {
-      parse_ouster_metadata(text.replace(at, from.size(), to));
-      return "";
-    } catch (const FrameError& fault) {
-      return fault.what();
-    }
+    return test::said_by<FrameError>([&] { parse_ouster_metadata(text.replace(at, from.size(), to)); });
   };
   EXPECT_EQ(refused("[0, -90]", "[0, -90]"), "");
   for (const char* angles : {"[0, 0]", "[7, 7]", "[-1, 1]"}) {

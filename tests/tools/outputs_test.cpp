@@ -14,6 +14,7 @@
 
 #include "io/frames/whole_file.hpp"
 #include "ran_command.hpp"
+#include "support/said_by.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools {
@@ -81,9 +82,8 @@ TEST_F(Outputs, SettingsAndTruthAreNotOverwritten) {
 TEST_F(Outputs, SimLeavesAFolderOfOthersAlone) {
   std::filesystem::create_directory(folder.file("mine"));
   const std::string mine = folder.write("mine/pose_wall.yaml", "# measured by hand\nforward_axis: +Y\n");
-  const Ran ran = command({"sim", "-n", "1", "-q", "-o", folder.file("mine")});
-  EXPECT_EQ(ran.exit_status, 2);
-  EXPECT_TRUE(contains(ran.errors, "that pose_wall sim did not write")) << ran.errors;
+  EXPECT_TRUE(
+      test::says(command({"sim", "-n", "1", "-q", "-o", folder.file("mine")}), 2, "that pose_wall sim did not write"));
   EXPECT_EQ(text_of(mine), "# measured by hand\nforward_axis: +Y\n");
   EXPECT_FALSE(std::filesystem::exists(folder.file("mine/truth.csv")));
   // Its own it writes anew.
@@ -95,17 +95,13 @@ TEST_F(Outputs, SimSaysHowManyFramesOfItsLongerRunItRemoved) {
     return command({"sim", "--sensor", "vlp16", "-n", count, "-o", folder.file("road")});
   };
   EXPECT_FALSE(contains(simulate("4").errors, "removed"));
-  const Ran ran = simulate("2");
-  EXPECT_EQ(ran.exit_status, 0);
-  EXPECT_TRUE(contains(ran.errors, "road: 2 frames of an earlier, longer run removed\n")) << ran.errors;
+  EXPECT_TRUE(test::says(simulate("2"), 0, "road: 2 frames of an earlier, longer run removed\n"));
   EXPECT_FALSE(std::filesystem::exists(frames + "/000002.pcd"));
 }
 
 TEST_F(Outputs, AMistypedInputLeavesTheResultsOfTheLastRun) {
   const std::string results = folder.write("keep.csv", "the last run\n");
-  const Ran ran = command({"run", "-q", "-o", results, folder.file("road/framez")});
-  EXPECT_EQ(ran.exit_status, 1);
-  EXPECT_TRUE(contains(ran.errors, "is left as it was")) << ran.errors;
+  EXPECT_TRUE(test::says(command({"run", "-q", "-o", results, folder.file("road/framez")}), 1, "is left as it was"));
   EXPECT_EQ(text_of(results), "the last run\n");
 }
 
@@ -130,9 +126,7 @@ TEST_F(Outputs, AHyphenIsStandardOutputAndNoFile) {
                                                        {"doctor", "-q", "-o", "-", frames},
                                                        {"sim", "-q", "-n", "1", "-o", "-"}};
   for (const std::vector<std::string>& call : calls) {
-    const Ran ran = command(call);
-    EXPECT_EQ(ran.exit_status, 2) << call[0];
-    EXPECT_TRUE(contains(ran.errors, " -: this is not written to standard output")) << ran.errors;
+    EXPECT_TRUE(test::says(command(call), 2, " -: this is not written to standard output"));
   }
   EXPECT_FALSE(std::filesystem::exists("-"));
 }
@@ -148,9 +142,7 @@ TEST(DemoOutputs, WhatIsInTheWayIsNamed) {
   EXPECT_TRUE(contains(no_folder.errors, mine + " is a file; allowed is a folder")) << no_folder.errors;
   EXPECT_EQ(text_of(mine), "precious");
   std::filesystem::create_directories(truth);
-  const Ran no_truth = demo_in(folder.file("out"));
-  EXPECT_EQ(no_truth.exit_status, 1);
-  EXPECT_TRUE(contains(no_truth.errors, truth + ": cannot be written")) << no_truth.errors;
+  EXPECT_TRUE(test::says(demo_in(folder.file("out")), 1, truth + ": cannot be written"));
 }
 
 TEST(WholeFile, IsThereWholeOrNotAtAll) {
@@ -160,12 +152,8 @@ TEST(WholeFile, IsThereWholeOrNotAtAll) {
   EXPECT_EQ(text_of(file), "new");
   EXPECT_FALSE(std::filesystem::exists(part_of(file)));
   std::filesystem::create_directory(taken);
-  try {
-    write_whole_file(taken, "new");
-    ADD_FAILURE() << "a file in a folder's place";
-  } catch (const std::runtime_error& error) {
-    EXPECT_TRUE(contains(error.what(), taken + ": cannot be written: ")) << error.what();
-  }
+  const std::string said = test::said_by<std::runtime_error>([&] { write_whole_file(taken, "new"); });
+  EXPECT_TRUE(contains(said, taken + ": cannot be written: ")) << said;
   EXPECT_FALSE(std::filesystem::exists(part_of(taken)));
 }
 

@@ -10,6 +10,7 @@
 #include "io/bags/packet_message.hpp"
 #include "ouster_packets.hpp"
 #include "packet_files.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -54,12 +55,7 @@ DecodedPackets decode(const std::string& type, MessageEncoding encoding, const s
 }
 
 std::string refusal(const std::string& type, MessageEncoding encoding, const std::string& bytes) {
-  try {
-    decode(type, encoding, bytes);
-    return "";
-  } catch (const FrameError& refused) {
-    return refused.what();
-  }
+  return test::said_by<FrameError>([&] { decode(type, encoding, bytes); });
 }
 
 const std::vector<std::string> kTypes = {"velodyne_msgs/VelodyneScan", "nebula_msgs/NebulaPackets",

@@ -12,6 +12,7 @@
 #include "bag_files.hpp"
 #include "io/bags/packet_message.hpp"
 #include "packet_files.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -64,12 +65,7 @@ DecodedPackets decode(const std::string& type, bool is_cdr, const std::string& b
 }
 
 std::string refusal(const std::string& type, bool is_cdr, const std::string& bytes) {
-  try {
-    decode(type, is_cdr, bytes);
-    return "";
-  } catch (const FrameError& refused) {
-    return refused.what();
-  }
+  return test::said_by<FrameError>([&] { decode(type, is_cdr, bytes); });
 }
 
 // A type whose message is one packet.

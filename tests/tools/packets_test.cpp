@@ -14,6 +14,7 @@
 
 #include "io/packets/ouster_metadata.hpp"
 #include "packet_files.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -252,12 +253,7 @@ TEST(OusterMetadata, FaultsAreNamed) {
   const auto refusal = [](std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     if (at != std::string::npos) text.replace(at, from.size(), to);
-    try {
-      parse_ouster_metadata(text);
-      return std::string();
-    } catch (const FrameError& error) {
-      return std::string(error.what());
-    }
+    return test::said_by<FrameError>([&] { parse_ouster_metadata(text); });
   };
   const std::string good = ouster_metadata("LEGACY");
   EXPECT_EQ(refusal(good, "", ""), "");

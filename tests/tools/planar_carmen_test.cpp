@@ -17,6 +17,7 @@
 #endif
 
 #include "io/planar_files/carmen_log.hpp"
+#include "support/said_by.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::planar_carmen {
@@ -42,12 +43,7 @@ std::string robot(const std::string& stamp) {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_carmen_log(text);
-    return "";
-  } catch (const CarmenError& error) {
-    return error.what();
-  }
+  return test::said_by<CarmenError>([&] { parse_carmen_log(text); });
 }
 
 std::int64_t stamp_of(const std::string& word) {
@@ -210,12 +206,8 @@ TEST(PlanarCarmen, ARangeWithoutAReturnIsUnknown) {
 
 TEST(PlanarCarmen, NamesTheFile) {
   const TempFolder folder;
-  try {
-    read_carmen_log(folder.write("a.clf", "FLASER 4 x"));
-    FAIL();
-  } catch (const CarmenError& error) {
-    EXPECT_TRUE(contains(error.what(), folder.file("a.clf") + ": no scan can be read; the first fault is in line 1"));
-  }
+  const std::string said = test::said_by<CarmenError>([&] { read_carmen_log(folder.write("a.clf", "FLASER 4 x")); });
+  EXPECT_TRUE(contains(said, folder.file("a.clf") + ": no scan can be read; the first fault is in line 1")) << said;
   EXPECT_THROW(read_carmen_log(folder.file("none.clf")), CarmenError);
 }
 

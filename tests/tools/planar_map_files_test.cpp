@@ -12,6 +12,7 @@
 
 #include "io/planar_files/map_files.hpp"
 #include "io/planar_files/pgm_image.hpp"
+#include "support/said_by.hpp"
 
 namespace {
 
@@ -35,12 +36,7 @@ class PlanarMapFiles : public testing::Test {
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   }
   std::string refusal(const std::filesystem::path& yaml) const {
-    try {
-      (void)read_map_files(yaml);
-    } catch (const MapFileError& error) {
-      return error.what();
-    }
-    return "";
+    return test::said_by<MapFileError>([&] { (void)read_map_files(yaml); });
   }
 
   std::filesystem::path folder_;

@@ -132,9 +132,8 @@ TEST(MapVerb, WhatIsNoRelationIsRefused) {
     EXPECT_TRUE(contains(ran.errors, "t1 t2 x y z roll pitch yaw")) << ran.errors;
   }
   const std::string other = folder.write("other", "5 6 0 0 0 0 0 0\n");
-  const Ran ran = command({"map", "-q", "--relations", other, "-o", folder.file("map"), log});
-  EXPECT_EQ(ran.exit_status, 1) << "they judge nothing";
-  EXPECT_TRUE(contains(ran.errors, "--relations " + other + ": no relation")) << ran.errors;
+  EXPECT_TRUE(test::says(command({"map", "-q", "--relations", other, "-o", folder.file("map"), log}), 1,
+                         "--relations " + other + ": no relation"));
   EXPECT_TRUE(std::filesystem::exists(folder.file("map/map.yaml")));
 }
 
@@ -181,20 +180,15 @@ TEST(MapVerb, FaultsAreNamedBeforeAnyWork) {
       {{"map", log, log}, "give a log of CARMEN alone"},
       {{"map", "-c", "vlp16", log}, "--config is for frames"},
   };
-  for (const auto& [words, answer] : usage) {
-    const Ran ran = command(words);
-    EXPECT_EQ(ran.exit_status, 2) << ran.errors;
-    EXPECT_TRUE(contains(ran.errors, answer)) << answer << " in: " << ran.errors;
-  }
+  for (const auto& [words, answer] : usage) EXPECT_TRUE(test::says(command(words), 2, answer));
   EXPECT_EQ(text_of(log), DrawnRoom::log(3));
 }
 
 TEST(MapVerb, BadInputsLeaveNoResult) {
   const TempFolder folder;
   const std::string bad = folder.write("bad.clf", "FLASER 2 1\n");
-  const Ran ran = command({"map", "-o", folder.file("map"), "--poses", folder.file("p.tum"), bad});
-  EXPECT_EQ(ran.exit_status, 1);
-  EXPECT_TRUE(contains(ran.errors, "bad.clf: no scan can be read")) << ran.errors;
+  EXPECT_TRUE(test::says(command({"map", "-o", folder.file("map"), "--poses", folder.file("p.tum"), bad}), 1,
+                         "bad.clf: no scan can be read"));
   EXPECT_FALSE(std::filesystem::exists(folder.file("p.tum")));
   EXPECT_FALSE(std::filesystem::exists(folder.file("map/map.yaml")));
   const Ran missing = command({"map", "-o", folder.file("map"), folder.file("not_there")});

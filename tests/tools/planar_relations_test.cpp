@@ -15,6 +15,7 @@
 #include <string>
 
 #include "io/planar_files/carmen_log.hpp"
+#include "support/said_by.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::planar_relations {
@@ -31,12 +32,7 @@ TimedPose pose(double t_s, double x, double y, double yaw) {
 
 template <typename Parse>
 std::string refusal(Parse parse) {
-  try {
-    parse();
-    return "";
-  } catch (const RelationsError& error) {
-    return error.what();
-  }
+  return test::said_by<RelationsError>([&] { parse(); });
 }
 
 TEST(PlanarRelations, ErrorsByHand) {

@@ -69,15 +69,12 @@ TEST(MapReport, RefusesWhatItCannotShow) {
   const TempFolder folder;
   const std::string log = folder.write("room.clf", DrawnRoom::log(10)), map = folder.file("map");
   ASSERT_EQ(command({"map", "-q", "-o", map, log}).exit_status, 0);
-  const Ran mixed = command({"report", map, log, "-o", folder.file("r.html")});
-  EXPECT_EQ(mixed.exit_status, 2);
-  EXPECT_TRUE(contains(mixed.errors, "this is no result of map, localise or plan")) << mixed.errors;
+  EXPECT_TRUE(test::says(command({"report", map, log, "-o", folder.file("r.html")}), 2,
+                         "this is no result of map, localise or plan"));
   const Ran onto = command({"report", map, "-o", map + "/map.svg"});
   EXPECT_EQ(onto.exit_status, 2) << "an input is not overwritten";
   folder.write("map/trail.pwt", "damaged");
-  const Ran damaged = command({"report", map, "-o", folder.file("r.html")});
-  EXPECT_EQ(damaged.exit_status, 1);
-  EXPECT_TRUE(contains(damaged.errors, "trail.pwt")) << damaged.errors;
+  EXPECT_TRUE(test::says(command({"report", map, "-o", folder.file("r.html")}), 1, "trail.pwt"));
   EXPECT_FALSE(std::filesystem::exists(folder.file("r.html")));
 }
 
@@ -88,9 +85,7 @@ TEST(MapReport, NamesWhatIsNotThere) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"report", none},
         std::vector<std::string>{"report", map, none, "-o", folder.file("r")}}) {
-    const Ran ran = command(words);
-    EXPECT_EQ(ran.exit_status, 1);
-    EXPECT_TRUE(contains(ran.errors, "INPUT " + none + ": there is no such file or folder. Give ")) << ran.errors;
+    EXPECT_TRUE(test::says(command(words), 1, "INPUT " + none + ": there is no such file or folder. Give "));
   }
 }
 
@@ -151,9 +146,7 @@ TEST(InfoVerb, DescribesALogOfCarmen) {
   EXPECT_EQ(page.at(0).at("skipped").at("bad_line").at("lines"), 1);
   EXPECT_NEAR(page.at(0).at("odometry").at("travel_m"), 2.0, 0.01);
   EXPECT_EQ(command({"info", folder.write("good.clf", DrawnRoom::log(5))}).exit_status, 0);
-  const Ran none = command({"info", folder.write("none.clf", "# empty\n")});
-  EXPECT_EQ(none.exit_status, 1);
-  EXPECT_TRUE(contains(none.errors, "none.clf")) << none.errors;
+  EXPECT_TRUE(test::says(command({"info", folder.write("none.clf", "# empty\n")}), 1, "none.clf"));
 }
 
 }  // namespace

@@ -77,17 +77,10 @@ TEST(ScanVerb, FaultsAreNamed) {
       {{"scan", "--picture", "x.png", log}, "ending in .svg"},
       {{"scan", "--format", "jsn", log}, "did you mean 'json'"},
   };
-  for (const auto& [words, answer] : usage) {
-    const Ran ran = command(words);
-    EXPECT_EQ(ran.exit_status, 2) << ran.errors;
-    EXPECT_TRUE(contains(ran.errors, answer)) << answer << " in: " << ran.errors;
-  }
-  const Ran beyond = command({"scan", "-q", "--picture", folder.file("s.svg"), "--drawn", "9", log});
-  EXPECT_EQ(beyond.exit_status, 1);
-  EXPECT_TRUE(contains(beyond.errors, "--drawn 9: there is no scan from this number on")) << beyond.errors;
-  const Ran none = command({"scan", "-q", "-o", folder.file("s.csv"), frame});
-  EXPECT_EQ(none.exit_status, 1);
-  EXPECT_TRUE(contains(none.errors, "no floor was measured")) << none.errors;
+  for (const auto& [words, answer] : usage) EXPECT_TRUE(test::says(command(words), 2, answer));
+  EXPECT_TRUE(test::says(command({"scan", "-q", "--picture", folder.file("s.svg"), "--drawn", "9", log}), 1,
+                         "--drawn 9: there is no scan from this number on"));
+  EXPECT_TRUE(test::says(command({"scan", "-q", "-o", folder.file("s.csv"), frame}), 1, "no floor was measured"));
 }
 
 }  // namespace

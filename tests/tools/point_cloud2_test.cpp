@@ -9,6 +9,7 @@
 #include "bag_files.hpp"
 #include "io/bags/point_cloud2.hpp"
 #include "io/frames/field_value.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -21,12 +22,7 @@ DecodedCloud decode(MessageEncoding encoding, const std::string& message) {
 }
 
 std::string refusal(MessageEncoding encoding, const std::string& message) {
-  try {
-    decode(encoding, message);
-    return "";
-  } catch (const FrameError& error) {
-    return error.what();
-  }
+  return test::said_by<FrameError>([&] { decode(encoding, message); });
 }
 
 std::string refusal(const CloudMessage& cloud) {

@@ -23,9 +23,10 @@ struct Ran {
   std::string printed;
 };
 
-// The words behind `pose_wall`.
-inline Ran command(std::vector<std::string> words) {
+// The words behind `pose_wall`, and more of them.
+inline Ran command(std::vector<std::string> words, const std::vector<std::string>& more = {}) {
   words.insert(words.begin(), "pose_wall");
+  words.insert(words.end(), more.begin(), more.end());
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
   ::testing::internal::CaptureStdout();
@@ -35,6 +36,13 @@ inline Ran command(std::vector<std::string> words) {
   ran.errors = ::testing::internal::GetCapturedStderr();
   ran.printed = ::testing::internal::GetCapturedStdout();
   return ran;
+}
+
+// Whether it ended so and said this where errors go.
+inline ::testing::AssertionResult says(const Ran& ran, int exit_status, const std::string& part) {
+  if (ran.exit_status == exit_status && contains(ran.errors, part)) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "exit status " << ran.exit_status << ", not " << exit_status << ", or no '"
+                                       << part << "' in: " << ran.errors;
 }
 
 // A table that it wrote.

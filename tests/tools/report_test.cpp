@@ -67,14 +67,9 @@ struct Road {
               0);
   }
   Ran report(std::vector<std::string> more = {}) const {
-    std::vector<std::string> words = {"report",
-                                      "--config",
-                                      folder.file("road/pose_wall.yaml"),
-                                      "--output",
-                                      folder.file("out.html"),
-                                      folder.file("road/frames")};
-    words.insert(words.end(), more.begin(), more.end());
-    return command(words);
+    return command({"report", "--config", folder.file("road/pose_wall.yaml"), "--output", folder.file("out.html"),
+                    folder.file("road/frames")},
+                   more);
   }
   nlohmann::json data() const { return data_of_report(folder.file("out.html")); }
 
@@ -208,9 +203,7 @@ TEST(ReportVerb, IsOneFileThatAsksForNothing) {
 TEST(ReportVerb, AFileThatCannotBeReadIsAFrameThatSaysSo) {
   const Road road("2");
   road.folder.write("road/frames/000000a.pcd", "no cloud");
-  const Ran ran = road.report();
-  EXPECT_EQ(ran.exit_status, 1);
-  EXPECT_TRUE(contains(ran.errors, "000000a.pcd")) << ran.errors;
+  EXPECT_TRUE(test::says(road.report(), 1, "000000a.pcd"));
   const nlohmann::json data = road.data();
   ASSERT_EQ(data.at("frames"), 3);
   EXPECT_EQ(data.at("error")[0], "");
@@ -258,9 +251,7 @@ TEST(ReportVerb, WhatWasThereStaysWhereNothingCanBeMade) {
   EXPECT_EQ(road.report({"--language", "fr"}).exit_status, 2);
   EXPECT_EQ(text_of(road.folder.file("out.html")), "precious");
   const std::string frame = road.folder.file("road/frames/000000.pcd"), before = text_of(frame);
-  const Ran ran = command({"report", "--output", frame, frame});
-  EXPECT_EQ(ran.exit_status, 2);
-  EXPECT_TRUE(contains(ran.errors, "it would be overwritten")) << ran.errors;
+  EXPECT_TRUE(test::says(command({"report", "--output", frame, frame}), 2, "it would be overwritten"));
   EXPECT_EQ(text_of(frame), before);
   EXPECT_EQ(command({"report", "--output", road.folder.path(), frame}).exit_status, 2);
 }

@@ -26,6 +26,7 @@
 #include "lab/sim/survey_truth.hpp"
 #include "lab/survey/survey_file.hpp"
 #include "ran_command.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools::test {
 namespace {
@@ -177,12 +178,7 @@ struct SurveyFiles : testing::Test {
 };
 
 std::string refusal_of(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const SurveyError& error) {
-    return error.what();
-  }
-  return "";
+  return test::said_by<SurveyError>([&] { read(); });
 }
 
 TEST_F(SurveyFiles, APathThatIsNoneIsNamed) {

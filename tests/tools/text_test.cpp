@@ -10,6 +10,7 @@
 #include "io/csv/csv_table.hpp"
 #include "io/terminal/did_you_mean.hpp"
 #include "io/terminal/text_table.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -59,13 +60,10 @@ TEST(Csv, NumbersHaveNineDigitsAndNothingForNan) {
 
 std::string refusal_of(const std::string& text) {
   std::istringstream stream(text);
-  try {
+  return test::said_by<CsvError>([&] {
     const CsvTable table = CsvTable::parse(stream);
     table.number(0, 0);
-    return "";
-  } catch (const CsvError& error) {
-    return error.what();
-  }
+  });
 }
 
 TEST(Csv, BadTablesNameLineAndColumn) {

@@ -5,6 +5,7 @@
 // named.
 
 #include "io/csv/truth_csv.hpp"
+#include "support/said_by.hpp"
 
 #include <gtest/gtest.h>
 
@@ -65,12 +66,7 @@ TEST(TruthCsv, HalfAPoseIsRefusedByTheColumnThatIsMissing) {
   const std::string file = folder.write("a.csv",
                                         "frame,stamp_ns,roll,pitch,yaw,d_lf,d_lb,d_rf,d_rb,x,y,z,qx,qy,qz\n"
                                         "0,0,0,0,0,1,1,1,1,0,0,0,0,0,0\n");
-  std::string why;
-  try {
-    read_truth_csv(file);
-  } catch (const std::runtime_error& fault) {
-    why = fault.what();
-  }
+  const std::string why = test::said_by<std::runtime_error>([&] { read_truth_csv(file); });
   EXPECT_TRUE(contains(why, "a.csv: no column 'qw'")) << why;
 }
 

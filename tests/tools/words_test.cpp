@@ -90,9 +90,7 @@ TEST(Words, AMistypedVerbOrOptionIsAnswered) {
   const TempFolder folder;
   folder.write("good.bin", std::string(16, '\0'));
   for (const VerbGrammar& verb : command_grammar().verbs) {
-    const Ran wrong_verb = command({mistyped(verb.name)});
-    EXPECT_EQ(wrong_verb.exit_status, 2);
-    EXPECT_TRUE(contains(wrong_verb.errors, "did you mean '" + verb.name + "'")) << wrong_verb.errors;
+    EXPECT_TRUE(test::says(command({mistyped(verb.name)}), 2, "did you mean '" + verb.name + "'"));
     for (const OptionGrammar& option : verb.options) {
       if (option.is_positional || long_name(option).size() < 6) continue;
       std::vector<std::string> words = needed_words(verb, folder);

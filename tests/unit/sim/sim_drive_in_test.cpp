@@ -13,6 +13,7 @@
 
 #include "lab/sim/pose.hpp"
 #include "lab/sim/simulator.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {
@@ -149,12 +150,7 @@ TEST(SimDriveIn, WithoutAWayItsSpeedChangesNothing) {
 }
 
 std::string fault_of(const SceneSetup& setup) {
-  try {
-    const Simulator simulator(setup, 1);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return test::said_by<std::invalid_argument>([&] { const Simulator simulator(setup, 1); });
 }
 
 TEST(SimDriveIn, TheWayMustNotBeginBehindTheRoadsEnd) {

@@ -13,18 +13,14 @@
 
 #include "lab/sim/check_setup.hpp"
 #include "lab/sim/scenes.hpp"
+#include "support/said_by.hpp"
 
 namespace pose_wall::tools::sim {
 namespace {
 
 std::string refusal(const std::string& assignment) {
   SceneSetup setup;
-  try {
-    set_parameter(setup, assignment);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return test::said_by<std::invalid_argument>([&] { set_parameter(setup, assignment); });
 }
 
 TEST(SimParameters, NamesAndFieldsAreOwnedByOneRowEach) {
@@ -58,12 +54,8 @@ TEST(SimParameters, RefusalsSayWhatIsAllowed) {
 
 TEST(SimScenes, UnknownNamesAreRefusedWithTheNearest) {
   EXPECT_THROW(make_setup("clean", "vlp17x", false, 1), std::invalid_argument);
-  try {
-    make_setup("steel_set", "vlp16", false, 1);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("did you mean 'steel_sets'"), std::string::npos);
-  }
+  const std::string said = test::said_by<std::invalid_argument>([] { make_setup("steel_set", "vlp16", false, 1); });
+  EXPECT_NE(said.find("did you mean 'steel_sets'"), std::string::npos) << said;
 }
 
 TEST(SimScenes, RandomSizesStayInRangeDifferBySeedAndRepeat) {
@@ -123,12 +115,8 @@ TEST(SimScenes, ContradictionsAreNamed) {
   SceneSetup setup;
   setup.road.arch_springing_m = 1.5;
   setup.road.lean_left_deg = 3.0;
-  try {
-    checked(setup);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("lean_left_deg"), std::string::npos);
-  }
+  const std::string said = test::said_by<std::invalid_argument>([&] { checked(setup); });
+  EXPECT_NE(said.find("lean_left_deg"), std::string::npos) << said;
 }
 
 }  // namespace
