@@ -4,9 +4,10 @@
 """Every named number of the libraries has a reason beside it: a comment of three words or more. It stands at the end of
 the constant's own line, or on lines of its own directly above. One above holds for one declaration; where it ends with
 a colon, for the row of declarations below it, up to a blank line, another comment of its own line or anything else.
+That somebody judged so on some day is no reason: "judgement" and dates are not counted among the three words.
 
-Looked at is what is declared constexpr with an arithmetic type, or as an array of one, in any scope. What gates.def
-lists needs no constant in C++ and is not looked at.
+Looked at is what is declared constexpr with an arithmetic type, or as an array of one, in any scope; and of each row of
+engine/gates/gates.def its origin, which may be one word ("key"), but not that one.
 
 usage: check_constants.py ROOT [FOLDER...]      folders and files below src/, all of it if none is given;
                                                 exit status 1 and one line per constant without a reason"""
@@ -16,6 +17,7 @@ import re
 import sys
 
 ALL = ("*",)
+GATES = "engine/gates/gates.def"
 WORDS_MIN = 3
 NUMBER = (r"(?:double|float|auto|bool|char|short|(?:unsigned|signed|long|int)(?:\s+(?:long|int|char|short))*"
           r"|(?:std::)?(?:u?int(?:_fast|_least)?\d+_t|u?intptr_t|size_t|ptrdiff_t)"
@@ -25,7 +27,8 @@ DECLARATION = re.compile(rf"^[ \t]*{ASIDE}constexpr\s+{ASIDE}{NUMBER}\s+(?=\w+\s
 COMMENT_OR_STRING = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|(?<![0-9A-Fa-f])'(?:\\.|[^'\\\n])'", re.S)
 NAME = re.compile(r"\s*(\w+)\s*(?:\[[^\]]*\]\s*)*(?=[={])")
 WORD = re.compile(r"[A-Za-z][A-Za-z'_]+")
-NO_REASON = re.compile(r"NO" r"LINT\S*|clang-format (?:on|off)")
+NO_REASON = re.compile(r"NO" r"LINT\S*|clang-format (?:on|off)|\b[Jj]udge?ments?\b")
+GATE = re.compile(r'^GATE\((\w+), "\w+", \w+, .*?, "[^"]*", "[^"]*", \w+, [^"]*?, "([^"]*)",')
 
 
 def split(text):
@@ -92,6 +95,14 @@ def sources(src, places):
         yield from sorted(p for p in [path, *path.rglob("*")] if p.suffix in {".cpp", ".hpp"})
 
 
+def gates_without_origin(table):
+    """(line, name) of rows whose origin says nothing."""
+    if not table.exists():
+        return []
+    rows = ((k, GATE.match(line)) for k, line in enumerate(table.read_text(encoding="utf-8").split("\n"), 1))
+    return [(k, row[1]) for k, row in rows if row and not WORD.search(NO_REASON.sub("", row[2]))]
+
+
 def main():
     root, places = pathlib.Path(sys.argv[1]), sys.argv[2:] or ALL
     looked_at, found = 0, []
@@ -103,6 +114,8 @@ def main():
             of_file = constants(path.read_text(encoding="utf-8"))
             looked_at += len(of_file)
             found += [f"{path.relative_to(root)}:{line} {name}" for line, name, text in of_file if not is_reason(text)]
+    if "engine" in places:
+        found += [f"src/{GATES}:{line} {name}" for line, name in gates_without_origin(root / "src" / GATES)]
     if not looked_at:
         sys.exit("no constants: nothing was checked")
     print("\n".join([*found, f"{looked_at} constants, {len(found)} without a reason"]))

@@ -293,6 +293,18 @@ class Constants(BrokenProject):
             with self.row(name):
                 self.fails(said, *self.check(*lines))
 
+    def test_judgement_is_no_reason(self):
+        for reason in ("judgement, 2026-11-21", "Judgement, 2026-11-21: of mine"):
+            self.fails("kEnd_m", *self.check(f"constexpr double kEnd_m = 2.0;  // {reason}"))
+        self.passes(*self.check("constexpr double kEnd_m = 2.0;  // judgement, 2026-11-21: a wall is longer"))
+
+    def test_origin_of_a_gate(self):
+        for status, origin in ((1, "judgement, 2026-11-21"), (0, "key"), (0, "definition")):
+            row = f'GATE(POINTS, "points", AT_LEAST, 1.0, "", "", REFUSES, 0, "{origin}", "voxels")'
+            self.write("src/engine/gates/gates.def", row + "\n")
+            self.check("constexpr double kEnd_m = 2.0;  // a wall is longer")
+            self.assertEqual(self.run_check(CHECKS / "check_constants.py", self.root, "engine")[0], status)
+
     def test_two_words_beside_a_reason_above(self):
         self.passes(*self.check("// A wall that ends sooner is none.", "constexpr double kEnd_m = 2.0;  // two metres"))
 
