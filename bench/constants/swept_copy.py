@@ -132,7 +132,7 @@ class Copy:
         """The declaration of `name` without constexpr; with `key`, its value is asked for at start."""
         code, _ = checked.split(text)
         match = re.search(DECLARED.format(name=name), code)
-        if not match:
+        if not match or re.search(r",\s*\w+\s*=", match["value"]):
             self.left[key or name] = "is declared together with others, or is a table"
             return text
         kind, (begin, end) = match["type"], match.span("value")
@@ -190,7 +190,8 @@ class Copy:
 
     def leave_size(self, file, line):
         """Of an array's size the compiler does not say which constant it is."""
-        names = set(re.findall(r"\bk\w+", statement_at((ROOT / "src" / file).read_text("utf-8"), line)))
+        lines = (ROOT / "src" / file).read_text("utf-8").split("\n")
+        names = set(re.findall(r"\bk\w+", lines[line - 1]))
         keys = [key for key in [*self.swept, *self.derived] if key.rpartition(":")[2] in names]
         here = [key for key in keys if key.rpartition(":")[0] == file] or keys
         return any([self.leave(key, f"the size of an array ({file}:{line})") for key in here])
