@@ -38,7 +38,7 @@ struct SeenClouds {
 // more, with the same prints.
 struct SeenSectors {
   // As many as the buffers that a driver fills in turn. What stays old for longer is in each cloud since then, and as
-  // old as in the first of them. Judgement, 2026-11-27.
+  // old as in the first of them.
   static constexpr std::uint32_t kCount = 8;
   // In a run. 256 returns of which nine in ten repeat come out alike once in 1e12; of real noise and steps of 5 mm two
   // in three do. Sectors without returns do not end a run, and 10 degrees of a VLP-16 hold 560 shots in whole sectors.

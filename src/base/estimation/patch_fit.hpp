@@ -64,14 +64,14 @@ struct PatchFit {
 // nothing about the offset, but as much about the slopes as their own straightness allows.
 class PatchGrid {
  public:
-  // Of floors and walls: longer than most roughness correlates, short enough for many. Judgement, 2026-11-21.
-  static constexpr double kPatch_m = 0.5;
+  // Of floors and walls: longer than most roughness correlates, short enough for many.
+  static constexpr double kPatch_m = 0.5;  // swept: half 23 lost 15 won, twice 12 lost 21 won
   // Of all layers: 64 m by 3 m in half metres, twice; an extent beyond gets larger patches. 4096 at first, 2026-11-21.
   static constexpr std::uint32_t kCapacity = 1536;
   static constexpr std::uint32_t kLayersMax = PatchErrors::kLayersMax;  // the surface, and the fronts of strips
   static constexpr std::uint32_t kPatchesMin = 8;  // of the surface: more than the six terms of a quadratic
-  // Patches further apart, 2.5 m, count as independent. Judgement, 2026-11-21: the test for bends allows for longer
-  // correlation, and a longer reach costs pairs.
+  // Patches further apart, 2.5 m, count as independent; the test for bends allows for longer correlation, and a longer
+  // reach costs pairs.
   static constexpr int kLags = 5;
 
   void lay_out(Arena& arena);
@@ -119,7 +119,8 @@ class PatchGrid {
     std::int32_t iu, iv;
     std::uint32_t layer;
   };
-  static constexpr int kGiveBackRounds = 2;  // each takes from the variance found by the last; judgement, 2026-11-21
+  // Each takes from the variance found by the last; swept: half 1 lost, twice nothing.
+  static constexpr int kGiveBackRounds = 2;
   // Of one layer: variance of the rock between patches and its correlation by distance.
   struct Roughness {
     double tau2 = 0.0;
@@ -161,8 +162,8 @@ class PatchGrid {
     Eigen::Matrix3d rock = Eigen::Matrix3d::Zero();   // times the rock's variance
     Eigen::Matrix3d noise = Eigen::Matrix3d::Zero();  // of the points: together, the variance were no rock shared
   };
-  // Pairs cost the most of a fit: bounds its work. Judgement, 2026-11-25: fewer know the correlation less well.
-  static constexpr std::uint32_t kPairedMost = 384;
+  // Pairs cost the most of a fit: bounds its work; fewer know the correlation less well.
+  static constexpr std::uint32_t kPairedMost = 384;                                // swept: half 2 moved, twice nothing
   static constexpr std::uint32_t kNeighboursMost = (kLags + 1) * (2 * kLags + 1);  // its own row and those above
   // Neighbours in p's layer within kLags, in its own row and the rows above, each pair of patches once. Returns their
   // number.

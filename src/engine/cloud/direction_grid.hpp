@@ -18,9 +18,9 @@ namespace pose_wall {
 // rows by the sine of the elevation.
 class Directions {
  public:
-  // 2.8 degrees wide. Judgement, 2026-11-21: finer cells show smaller gaps, coarser ones expect more returns each.
-  // Powers of two, for the masks below. Near the horizon a slice is 0.45 degrees high, a quarter of a row: rings of a
-  // sparse sensor lie four slices apart, so a gap between two of them shows (DirectionRows).
+  // 2.8 degrees wide; finer cells show smaller gaps, coarser ones expect more returns each. Powers of two, for the
+  // masks below. Near the horizon a slice is 0.45 degrees high, a quarter of a row: rings of a sparse sensor lie four
+  // slices apart, so a gap between two of them shows (DirectionRows).
   static constexpr std::uint32_t kColumns = 128;
   static constexpr std::uint32_t kSlices = 256;  // four to a row, and a power of two
 

@@ -11,9 +11,9 @@ constexpr double kGrowth = 1.26;  // about the cube root of 2: cells that fill s
 // of their own lattice instead, wherever points fill the air, and these look like floors and walls. With half a metre,
 // 131,000 points spread evenly over 40 x 40 x 5 m gave roll and pitch, degraded, at 0.1 degrees.
 constexpr double kMost_m = 0.26;
-// With so many fewer voxels than at the last vain try, a smaller leaf is tried again. Judgement, 2026-11-22: a try
-// costs one more pass over the cloud, waiting keeps the leaf one growth too large.
-constexpr double kFewer = 0.95;
+// With so many fewer voxels than at the last vain try, a smaller leaf is tried again; a try costs one more pass over
+// the cloud, waiting keeps the leaf one growth too large.
+constexpr double kFewer = 0.95;  // swept: half and twice change nothing
 
 // The leaf after so many growths, capped at the largest.
 double grown(double least_m, std::uint32_t growths) {

@@ -60,10 +60,9 @@ class NeighbourCounter {
   struct Ahead {
     FourTruths by_1{}, by_2{}, by_3{};
   };
-  // Points between two checks for enough. Judgement, 2026-11-22: a larger number counts points in vain, a smaller one
-  // checks more often.
-  static constexpr std::uint32_t kAtOnce = 64;
-  static constexpr std::uint64_t kRun = 12;  // steps: its ends are searched for
+  // Points between two checks for enough; a larger number counts points in vain, a smaller one checks more often.
+  static constexpr std::uint32_t kAtOnce = 64;  // swept: half and twice change nothing
+  static constexpr std::uint64_t kRun = 12;     // steps: its ends are searched for
 
   FourPlaces four_from(std::uint32_t j) const {
     return {load_four(&points_.x[j]), load_four(&points_.y[j]), load_four(&points_.z[j])};

@@ -54,8 +54,8 @@ class VoxelColumns {
   template <typename Visit>
   bool visit_columns(std::uint32_t from, std::uint32_t to, std::uint32_t z_from, std::uint32_t z_to,
                      const Visit& visit) {
-    // Few enough to look at all of them, rather than search for two heights. Judgement, 2026-11-22.
-    constexpr std::uint32_t kFew = 16;
+    // Few enough to look at all of them, rather than search for two heights.
+    constexpr std::uint32_t kFew = 16;  // swept: half and twice change nothing
     for (std::uint32_t c = from; c < to;) {
       std::uint32_t begin = begin_[c], end = begin_[c + 1];
       const std::uint64_t own = column(c++);

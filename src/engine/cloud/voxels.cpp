@@ -23,7 +23,7 @@ enum Fate : std::int32_t { kKept = 0, kNear = 1, kBody = 2, kBeyond = 3 };  // k
 
 // Points are processed by the block, turned and judged four at a time. Only entries in tables go one by one.
 struct PointBlock {
-  // Some 4 KiB, which stay in the nearest cache; whole fours. Judgement, 2026-11-21.
+  // Some 4 KiB, which stay in the nearest cache; whole fours.
   static constexpr std::uint32_t kSize = 64;
   std::uint32_t count = 0;
   float x_lidar[kSize], y_lidar[kSize], z_lidar[kSize];

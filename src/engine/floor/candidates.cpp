@@ -16,15 +16,18 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kTriangleMin_m2 = 0.10;         // judgement, 2026-11-21: twice its area; slivers give wild normals
-constexpr std::uint32_t kDrawsPerIteration = 8;  // judgement, 2026-11-21: draws for each hypothesis; caps the loop
-constexpr std::uint32_t kQuickPointsMax = 500;   // 1000 points cost 1.0 M of 92.1 M instructions more (bench/README.md)
-constexpr double kGhostShare = 0.4;              // judgement, 2026-11-21: more rays through a floor make a reflection
+// Twice its area; slivers give wild normals; swept: half 3 lost 2 won, twice 4 lost 3 won.
+constexpr double kTriangleMin_m2 = 0.10;
+// Draws for each hypothesis; caps the loop; swept: half 3 lost, twice 2 lost.
+constexpr std::uint32_t kDrawsPerIteration = 8;
+constexpr std::uint32_t kQuickPointsMax = 500;  // 1000 points cost 1.0 M of 92.1 M instructions more (bench/README.md)
+constexpr double kGhostShare = 0.4;  // more rays through a floor make a reflection; swept: half 2 moved, twice 1 moved
 // A plane scores at most twice its area. Below this score it can neither be the floor nor rival it.
 double tells_nothing_m2(const Settings& s) {
   return 0.5 * limit_of<gate::FLOOR_RIVAL>(s) * limit_of<gate::FLOOR_AREA>(s);
 }
-constexpr double kOutlierSpan_m = 4.0;  // judgement, 2026-11-21: MLESAC spreads outliers over a road's height
+// MLESAC spreads outliers over a road's height; swept: half and twice change nothing.
+constexpr double kOutlierSpan_m = 4.0;
 
 #ifdef POSE_WALL_TRACE
 void note_floor_plane(const Plane& plane, pose_wall_trace_fate fate, double support,
@@ -61,7 +64,7 @@ class BestOutside {
   }
 
   void note() const {
-    constexpr double kAnything = 0.9;  // judgement, 2026-11-22: a plane that explains less than a tenth is chance
+    constexpr double kAnything = 0.9;  // for explain alone: a plane that explains less than a tenth is chance
     for (const Hypothesis* best : {&displaced_, &steep_}) {
       if (best->cost < kAnything) {
         note_floor_plane(best->plane, POSE_WALL_TRACE_OUT_OF_RANGE, 1.0 - best->cost, sensor_base_m_);
@@ -174,7 +177,8 @@ void weigh(const FloorScene& scene, const PointSet& within, Among among, FloorSh
 }
 
 bool is_below(const Plane& above, const Plane& below, const Eigen::Vector3d& sensor_base_m) {
-  constexpr double kBelow_m = 0.1;  // judgement, 2026-11-23: three thresholds; a nearer plane is the same floor
+  // Three thresholds; a nearer plane is the same floor; swept: half nothing, twice 1 moved.
+  constexpr double kBelow_m = 0.1;
   return below.signed_distance(sensor_base_m) > above.signed_distance(sensor_base_m) + kBelow_m;
 }
 
@@ -208,8 +212,10 @@ bool may_be_floor(const Plane& plane, const FloorLimits& limits, const Eigen::Ve
 }
 
 bool same_floor(const Plane& a, const Plane& b) {
-  constexpr double kReach_m = 2.0;  // judgement, 2026-11-21: planes are compared under the machine and so far around it
-  constexpr double kApart_m = 0.08;  // judgement, 2026-11-21: below three thresholds (9 cm); nearer planes are one
+  // Planes are compared under the machine and so far around it; swept: half 1 lost 1 won, twice 16 lost 3 won.
+  constexpr double kReach_m = 2.0;
+  // Below three thresholds (9 cm); nearer planes are one; swept: half 18 lost 4 won, twice 2 lost 1 won.
+  constexpr double kApart_m = 0.08;
   const double places[][2] = {{0.0, 0.0}, {kReach_m, 0.0}, {-kReach_m, 0.0}, {0.0, kReach_m}, {0.0, -kReach_m}};
   for (const auto& p : places) {
     const double za = -(a.n.x() * p[0] + a.n.y() * p[1] + a.d) / a.n.z();

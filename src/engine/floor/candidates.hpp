@@ -14,7 +14,7 @@
 
 namespace pose_wall {
 
-constexpr std::uint32_t kFloorShortlist = 8;  // judgement, 2026-11-21: floor, bench, deck and reflection are 4
+constexpr std::uint32_t kFloorShortlist = 8;  // floor, bench, deck and reflection are 4
 using FloorShortlist = Shortlist<kFloorShortlist>;
 
 struct FloorCandidate {

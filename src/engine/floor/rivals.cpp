@@ -13,47 +13,50 @@
 namespace pose_wall {
 namespace {
 
-// A smaller floor must stand alone: where there is no floor, many small planes are as good. Judgement, 2026-11-21.
-constexpr double kSmallArea_m2 = 5.0;
-constexpr double kSureArea_m2 = 10.0;  // judgement, 2026-11-21: through so large a floor only reflections are seen
-constexpr double kSteep_rad = 0.17;    // 10 degrees; a heap's flanks lay at 11 and 15 (hard_day, seed 648, 2026-11-22)
+// A smaller floor must stand alone: where there is no floor, many small planes are as good.
+constexpr double kSmallArea_m2 = 5.0;  // swept: half 9 moved, twice 1 lost 1 won
+// Through so large a floor only reflections are seen; swept: half 1 won, twice nothing.
+constexpr double kSureArea_m2 = 10.0;
+constexpr double kSteep_rad = 0.17;  // 10 degrees; a heap's flanks lay at 11 and 15 (hard_day, seed 648, 2026-11-22)
 
 // Parallel planes give the same roll and pitch, whichever of them is the floor.
 bool lie_alike(const Plane& a, const Plane& b) {
-  constexpr double kAlike_rad = 0.0175;  // 1 degree, the default alert limit: judgement, 2026-11-21
+  constexpr double kAlike_rad = 0.0175;  // 1 degree, the default alert limit; swept: half 2 moved, twice 2 moved
   return a.n.cross(b.n).squaredNorm() <= kAlike_rad * kAlike_rad;
 }
 
-// A rival is not fitted in full. Judgement, 2026-11-27: half a degree, as 2 to 3 m of rough ground err.
-constexpr double kRivalMargin_rad = 0.0087;
-constexpr double kOneSide = 0.8;  // judgement, 2026-11-23: a fifth of the points may be strays where both planes meet
-constexpr double kNearLine_m = 0.3;  // judgement, 2026-11-23: accuracy of the line in which two floors meet
+// A rival is not fitted in full; half a degree, as 2 to 3 m of rough ground err.
+constexpr double kRivalMargin_rad = 0.0087;  // swept: half 12 moved, twice 1 lost
+// A fifth of the points may be strays where both planes meet; swept: half 5 lost, twice nothing.
+constexpr double kOneSide = 0.8;
+// Accuracy of the line in which two floors meet; swept: half and twice change nothing.
+constexpr double kNearLine_m = 0.3;
 constexpr double kLower_m = 0.3;  // a belt's or a table's height, more than a kerb's; 0.5 before a review, 2026-11-23
 constexpr double kAlike = 0.3;    // slope of a table over a floor, 17 degrees; 0.1 before a review, 2026-11-23
-constexpr std::uint32_t kPointsMin = 20;  // judgement, 2026-11-23: fewer left-over points draw no plane
-// The plane was looked at only in passing: the angle to it counts a quarter and 1.5 degrees more. Judgement,
-// 2026-11-23:
-constexpr double kStretch = 1.25;
-constexpr double kMargin_rad = 0.026;
+constexpr std::uint32_t kPointsMin = 20;  // fewer left-over points draw no plane; swept: half and twice change nothing
+// The plane was looked at only in passing: the angle to it counts a quarter and 1.5 degrees more:
+constexpr double kStretch = 1.25;      // swept: half and twice change nothing
+constexpr double kMargin_rad = 0.026;  // swept: half and twice change nothing
 
 // Half the length of a machine and the slope that its tracks span. No key of the search: a wider one must not hide
-// ramps. Judgement, 2026-11-26.
-constexpr double kNear_m = 4.5;
+// ramps.
+constexpr double kNear_m = 4.5;  // swept: half 1 moved, twice nothing
 
-// Points on all sides: the machine stands on them. Judgement, 2026-11-23: its body hides a quarter of a turn.
-constexpr std::uint32_t kGapOfBody = 2;
-constexpr std::uint32_t kAnyPart = 100;  // judgement, 2026-11-23: one point in a hundred is there
+// Points on all sides: the machine stands on them; its body hides a quarter of a turn.
+constexpr std::uint32_t kGapOfBody = 2;  // swept: half 5 lost, twice 11 moved
+constexpr std::uint32_t kAnyPart = 100;  // one point in a hundred is there; swept: half 2 lost, twice 3 moved
 // Ground is most of what lies about its plane. A plane that is prolonged past its ground meets strays among other
 // things. Behind the machine a ramp's plane had 46 % at most (judge, 8300745). Floors that a VLP-16 sees to both sides
-// have 53 % at least on working days, and 84 % in a recorded corridor. Judgement, 2026-11-27: half.
-constexpr std::uint32_t kGroundPart = 2;
-constexpr double kAbout_m = 0.35;        // judgement, 2026-11-27: ruts and waves lie so far off a floor's plane
-constexpr std::uint32_t kRealPart = 20;  // judgement, 2026-11-26: strays alone are no ground either
+// have 53 % at least on working days, and 84 % in a recorded corridor; half.
+constexpr std::uint32_t kGroundPart = 2;  // swept: half 175 lost, twice 5 won
+// Ruts and waves lie so far off a floor's plane; swept: half and twice change nothing.
+constexpr double kAbout_m = 0.35;
+constexpr std::uint32_t kRealPart = 20;  // strays alone are no ground either; swept: half and twice change nothing
 // Half a turn: the machine stands at the edge of what is seen. Beyond, all of it lies ahead, behind or to one side.
 constexpr std::uint32_t kGapOfHalf = 4;
 // Ramps that were taken for the floor before floor_near was a gate lay up to 4.7 degrees otherwise. Twice as much, 10
-// degrees, is more than any usual alert limit. Judgement, 2026-11-26.
-constexpr double kUnseenRamp_rad = 0.17;
+// degrees, is more than any usual alert limit.
+constexpr double kUnseenRamp_rad = 0.17;  // swept: half 3 won, twice 7 moved
 
 // Number of points in each eighth of a turn around the machine.
 struct Eighths {
@@ -123,7 +126,8 @@ void reach_to_unseen_ground(const Eighths& seen, const Settings& s, FloorResult*
 // may be higher, but not as high as a roof: flat ground lies high over a steep plane that is prolonged.
 void copy_left_over(const PointSet& open, const Plane& floor, double off_m, const Eigen::Vector3d& sensor_base_m,
                     PointSet* out) {
-  constexpr float kBelowRoof = 1.6F;  // judgement, 2026-11-23: heights of the sensor; higher points are roof
+  // Heights of the sensor; higher points are roof; swept: half 8 moved, twice 2 moved.
+  constexpr float kBelowRoof = 1.6F;
   const FourDistances heights(floor);
   const FourFloats off = all_four(static_cast<float>(off_m));
   const FourFloats highest = all_four(static_cast<float>(floor.signed_distance(sensor_base_m)));
@@ -216,7 +220,7 @@ void reach_to_rivals(const FloorScene& scene, const PointSet& within_base, const
 // The levels reach to the floor within another radius, and beyond, since that one is not the truth either. A wider look
 // that was refused may still have found the truth, or taken it for a rival.
 void reach_to_other_look(const FloorResult& other, const Settings& s, FloorResult* floor) {
-  constexpr double kBeyond = 1.5;  // judgement, 2026-11-21: the other look is not the truth either
+  constexpr double kBeyond = 1.5;  // the other look is not the truth either; swept: half 12 moved, twice 1 lost
   const bool wider_look = other.roi_radius_m > floor->roi_radius_m && other.area_m2 >= limit_of<gate::FLOOR_AREA>(s);
   if (other.fit.refused && !wider_look) return;
   const RollPitch a = roll_pitch_of_up(floor->fit.plane.n), b = roll_pitch_of_up(other.fit.plane.n);

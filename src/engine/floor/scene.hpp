@@ -29,11 +29,10 @@ struct FloorScene {
 };
 
 // Points so near a floor's plane are its own: 9 cm by default. The fit takes them, and ground further off may be
-// another floor. Judgement, 2026-11-21.
-constexpr double kOwnInThresholds = 3.0;
+// another floor.
+constexpr double kOwnInThresholds = 3.0;  // swept: half 1 lost 11 won 1 beyond, twice 1 won
 
-// Points of a fit, as many as a wall's. More points add nothing, since rock and waves limit the fit. Judgement,
-// 2026-11-21.
+// Points of a fit, as many as a wall's. More points add nothing, since rock and waves limit the fit.
 constexpr std::uint32_t kFloorFitPoints = 8192;
 
 struct FloorScratch {

@@ -173,7 +173,7 @@ void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levellin
 }  // namespace
 
 bool is_sound(const pose_wall_odometry& o) {
-  // Sane inputs: a double resolves nanometres at 10,000 km; no drift comes near 1e12. Judgement, 2026-11-25.
+  // Sane inputs: a double resolves nanometres at 10,000 km; no drift comes near 1e12.
   constexpr double kFar_m = 1e7, kLarge = 1e12;
   const double* q = o.quaternion;
   const double norm2 = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];

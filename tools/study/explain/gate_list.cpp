@@ -44,7 +44,7 @@ std::string limit_words(const pose_wall_trace_info& gate) {
                      limit == "BY_CALLER" ? tr("what the frame allows") : without_settings_prefix(limit));
 }
 
-// The whole origin in English; in Chinese its head: "judgement, 2026-11-21".
+// The whole origin in English; in Chinese its head: "swept, 2026-11".
 std::string origin_words(const std::string& origin) {
   if (language() == Language::kEnglish) return origin;
   constexpr const char* kDivider = ", ";

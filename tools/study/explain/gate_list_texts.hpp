@@ -85,7 +85,7 @@ inline constexpr const char* kGateUnits[] = {translatable("share"), translatable
 // Parts of a limit's origin, before its colon.
 inline constexpr const char* kOriginParts[] = {translatable("key"),
                                                translatable("definition"),
-                                               translatable("judgement"),
+                                               translatable("swept"),
                                                translatable("a fifth of it"),
                                                translatable("all nominal scenes"),
                                                translatable("recorded corridor"),

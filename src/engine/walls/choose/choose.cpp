@@ -10,10 +10,11 @@
 namespace pose_wall {
 namespace {
 
-// 4 degrees: walls of one road rarely differ by more; judgement, 2026-11-21.
-constexpr double kParallelScale_rad = 0.07;
-constexpr double kDoubtShare = 0.5;  // judgement, 2026-11-21: half as strong a wall, not parallel, doubts the first
-constexpr double kAcrossCos = 0.7;   // 45 degrees: planes turned further from the side walls stand across the road
+// 4 degrees: walls of one road rarely differ by more.
+constexpr double kParallelScale_rad = 0.07;  // swept: half and twice change nothing
+// Half as strong a wall, not parallel, doubts the first; swept: half nothing, twice 2 won.
+constexpr double kDoubtShare = 0.5;
+constexpr double kAcrossCos = 0.7;  // 45 degrees: planes turned further from the side walls stand across the road
 
 struct Pair {
   const WallCandidate* a = nullptr;
@@ -68,8 +69,8 @@ std::uint32_t why_none(const WallCandidates& list, const Settings& s) {
 // True if a plane lies parallel behind another one. A vehicle or a curtain hides most of the wall behind it, so little
 // of that wall is enough for a doubt.
 bool lies_behind(const Plane& plane, const Plane& other) {
-  constexpr double kParallelCos = 0.995;  // planes within 5.7 degrees are parallel: judgement, 2026-11-21
-  constexpr double kBehind_m = 0.2;       // more than lies on a wall (15 cm): judgement, 2026-11-21
+  constexpr double kParallelCos = 0.995;  // planes within 5.7 degrees are parallel; swept: half 4 lost, twice 4 won
+  constexpr double kBehind_m = 0.2;       // more than lies on a wall (15 cm); swept: half 1 lost, twice 2 won
   return plane.n.dot(other.n) > kParallelCos && plane.d > other.d + kBehind_m;
 }
 
@@ -79,10 +80,12 @@ double past_ends_m(const WallEvidence& plane, const WallEvidence& other) {
   return (before_m > 0.0 ? before_m : 0.0) + (after_m > 0.0 ? after_m : 0.0);
 }
 
-constexpr double kPastEndsMin_m =
-    3.0;  // judgement, 2026-11-22: both ends together; more is a wall that the plane hides
-constexpr double kGoesOnLengthMin_m = 3.0;  // judgement, 2026-11-22: a wall beside a crosscut's mouth shows it
-constexpr double kBesideWall_m = 4.0;       // things along a wall are nearer; a mouth's end was 15 m off (seed 642)
+// Both ends together; more is a wall that the plane hides; swept: half nothing, twice 1 won.
+constexpr double kPastEndsMin_m = 3.0;
+// A wall beside a crosscut's mouth shows it; without, a short plane is a rival as well
+// (WallSelect.AWallThatGoesOnBesideWhatItsOpeningShowsIsARival); swept: half and twice change nothing.
+constexpr double kGoesOnLengthMin_m = 3.0;
+constexpr double kBesideWall_m = 4.0;  // things along a wall are nearer; a mouth's end was 15 m off (seed 642)
 
 // A curtain or a long vehicle ends, and the wall behind it goes on. Through an opening in a wall the plane behind shows
 // only between the wall's own parts.
@@ -103,7 +106,7 @@ bool goes_on_before(const WallCandidate& rival, const WallCandidate& chosen) {
 // rather the wall, with ghosts of a wet or shining face behind it, or a mesh. Counts rays, not cells: few ghosts far
 // apart fill as many cells as many points close together.
 bool stops_before(const WallCandidate& rival, const WallCandidate& chosen) {
-  constexpr double kStopsMin = 0.75;  // judgement, 2026-11-24: props and conveyors stop fewer rays
+  constexpr double kStopsMin = 0.75;  // props and conveyors stop fewer rays; swept: half 4 lost, twice 1 won
   return rival.evidence.stopped >= kStopsMin && lies_behind(chosen.plane, rival.plane);
 }
 

@@ -12,22 +12,27 @@ namespace pose_wall {
 namespace {
 
 constexpr double kPlace_m = EndPlaces::kPlace_m;  // the places of EndPlaces
-// So many points just behind the plane, within 2 m of its end, show its own bend. Judgement, 2026-11-21:
-constexpr std::uint32_t kBendPlaces = 4;
-constexpr double kBendMin = 4.0;
-constexpr double kOverRatio = 3.0;   // judgement, 2026-11-21: points over the top for each of the plane as high
-constexpr double kOverSpan_m = 1.5;  // judgement, 2026-11-21: a hollow at the shoulder opens at one place
+// So many points just behind the plane, within 2 m of its end, show its own bend:
+constexpr std::uint32_t kBendPlaces = 4;  // swept: half and twice change nothing
+constexpr double kBendMin = 4.0;          // swept: half and twice change nothing
 
-constexpr double kDepth_m = 0.1;        // steps of depth: a layer lies within two (README, Edges)
-constexpr double kLayerShare = 0.6;     // judgement, 2026-11-22: of all up to 2 m behind; a branching road is deep
-constexpr double kLayerOfPlane = 0.01;  // judgement, 2026-11-22: hollows of rough rock hold fewer
-constexpr int kLayerPlacesMin = 5;      // judgement, 2026-11-22: half metres with points of the layer
+// Points over the top for each of the plane as high; swept: half 1 moved, twice nothing.
+constexpr double kOverRatio = 3.0;
+// A hollow at the shoulder opens at one place; swept: half and twice change nothing.
+constexpr double kOverSpan_m = 1.5;
+
+constexpr double kDepth_m = 0.1;  // steps of depth: a layer lies within two (README, Edges)
+// Of all up to 2 m behind; a branching road is deep; swept: half 1 lost, twice 4 moved.
+constexpr double kLayerShare = 0.6;
+constexpr double kLayerOfPlane = 0.01;  // hollows of rough rock hold fewer; swept: half and twice change nothing
+constexpr int kLayerPlacesMin = 5;      // half metres with points of the layer; swept: half nothing, twice 1 moved
 constexpr double kLayerSpan_m = 6.0;    // niches are shorter; 984 frames of 164 classes lost no value (seed 517)
 
-constexpr double kBend_m = 0.5;        // judgement, 2026-11-21: a wall may bend so far behind its plane
-constexpr double kHighShare = 0.65;    // conveyors, pipes and vehicles end below: 1.7 m of the default band
-constexpr double kHighMin = 8.0;       // simulated walls show 18 points, even to a sensor that looks up by 7 degrees
-constexpr double kHighReach_m = 15.0;  // judgement, 2026-11-21: there such a sensor sees 1.8 m higher than itself
+constexpr double kBend_m = 0.5;      // a wall may bend so far behind its plane; swept: half and twice change nothing
+constexpr double kHighShare = 0.65;  // conveyors, pipes and vehicles end below: 1.7 m of the default band
+constexpr double kHighMin = 8.0;     // simulated walls show 18 points, even to a sensor that looks up by 7 degrees
+// There such a sensor sees 1.8 m higher than itself; swept: half 2 lost, twice nothing.
+constexpr double kHighReach_m = 15.0;
 
 // Over a low thing the sensor may see nothing nearer than range_max. Returns the number of such returns.
 double add_what_is_too_far(const WallScene& scene, const SightLines& lines, double height_m, TopPlaces* tops) {

@@ -17,11 +17,12 @@ namespace pose_wall {
 // Counts measured points by place. A place is half a metre of the plane, on either side of the sensor.
 class EndPlaces {
  public:
-  static constexpr std::uint32_t kPlaces = 30;      // on either side: 15 m, as far as kHighReach_m
-  static constexpr double kPlace_m = 0.5;           // as long as a column of the wall's grid
-  static constexpr std::uint32_t kNearPlaces = 12;  // judgement, 2026-11-21: 6 m: curtains and vehicles end within
-  static constexpr double kOnMin = 2.0;             // judgement, 2026-11-21: one or two points may be strays
-  static constexpr double kPastMin = 4.0;           // judgement, 2026-11-21: least points seen past an end
+  static constexpr std::uint32_t kPlaces = 30;  // on either side: 15 m, as far as kHighReach_m
+  static constexpr double kPlace_m = 0.5;       // as long as a column of the wall's grid
+  // 6 m: curtains and vehicles end within; swept: half and twice change nothing.
+  static constexpr std::uint32_t kNearPlaces = 12;
+  static constexpr double kOnMin = 2.0;    // one or two points may be strays; swept: half and twice change nothing
+  static constexpr double kPastMin = 4.0;  // least points seen past an end; swept: half and twice change nothing
 
   void clear() { *this = EndPlaces(); }
   // Places of four points. Points too far away go to a place that is never read.
@@ -54,7 +55,8 @@ class TopPlaces {
 
  private:
   static constexpr std::uint32_t kPlaces = 2 * EndPlaces::kPlaces;  // both sides of EndPlaces
-  static constexpr std::uint32_t kSteps = 32;  // judgement, 2026-11-21: of some 10 cm, over the band and kAboveBand_m
+  // Of some 10 cm, over the band and kAboveBand_m; swept: half and twice change nothing.
+  static constexpr std::uint32_t kSteps = 32;
   static constexpr std::uint32_t kPlaceCells = 2 * kSteps;  // on the plane, and past it
   Span<float> cell_;
 };
@@ -62,7 +64,8 @@ class TopPlaces {
 // Counts measured points behind a plane by their depth behind it, and marks the places along it.
 class DepthsBehind {
  public:
-  static constexpr double kPointsMin = 20.0;  // judgement, 2026-11-22: noise makes no layer of so many points
+  // Noise makes no layer of so many points; swept: half and twice change nothing.
+  static constexpr double kPointsMin = 20.0;
 
   void clear() { *this = DepthsBehind(); }
   void add(double behind_m, double along_m, double points);

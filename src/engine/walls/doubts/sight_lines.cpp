@@ -12,11 +12,13 @@ namespace {
 constexpr std::uint32_t kRows = DirectionGrid::kRows;        // of the directions' grid
 constexpr std::uint32_t kColumns = DirectionGrid::kColumns;  // of the directions' grid
 constexpr double kExpectedRank = 0.75;  // the upper quartile: half of the directions may be dark, blocked or hidden
-constexpr double kAnswersShare = 0.5;   // of the quartile: judgement, 2026-11-26, less is dark or half hidden
-constexpr std::uint32_t kSeenMin = kColumns / 8;  // judgement, 2026-11-21: a row with fewer expects nothing
-constexpr double kEmptyShare = 0.05;              // judgement, 2026-11-21: a column with fewer returns is empty
-constexpr std::uint32_t kBlockedColumns = 5;      // judgement, 2026-11-21: 14 degrees, as a post or a cabin blocks
-constexpr int kSectorsForgiven = 2;               // judgement, 2026-11-21: two are the machine's, more the road's
+constexpr double kAnswersShare = 0.5;  // of the quartile; less is dark or half hidden; swept: half nothing, twice 1 won
+// A row with fewer expects nothing; swept: half and twice change nothing.
+constexpr std::uint32_t kSeenMin = kColumns / 8;
+constexpr double kEmptyShare = 0.05;  // a column with fewer returns is empty; swept: half and twice change nothing
+// 14 degrees, as a post or a cabin blocks; swept: half and twice change nothing.
+constexpr std::uint32_t kBlockedColumns = 5;
+constexpr int kSectorsForgiven = 2;  // two are the machine's, more the road's; swept: half 4 lost, twice nothing
 
 struct Sector {
   std::uint32_t from = 0, columns = 0;
@@ -34,7 +36,8 @@ Sector widest_sector(const bool (&empty)[kColumns]) {
   return widest;
 }
 
-constexpr double kTowardsMin = 0.2;  // judgement, 2026-11-21: cosine from the normal; flatter rays smear over cells
+// Cosine from the normal; flatter rays smear over cells; swept: half and twice change nothing.
+constexpr double kTowardsMin = 0.2;
 
 }  // namespace
 
@@ -124,9 +127,10 @@ SightLines::Crossing SightLines::within(double reach_m, double towards_min, std:
 }
 
 SightLines::Zone SightLines::zone(std::uint32_t row, std::uint32_t column) const {
-  constexpr double kAlongCos = 0.8;  // 37 degrees about the road, where all may be too far: judgement, 2026-11-21
-  // 20 degrees: steeper rays meet roof or floor, not the other wall; judgement, 2026-11-21.
-  constexpr double kUpSine = 0.34;
+  // 37 degrees about the road, where all may be too far; swept: half and twice change nothing.
+  constexpr double kAlongCos = 0.8;
+  // 20 degrees: steeper rays meet roof or floor, not the other wall.
+  constexpr double kUpSine = 0.34;  // swept: half and twice change nothing
   const Eigen::Vector3d ray = ray_lidar(row, column);
   if (std::fabs(along_lidar_.dot(ray)) > kAlongCos) return kAlong;
   const double up = up_lidar_.dot(ray);

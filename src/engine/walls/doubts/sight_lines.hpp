@@ -37,7 +37,8 @@ struct SeenColumns {
 // Points where the middles of the cells meet a plane.
 class SightLines {
  public:
-  static constexpr double kReach_m = 8.0;      // judgement, 2026-11-21: a direction (2.8 degrees) covers 0.4 m there
+  // A direction (2.8 degrees) covers 0.4 m there; swept: half 1 won, twice 1 moved.
+  static constexpr double kReach_m = 8.0;
   static constexpr double kFarReach_m = 10.0;  // low sensors see over a conveyor only so far ahead (README, Edges)
 
   // The sensor is on the plane's positive side.

@@ -11,14 +11,16 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kRow_m = 0.05;          // judgement, 2026-11-21: grooves between pipes are wider (seed 510)
-constexpr std::uint32_t kPlaces = 64;    // one bit of a word for each metre along the wall
-constexpr double kPlacesMin = 4.0;       // judgement, 2026-11-21: grooves run on; fewer metres prove nothing
-constexpr double kPointsMin = 8.0;       // judgement, 2026-11-21: two for each of these metres
-constexpr double kBehindMin_m = 0.04;    // judgement, 2026-11-21: if rock shows between pipes, the plane is the rock's
-constexpr double kContrastMin_m = 0.06;  // judgement, 2026-11-21: beside a groove; rock varies less along metres
-constexpr double kSureInErrors = 4.0;    // standard errors: of 64 rows none is a groove by chance
-constexpr int kGroovesMin = 2;           // a heap at the foot and an arch at the top leave one between them
+constexpr double kRow_m = 0.05;  // grooves between pipes are wider (seed 510); swept: half and twice change nothing
+constexpr std::uint32_t kPlaces = 64;  // one bit of a word for each metre along the wall
+constexpr double kPlacesMin = 4.0;  // grooves run on; fewer metres prove nothing; swept: half and twice change nothing
+constexpr double kPointsMin = 8.0;  // two for each of these metres; swept: half and twice change nothing
+// If rock shows between pipes, the plane is the rock's; swept: half and twice change nothing.
+constexpr double kBehindMin_m = 0.04;
+// Beside a groove; rock varies less along metres; swept: half and twice change nothing.
+constexpr double kContrastMin_m = 0.06;
+constexpr double kSureInErrors = 4.0;  // standard errors: of 64 rows none is a groove by chance
+constexpr int kGroovesMin = 2;         // a heap at the foot and an arch at the top leave one between them
 
 double at_least(double least, double error) {
   return larger(least, kSureInErrors * error);

@@ -10,20 +10,26 @@
 namespace pose_wall {
 namespace {
 
-constexpr int kRowBits = 16;             // a bit for each height
-constexpr int kRowsMin = 4;              // judgement, 2026-11-21: at fewer heights a column's mean is the rock's there
-constexpr std::int32_t kAround = 6;      // judgement, 2026-11-21: columns to each side for the local level, 0.65 m
-constexpr std::uint32_t kAroundMin = 5;  // judgement, 2026-11-21: a quantile of fewer columns is no level
-constexpr double kLevelQuantile = 0.3;   // the rock's, as long as strips take at most 60 % of the columns around
-constexpr std::uint32_t kColumnsMin = 24;  // judgement, 2026-11-21: two Gaussians need 1.2 m
-constexpr double kSigmaMin_m = 0.004;      // judgement, 2026-11-21: the mean over a column does not scatter less
-constexpr double kGainMin = 4.0;        // judgement, 2026-11-21: log likelihood; twice it is chi-square(3)'s 95 % point
+constexpr int kRowBits = 16;  // a bit for each height
+// At fewer heights a column's mean is the rock's there; swept: half 3 won, twice 2 lost 4 won.
+constexpr int kRowsMin = 4;
+// Columns to each side for the local level, 0.65 m; swept: half 2 lost 6 won, twice 1 lost 4 won.
+constexpr std::int32_t kAround = 6;
+// A quantile of fewer columns is no level; swept: half 1 won, twice 2 lost 1 won.
+constexpr std::uint32_t kAroundMin = 5;
+constexpr double kLevelQuantile = 0.3;     // the rock's, as long as strips take at most 60 % of the columns around
+constexpr std::uint32_t kColumnsMin = 24;  // two Gaussians need 1.2 m; swept: half nothing, twice 1 won
+// The mean over a column does not scatter less; swept: half 1 moved, twice 5 moved.
+constexpr double kSigmaMin_m = 0.004;
+// Log likelihood; twice it is chi-square(3)'s 95 % point; swept: half nothing, twice 4 moved.
+constexpr double kGainMin = 4.0;
 constexpr double kApartInSigmas = 2.0;  // two equal Gaussians further apart have two tops
-constexpr double kGainPerColumn = 0.04;  // judgement, 2026-11-21: crooked rock, over many columns, must not pass
-constexpr std::int32_t kStripsMin = 3;   // one or two could be bulges of the rock
-constexpr std::int32_t kStripMax = 6;    // columns, 0.3 m: steel sets and props are a decimetre wide
-constexpr std::int32_t kFlank = 2;       // columns to each side: the flanks of a strip belong to it
-constexpr double kWideShareMax = 0.34;   // judgement, 2026-11-21: one wide thing to three strips
+// Crooked rock, over many columns, must not pass; swept: half 2 moved, twice 1 won.
+constexpr double kGainPerColumn = 0.04;
+constexpr std::int32_t kStripsMin = 3;  // one or two could be bulges of the rock
+constexpr std::int32_t kStripMax = 6;   // columns, 0.3 m: steel sets and props are a decimetre wide
+constexpr std::int32_t kFlank = 2;      // columns to each side: the flanks of a strip belong to it
+constexpr double kWideShareMax = 0.34;  // one wide thing to three strips; swept: half and twice change nothing
 
 }  // namespace
 

@@ -67,9 +67,10 @@ class StripProfile {
   const TwoLayers& layers() const { return layers_; }
 
  private:
-  static constexpr std::uint32_t kColumns = 1280;      // 64 m: kProfileReach_m to both sides
-  static constexpr double kColumnsPerMetre = 20.0;     // of 5 cm: half a steel set's width (README, Steel sets)
-  static constexpr float kStripProbabilityMax = 0.2F;  // judgement, 2026-11-21: a column is a strip's by four to one
+  static constexpr std::uint32_t kColumns = 1280;   // 64 m: kProfileReach_m to both sides
+  static constexpr double kColumnsPerMetre = 20.0;  // of 5 cm: half a steel set's width (README, Steel sets)
+  // A column is a strip's by four to one; swept: half 19 moved, twice 19 moved.
+  static constexpr float kStripProbabilityMax = 0.2F;
   struct Column {
     FourFloats sums;     // of its points: r, u, v, and their number
     std::uint32_t rows;  // one bit for each sixteenth of the height with points

@@ -11,17 +11,21 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kSeenWithin = 1.5;  // judgement, 2026-11-21: times the wall's distance; further, strips hide the rock
+// Times the wall's distance; further, strips hide the rock; swept: half 1 lost 2 won, twice 1 won.
+constexpr double kSeenWithin = 1.5;
 constexpr double kProfileReach_m = 32.0;  // to each side, as far as the wall's grid
 constexpr int kRings = 4;  // each twice as far; three and four times as far changed nothing (bench/README.md)
 // A ring that adds a smaller share of points is judged, but not fitted: no error grows, and 2.2 M of 59.8 M
 // instructions are saved (bench/README.md). Its points count in the last fit.
 constexpr double kWorthAFit = 0.12;
-constexpr double kLayerPointsMin = 100.0;     // judgement, 2026-11-21: fewer points show no layers
-constexpr double kLayerGainPerPoint = 0.02;   // judgement, 2026-11-21: of log likelihood
-constexpr double kLayerStepMin_m = 0.045;     // judgement, 2026-11-21: less is a sensor's noise, split by voxels
-constexpr double kLayersApartInSigmas = 2.5;  // judgement, 2026-11-21: clearly apart; two tops need two
-constexpr int kStepRounds = 4;                // judgement, 2026-11-21: for the surface's roughness; both give the plane
+constexpr double kLayerPointsMin = 100.0;    // fewer points show no layers; swept: half and twice change nothing
+constexpr double kLayerGainPerPoint = 0.02;  // of log likelihood; swept: half nothing, twice 1 won
+// Less is a sensor's noise, split by voxels; swept: half 2 moved, twice 1 lost.
+constexpr double kLayerStepMin_m = 0.045;
+// Clearly apart; two tops need two; swept: half 1 lost, twice 1 lost 4 won.
+constexpr double kLayersApartInSigmas = 2.5;
+// For the surface's roughness; both give the plane; swept: half 21 moved, twice 12 moved.
+constexpr int kStepRounds = 4;
 // A round that moves the plane less is the last. Of a ring's fit the next ring needs only the direction.
 struct JointRounds {
   int most;
@@ -31,13 +35,13 @@ constexpr double kAnyOffset_m = 1e9;  // beyond every offset
 constexpr JointRounds kOfARing{3, kAnyOffset_m, 5e-4};
 constexpr JointRounds kLast{8, 2e-4, 2e-4};
 // Fronts that disagree more are out (Hausman 1978). Not the factor of the levels: a smaller risk must not let more
-// join. Judgement, 2026-11-26.
-constexpr double kAgreeInSigmas = 5.0;
-constexpr std::uint32_t kFrontPointsMin = 60;  // judgement, 2026-11-21: fewer points are no fronts
+// join.
+constexpr double kAgreeInSigmas = 5.0;         // swept: half 1 moved, twice nothing
+constexpr std::uint32_t kFrontPointsMin = 60;  // fewer points are no fronts; swept: half 1 moved, twice 2 moved
 constexpr double kFrontStepMin_m = 0.06;       // fronts of a smaller step, chosen by residual, look too straight
 constexpr int kFrontRounds = 4;                // 0.6^4 = 0.13: the window narrows from two steps to a quarter of one
-constexpr double kFrontScaleMin_m = 0.005;     // judgement, 2026-11-21: voxels average a range's noise
-constexpr double kFrontScaleMax_m = 0.03;      // judgement, 2026-11-21: fronts of steel are straight
+constexpr double kFrontScaleMin_m = 0.005;     // voxels average a range's noise; swept: half 1 moved, twice 7 moved
+constexpr double kFrontScaleMax_m = 0.03;      // fronts of steel are straight; swept: half 7 moved, twice nothing
 
 void fill_strips(const WallPoints& points, StripProfile* strips) {
   const TangentPoints& at = points.at;

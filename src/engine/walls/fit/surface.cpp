@@ -12,10 +12,12 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kCut_m = 0.25;     // judgement, 2026-11-21: height of one cut
+constexpr double kCut_m = 0.25;     // height of one cut; swept: half 2 lost 1 won, twice 6 lost
 constexpr double kSpanMin_m = 0.5;  // least height left; a sensor that looks up 7 degrees sees half the band (seed 531)
-constexpr double kCurvatureInSigmas = 3.5;  // judgement, 2026-11-21: by chance hardly a wall is cut (0.02 %)
-constexpr double kBulgeMin_m = 0.04;  // judgement, 2026-11-21: smaller bulges are inliers (wall_ransac_thresh, 5 cm)
+// By chance hardly a wall is cut (0.02 %); swept: half 14 lost, twice 1 lost 3 won.
+constexpr double kCurvatureInSigmas = 3.5;
+// Smaller bulges are inliers (wall_ransac_thresh, 5 cm); swept: half 2 moved, twice 5 moved.
+constexpr double kBulgeMin_m = 0.04;
 
 // Weighted sums over the surface's points, of their heights and their distances from the plane.
 struct Row {
@@ -59,8 +61,9 @@ class Rows {
   double upper_slope() const { return sum(middle(), last_ + 1).slope(); }
 
  private:
-  static constexpr int kRows = 32;             // of the band, 7 cm each by default
-  static constexpr double kStrayShare = 0.01;  // judgement, 2026-11-22: less of the surface at an end is stray points
+  static constexpr int kRows = 32;  // of the band, 7 cm each by default
+  // Less of the surface at an end is stray points; swept: half 9 moved, twice 10 moved.
+  static constexpr double kStrayShare = 0.01;
 
   int middle() const { return (first_ + last_ + 1) / 2; }
   Row sum(int from, int to) const {
@@ -74,16 +77,17 @@ class Rows {
   int first_ = 0, last_ = kRows - 1;
 };
 
-constexpr double kScaleMaxInThresholds = 1.5;  // judgement, 2026-11-21: the scale follows rough rock up to here
-constexpr double kStripsLeftOver = 0.05;       // of the strips' step: measured on simulated steel sets
+// The scale follows rough rock up to here; swept: half 2 lost 6 won, twice 5 moved.
+constexpr double kScaleMaxInThresholds = 1.5;
+constexpr double kStripsLeftOver = 0.05;  // of the strips' step: measured on simulated steel sets
 // Of share times step, which leads back to the mean of both layers. The gate that chose them may have moved outwards by
-// as much. Judgement, 2026-11-26 (README, What else stands out).
-constexpr double kLayersLeftOver = 1.0;
-constexpr int kCutsMax = 6;  // of kCut_m: 1.5 m of a band of 2.25 m; kSpanMin_m is left
+// as much (README, What else stands out).
+constexpr double kLayersLeftOver = 1.0;  // swept: half 1 won, twice 1 lost
+constexpr int kCutsMax = 6;              // of kCut_m: 1.5 m of a band of 2.25 m; kSpanMin_m is left
 // A wall is fitted twice at most: as seen, and again once its bends are cut off. Between them quick fits, on fewer
 // points and without a covariance, test whether it still bends. The second fit may cost half the first (2026-11-25).
 constexpr std::uint32_t kCutPointsMax = WallPoints::kMost * 3 / 8, kAgainPointsMax = WallPoints::kMost / 2;
-constexpr int kRounds = 8;  // judgement, 2026-11-21: most fits settle earlier
+constexpr int kRounds = 8;  // most fits settle earlier; swept: half 27 moved, twice 3 moved
 
 IrlsSettings fit_settings(const Settings& s) {
   const double thresh_m = s.wall_ransac_thresh;

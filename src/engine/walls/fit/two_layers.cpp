@@ -12,13 +12,16 @@
 namespace pose_wall {
 namespace {
 
-constexpr int kRounds = 30;          // judgement, 2026-11-21: caps EM, which ends where it gains less than kGainLeast
+// Caps EM, which ends where it gains less than kGainLeast; swept: half 5 moved, twice 1 moved.
+constexpr int kRounds = 30;
 constexpr int kTrialRounds = 5;      // a short run (Biernacki et al. 2003); 1.4 M instructions less (bench/README.md)
 constexpr double kGainLeast = 1e-3;  // in log likelihood; a thousandth decides nothing where 4 are demanded
-constexpr double kShareMin = 0.06;   // judgement, 2026-11-21: a smaller layer looks like strays
-constexpr double kShareMax = 0.65;  // judgement, 2026-11-21: the nearer layer may be the larger one, but not nearly all
-constexpr double kStepMin_m = 0.03;     // judgement, 2026-11-21: callers demand more
-constexpr double kUniformShare = 0.05;  // judgement, 2026-11-21: strays at any distance; keeps the logarithm finite
+constexpr double kShareMin = 0.06;   // a smaller layer looks like strays; swept: half 2 moved, twice 4 lost 1 won
+// The nearer layer may be the larger one, but not nearly all; swept: half 1 lost, twice 8 lost 1 won.
+constexpr double kShareMax = 0.65;
+constexpr double kStepMin_m = 0.03;  // callers demand more; swept: half 1 lost, twice 1 won
+// Strays at any distance; keeps the logarithm finite; swept: half 28 moved, twice 3 won.
+constexpr double kUniformShare = 0.05;
 
 using Histogram = LayerHistogram;
 constexpr std::uint32_t kBins = LayerHistogram::kBins;  // the histogram's number of bins

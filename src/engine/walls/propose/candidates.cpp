@@ -15,15 +15,21 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kBaselineMin_m = 1.0;  // judgement, 2026-11-21: 5 cm of rock over a metre turn a draw by 3 degrees
-constexpr std::uint32_t kDrawsPerIteration = 16;  // judgement, 2026-11-21: twice the floor's, since fewer draws pass
-constexpr std::uint32_t kPointsMin = 30;          // judgement, 2026-11-21: fewer points of the band draw no wall
-constexpr double kDrawSlack_deg = 5.0;  // judgement, 2026-11-21: beyond yaw_max_deg, since refinement moves them
+// 5 cm of rock over a metre turn a draw by 3 degrees; swept: half 1 won, twice 187 moved.
+constexpr double kBaselineMin_m = 1.0;
+// Twice the floor's, since fewer draws pass; swept: half 2 moved, twice 2 moved.
+constexpr std::uint32_t kDrawsPerIteration = 16;
+constexpr std::uint32_t kPointsMin = 30;  // fewer points of the band draw no wall; swept: half nothing, twice 1 moved
+// Beyond yaw_max_deg, since refinement moves them; swept: half 7 moved, twice 10 moved.
+constexpr double kDrawSlack_deg = 5.0;
 
-constexpr std::uint32_t kThinMost = 4096;    // judgement, 2026-11-21: of the band, to score hypotheses; half of a fit's
-constexpr double kWideInThresholds = 5.0;    // wide enough to find the lean of a wall that a vertical hypothesis cuts
-constexpr double kNarrowInThresholds = 3.0;  // judgement, 2026-11-21: the lean is known; as near as points of a wall
-constexpr int kQuickRounds = 3;              // judgement, 2026-11-21: refine a hypothesis to within the threshold
+// Of the band, to score hypotheses; half of a fit's; swept: half 2 lost 1 won, twice 2 lost 3 won.
+constexpr std::uint32_t kThinMost = 4096;
+constexpr double kWideInThresholds = 5.0;  // wide enough to find the lean of a wall that a vertical hypothesis cuts
+// The lean is known; as near as points of a wall; swept: half 8 lost, twice 1 won.
+constexpr double kNarrowInThresholds = 3.0;
+// Refine a hypothesis to within the threshold; swept: half 3 lost 1 won 1 beyond, twice 1 lost 1 won.
+constexpr int kQuickRounds = 3;
 constexpr std::uint32_t kQuickPointsMax = 500;  // 800 at first; 250 missed rivals that cast doubt (bench/README.md)
 
 #ifdef POSE_WALL_TRACE
@@ -74,7 +80,8 @@ Span<std::uint32_t> points_near(const BoundedPoints& points, const Plane& plane,
 }  // namespace
 
 bool SameWall::operator()(const Plane& a, const Plane& b) const {
-  constexpr double kReach_m = 3.0;  // judgement, 2026-11-21: compared beside the machine and so far along the road
+  // Compared beside the machine and so far along the road; swept: half 3 lost, twice 1 won.
+  constexpr double kReach_m = 3.0;
   const double across_a = a.n.dot(view.side_level), across_b = b.n.dot(view.side_level);
   if (!(std::fabs(across_a) > 1e-3 && std::fabs(across_b) > 1e-3)) return false;
   for (const double s : {-kReach_m, 0.0, kReach_m}) {
@@ -157,8 +164,9 @@ void WallSearch::draw() {
 void WallSearch::offer_offsets(const Eigen::Vector3d& normal_level) {
   constexpr std::uint32_t kBins = 640;  // 32 m, as far as the wall's grid
   constexpr double kBin_m = 0.05;       // the inlier threshold's default
-  constexpr int kPeaks = 4;             // judgement, 2026-11-21: the wall, a plane before it, one behind it, one more
-  constexpr std::uint32_t kApart = 3;   // bins between peaks: 15 cm, as SameWall::kApart_m
+  // The wall, a plane before it, one behind it, one more; swept: half and twice change nothing.
+  constexpr int kPeaks = 4;
+  constexpr std::uint32_t kApart = 3;  // bins between peaks: 15 cm, as SameWall::kApart_m
   const double flat = std::sqrt(normal_level.x() * normal_level.x() + normal_level.y() * normal_level.y());
   if (!(flat > 0.5)) return;
   Plane plane;

@@ -20,8 +20,9 @@ namespace pose_wall {
 // Hypotheses for vertical planes on one side of a direction: two points and the vertical make one. They are scored and
 // kept as a short list of different surfaces.
 
-constexpr std::uint32_t kWallShortlist = 10;  // judgement, 2026-11-21: the wall behind the winner stays in the race
-constexpr double kRefineSlack_deg = 5.0;      // judgement, 2026-11-21: beyond yaw_max_deg, which gates the fit
+constexpr std::uint32_t kWallShortlist = 10;  // the wall behind the winner stays in the race
+// Beyond yaw_max_deg, which gates the fit; swept: half and twice change nothing.
+constexpr double kRefineSlack_deg = 5.0;
 
 // A direction to look along, and the horizontal direction to the searched side (both unit, levelled frame). A search
 // ahead and behind is a search beside a direction turned by 90 degrees.

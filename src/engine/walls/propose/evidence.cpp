@@ -11,7 +11,8 @@
 namespace pose_wall {
 namespace {
 
-constexpr double kRow_m = 0.3;  // judgement, 2026-11-21: separates pipes from a wall; a sparse sensor fills it
+// Separates pipes from a wall; a sparse sensor fills it; swept: half 9 lost 11 won 1 beyond, twice 10 lost 6 won.
+constexpr double kRow_m = 0.3;
 
 void count_up(std::uint16_t* counter, std::uint32_t by) {
   const std::uint32_t sum = *counter + by;

@@ -17,7 +17,8 @@
 namespace pose_wall {
 
 constexpr std::uint32_t kWallColumns = 128;  // 64 m: 32 m to both sides
-constexpr double kWallColumn_m = 0.5;        // judgement, 2026-11-21: a door or a niche fills one or more
+// A door or a niche fills one or more; swept: half 27 lost 6 won, twice 5 lost 7 won 1 beyond.
+constexpr double kWallColumn_m = 0.5;
 
 // Where a column begins along the wall.
 inline double wall_column_from_m(std::uint32_t column) {
@@ -95,9 +96,10 @@ class WallGrid {
 };
 
 // A fit takes points this far from its plane. Rough rock stays in, and things before it do not: one threshold more than
-// belongs to a wall. Judgement, 2026-11-21.
-constexpr double kFitGateInThresholds = 4.0;
-constexpr double kFitScaleMin_m = 0.003;  // judgement, 2026-11-21: centroids of dense voxels scatter no less
+// belongs to a wall.
+constexpr double kFitGateInThresholds = 4.0;  // swept: half 3 lost 23 won, twice 17 lost 4 won
+// Centroids of dense voxels scatter no less; swept: half nothing, twice 63 moved.
+constexpr double kFitScaleMin_m = 0.003;
 
 // Marks the grid with a plane, with the RANSAC threshold to judge a hypothesis, or as wide as the fit reaches.
 enum class MarkWidth { kThreshold, kFit };

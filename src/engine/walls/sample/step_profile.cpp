@@ -10,9 +10,10 @@
 namespace pose_wall {
 namespace {
 
-constexpr std::uint32_t kNear = 2;      // slices, about a leaf (8 cm): a voxel's points may lie anywhere in it
-constexpr std::uint32_t kRunMin = 6;    // slices, 0.3 m: a post is shorter (README, At a sampling point)
-constexpr std::uint32_t kOffPerOn = 8;  // judgement, 2026-11-21: at an edge, a voxel may hold points of both
+constexpr std::uint32_t kNear = 2;    // slices, about a leaf (8 cm): a voxel's points may lie anywhere in it
+constexpr std::uint32_t kRunMin = 6;  // slices, 0.3 m: a post is shorter (README, At a sampling point)
+// At an edge, a voxel may hold points of both; swept: half 4 moved, twice 2 moved.
+constexpr std::uint32_t kOffPerOn = 8;
 
 // 64 steps of 0.05, from 58 degrees below the horizontal to as much above it.
 std::uint64_t elevation_bit(double elevation) {
