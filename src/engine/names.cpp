@@ -3,6 +3,8 @@
 //
 // Texts of the public enums.
 
+#include <cstdint>
+
 #include "part/export.hpp"
 #include "pose_wall.h"
 
