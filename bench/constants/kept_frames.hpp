@@ -13,8 +13,8 @@
 #include <optional>
 #include <string>
 
-#include "campaign/plan.hpp"
-#include "sim/simulator.hpp"
+#include "lab/campaign/plan.hpp"
+#include "lab/sim/simulator.hpp"
 #include "truth/truth_csv.hpp"
 
 namespace pose_wall::tools::campaign {

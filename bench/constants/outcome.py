@@ -21,7 +21,7 @@ def number(text):
 
 
 def judged_truth(frame, q):
-    """As QuantityRecord::judged_truth of tools/campaign/record.cpp."""
+    """As QuantityRecord::judged_truth of tools/lab/campaign/record.cpp."""
     truth, surveyed = number(frame[q + "_truth"]), number(frame[q + "_surveyed"])
     if math.isnan(surveyed) or math.isnan(truth):
         return truth if math.isnan(surveyed) else surveyed

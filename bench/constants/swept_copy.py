@@ -49,7 +49,8 @@ def all_constants(root=ROOT):
         file = str(path.relative_to(root / "src"))
         found += [Constant(file, name, reason) for _, name, reason in checked.constants(path.read_text("utf-8"))]
     rows = GATE.findall((root / "src" / GATES).read_text("utf-8"))
-    return found + [Constant(GATES, name, origin) for name, _, _, origin in rows]
+    # A limit that the caller of a gate knows is no number of the table.
+    return found + [Constant(GATES, name, origin) for name, _, limit, origin in rows if limit != "BY_CALLER"]
 
 
 def scope_at(code, at):
@@ -102,7 +103,7 @@ class Copy:
             for path in paths:
                 if path.is_file() and "__pycache__" not in path.parts:
                     self.write_file(path)
-        for name, place in (("swept.hpp", "src/base"), ("kept_frames.hpp", "tools/campaign")):
+        for name, place in (("swept.hpp", "src/base"), ("kept_frames.hpp", "tools/lab/campaign")):
             put(self.tree / place / name, (HERE / name).read_bytes())
 
     def write_file(self, path):
@@ -110,7 +111,7 @@ class Copy:
         content = path.read_bytes()
         if file.parts[0] == "src" and path.suffix in {".cpp", ".hpp"}:
             content = self.rewritten(str(file.relative_to("src")), content.decode("utf-8")).encode("utf-8")
-        elif str(file) == "tools/campaign/runner.cpp":
+        elif str(file) == "tools/lab/campaign/runner.cpp":
             content = with_kept_frames(content.decode("utf-8")).encode("utf-8")
         put(self.tree / file, content)
         shutil.copymode(path, self.tree / file)
@@ -268,19 +269,17 @@ def replaced_once(text, old, new):
 
 def with_kept_frames(text):
     """The campaign's loop with frames that are kept (kept_frames.hpp)."""
-    before = '#include "campaign/folder.hpp"\n'
-    text = replaced_once(text, before, before + '#include "campaign/kept_frames.hpp"\n')
+    before = '#include "lab/campaign/folder.hpp"\n'
+    text = replaced_once(text, before, before + '#include "lab/campaign/kept_frames.hpp"\n')
     return replaced_once(text, "const sim::Simulator simulator = simulator_of(run);", "KeptRun simulator(run);")
 
 
 def with_swept_gates(text):
-    """A gate's limit times a factor, 1 unless it is swept."""
+    """A limit of the engine's table times a factor, 1 unless it is swept."""
     before = '#include "base/containers/work.hpp"'
-    text = replaced_once(text, before, '#include "base/swept.hpp"\n' + before)
+    text = replaced_once(text, before, before + '\n#include "base/swept.hpp"')
     before = "static double limit([[maybe_unused]] const Settings& s) { return "
     factor = ("static double factor() { \\\n"
               f'      static const double f = pose_wall_swept::swept<double>("{GATES}:" #id, 1.0); \\\n'
               "      return f; } \\\n    ")
-    text = replaced_once(text, before, factor + before + "factor() * ")
-    before = "bool passes(double value, double limit) {\n"
-    return replaced_once(text, before, before + "  limit *= gate::Row<id>::factor();\n")
+    return replaced_once(text, before, factor + before + "factor() * ")

@@ -24,7 +24,7 @@
 namespace pose_wall::tools::campaign {
 namespace {
 
-std::string refusal(const PlanRequest& request) {
+std::string refusal_of(const PlanRequest& request) {
   return test::said_by<std::invalid_argument>([&] { make_plan(request); });
 }
 
@@ -110,18 +110,18 @@ TEST(CampaignPlan, KindChoosesClasses) {
     EXPECT_EQ(sim::find_scene(run.scene)->kind, sim::SceneKind::kAdversarial) << run.scene;
   }
   request.scenes = {"clean"};
-  EXPECT_NE(refusal(request).find("adversarial"), std::string::npos);
+  EXPECT_NE(refusal_of(request).find("adversarial"), std::string::npos);
 }
 
 TEST(CampaignPlan, NamesWhatWasMeant) {
   PlanRequest request;
   request.scenes = {"steel_set"};
-  EXPECT_NE(refusal(request).find("'steel_sets'"), std::string::npos);
+  EXPECT_NE(refusal_of(request).find("'steel_sets'"), std::string::npos);
   request.scenes = {"clean"};
   request.sensors = {"os1-46"};
-  EXPECT_NE(refusal(request).find("'os1-64'"), std::string::npos);
+  EXPECT_NE(refusal_of(request).find("'os1-64'"), std::string::npos);
   request.size = "meduim";
-  EXPECT_NE(refusal(request).find("'medium'"), std::string::npos);
+  EXPECT_NE(refusal_of(request).find("'medium'"), std::string::npos);
 }
 
 Manifest manifest_for(const PlanRequest& request) {

@@ -61,7 +61,7 @@ DecodedCloud decode(MessageEncoding encoding, const std::string& bytes) {
   return decode_cloud("livox_ros_driver2/msg/CustomMsg", encoding, test::view_of(bytes), {1000, ""});
 }
 
-std::string refusal(MessageEncoding encoding, const std::string& bytes) {
+std::string refusal_of(MessageEncoding encoding, const std::string& bytes) {
   return test::said_by<FrameError>([&] { decode(encoding, bytes); });
 }
 
@@ -112,13 +112,13 @@ TEST(LivoxCustom, WhatIsCutOrCountsBeyondItsBytesIsRefusedWithThePlace) {
   for (const auto& [encoding, whole] : {std::pair(MessageEncoding::kRos1, custom_in_ros1({})),
                                         std::pair(MessageEncoding::kCdr, custom_in_cdr({}, false))}) {
     for (std::size_t size = 0; size < whole.size(); ++size) {
-      EXPECT_TRUE(contains(refusal(encoding, whole.substr(0, size)), "offset ")) << size;
+      EXPECT_TRUE(contains(refusal_of(encoding, whole.substr(0, size)), "offset ")) << size;
     }
   }
   CustomMessage message;
   message.count = 0xFFFFFFFFU;
-  EXPECT_TRUE(contains(refusal(MessageEncoding::kRos1, custom_in_ros1(message)), "4294967295 points need"));
-  EXPECT_TRUE(contains(refusal(MessageEncoding::kCdr, custom_in_cdr(message, true)), "4294967295 points need"));
+  EXPECT_TRUE(contains(refusal_of(MessageEncoding::kRos1, custom_in_ros1(message)), "4294967295 points need"));
+  EXPECT_TRUE(contains(refusal_of(MessageEncoding::kCdr, custom_in_cdr(message, true)), "4294967295 points need"));
 }
 
 TEST(LivoxCustom, IsATopicOfClouds) {

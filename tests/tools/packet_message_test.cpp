@@ -54,7 +54,7 @@ DecodedPackets decode(const std::string& type, MessageEncoding encoding, const s
   return decode_packets(type, encoding, test::view_of(bytes), {1000, ""});
 }
 
-std::string refusal(const std::string& type, MessageEncoding encoding, const std::string& bytes) {
+std::string refusal_of(const std::string& type, MessageEncoding encoding, const std::string& bytes) {
   return test::said_by<FrameError>([&] { decode(type, encoding, bytes); });
 }
 
@@ -86,7 +86,7 @@ TEST(PacketMessage, EveryTypeInEverySerialisation) {
     }
   }
   EXPECT_FALSE(is_packet_type("sensor_msgs/PointCloud2"));
-  EXPECT_TRUE(contains(refusal("std_msgs/String", MessageEncoding::kRos1, ""), "hold no packets"));
+  EXPECT_TRUE(contains(refusal_of("std_msgs/String", MessageEncoding::kRos1, ""), "hold no packets"));
 }
 
 TEST(PacketMessage, WhatIsCutOrCountsBeyondItsBytesIsRefusedWithThePlace) {
@@ -94,19 +94,19 @@ TEST(PacketMessage, WhatIsCutOrCountsBeyondItsBytesIsRefusedWithThePlace) {
     for (const MessageEncoding encoding : {MessageEncoding::kRos1, MessageEncoding::kCdr}) {
       const std::string whole = message(type, encoding, {std::string(1206, 'a')});
       for (std::size_t size = 0; size < whole.size(); ++size) {
-        EXPECT_TRUE(contains(refusal(type, encoding, whole.substr(0, size)), "offset ")) << type << " " << size;
+        EXPECT_TRUE(contains(refusal_of(type, encoding, whole.substr(0, size)), "offset ")) << type << " " << size;
       }
       std::string many = whole;
       const std::size_t count = encoding == MessageEncoding::kRos1 ? 21 : 24;
       ASSERT_EQ(many.substr(count, 4), raw(1U));
       many.replace(count, 4, "\xFF\xFF\xFF\xFF");
-      EXPECT_TRUE(contains(refusal(type, encoding, many), "offset "));
+      EXPECT_TRUE(contains(refusal_of(type, encoding, many), "offset "));
     }
   }
   std::string longer = message(kTypes[2], MessageEncoding::kRos1, {std::string(1206, 'a')});
   longer.replace(longer.size() - 4, 4, raw(1501U));
-  EXPECT_TRUE(contains(refusal(kTypes[2], MessageEncoding::kRos1, longer), "a packet of 1501 bytes; at most 1500"));
-  EXPECT_TRUE(contains(refusal(kTypes[0], MessageEncoding::kOther, longer), "neither CDR nor of ROS 1"));
+  EXPECT_TRUE(contains(refusal_of(kTypes[2], MessageEncoding::kRos1, longer), "a packet of 1501 bytes; at most 1500"));
+  EXPECT_TRUE(contains(refusal_of(kTypes[0], MessageEncoding::kOther, longer), "neither CDR nor of ROS 1"));
 }
 
 test::ReadCapture read_of_bag(const TempFolder& folder, const std::string& name, const std::string& bag) {

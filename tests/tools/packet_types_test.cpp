@@ -64,7 +64,7 @@ DecodedPackets decode(const std::string& type, bool is_cdr, const std::string& b
                         test::view_of(bytes), {1000, ""});
 }
 
-std::string refusal(const std::string& type, bool is_cdr, const std::string& bytes) {
+std::string refusal_of(const std::string& type, bool is_cdr, const std::string& bytes) {
   return test::said_by<FrameError>([&] { decode(type, is_cdr, bytes); });
 }
 
@@ -116,7 +116,7 @@ TEST(PacketTypes, OneMessageMayBeOnePacket) {
       // Of LSLidar's the length alone tells which version of the type it is.
       const std::size_t cuts = contains(type.type, "/LslidarPacket") ? 1200 : out.text().size();
       for (std::size_t size = 0; size < cuts; size += 7) {
-        EXPECT_TRUE(contains(refusal(type.type, is_cdr, out.text().substr(0, size)), "offset ")) << type.type;
+        EXPECT_TRUE(contains(refusal_of(type.type, is_cdr, out.text().substr(0, size)), "offset ")) << type.type;
       }
     }
   }
@@ -154,7 +154,7 @@ TEST(PacketTypes, FillingBehindAPacketOfLslidarIsCutOff) {
   filled.stamp(5).bytes(std::string(1206, 'a') + std::string(6, '\0'));
   EXPECT_EQ(decode("lslidar_msgs/LslidarPacket", true, filled.text()).packets[0].payload.size, 1206U);
   planar.stamp(5).bytes(std::string(2000, 'a'));
-  EXPECT_TRUE(contains(refusal("lslidar_msgs/LslidarPacket", true, planar.text()), "others are of planar sensors"));
+  EXPECT_TRUE(contains(refusal_of("lslidar_msgs/LslidarPacket", true, planar.text()), "others are of planar sensors"));
 }
 
 TEST(PacketTypes, ADeviceIsFoundBesideItsPackets) {
