@@ -74,13 +74,13 @@ class HeldDrive {
   void step() {
     where_.stamp_ns = static_cast<std::int64_t>(1e9 * time_s_);
     where_.pose = at_;
-    DrivePilot::Look look;
-    look.stamp_ns = where_.stamp_ns;
-    look.now_ns = where_.stamp_ns + static_cast<std::int64_t>(1e9 * kResult_s);
-    look.scan = &scan_;
-    look.where = &where_;
-    look.measured = command_;
-    command_ = pilot_.wish(look);
+    DrivePilot::View view;
+    view.stamp_ns = where_.stamp_ns;
+    view.now_ns = where_.stamp_ns + static_cast<std::int64_t>(1e9 * kResult_s);
+    view.scan = &scan_;
+    view.where = &where_;
+    view.measured = command_;
+    command_ = pilot_.wish(view);
     const pose_wall_planar_pose next =
         combined(at_, {kFrame_s * command_.speed_m_s, 0.0, kFrame_s * command_.turn_rad_s});
     pose_wall_planar_stop_result stop{};

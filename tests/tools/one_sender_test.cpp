@@ -83,7 +83,7 @@ std::string record_of(const std::string& frame, std::int64_t at_us, std::size_t 
 }
 
 // `tags`: what stands between the addresses and IP's number.
-std::string capture_of(const std::vector<SentPacket>& packets, const std::string& tags = "") {
+std::string packets_captured(const std::vector<SentPacket>& packets, const std::string& tags = "") {
   std::string file = test::capture_head();
   for (const SentPacket& packet : packets) {
     file += record_of(std::string(6, 'e') + card_of(packet) + tags + big(0x0800) + ip_packet(packet), packet.at_us);
@@ -123,7 +123,7 @@ TEST(TwoSensors, AreToldApartByAddressPortAndCard) {
        {Sender{0x0A010103, 2368, 2368, 0xAA0000000001, ""}, Sender{0x0A010101, 2368, 2369, 0xAA0000000001, ""},
         Sender{0x0A010101, 2369, 2368, 0xAA0000000001, ""}, Sender{0x0A010101, 2368, 2368, 0xAA0000000002, ""}}) {
     const ReadCapture capture =
-        read(folder.write("two.pcap", capture_of(mixed(turns(4, 2500), sent_by(turns(4, 1000), other, 300)))));
+        read(folder.write("two.pcap", packets_captured(mixed(turns(4, 2500), sent_by(turns(4, 1000), other, 300)))));
     EXPECT_TRUE(capture.errors.empty());
     EXPECT_EQ(capture.frames.size(), 4U);
     EXPECT_EQ(ranges_dm(capture), std::set<int>{50});
@@ -136,15 +136,15 @@ TEST(TwoSensors, TheFirstWholeTurnDecides) {
   const std::vector<SentPacket> late =
       sent_by(turns(4, 1000, 20), {0x0A010103, 2368, 2368, 1, ""}, -20 * kPacket_us - 100);
   const ReadCapture capture =
-      read(folder.write("two.pcap", capture_of(mixed(turns(4, 2500), sent_by(late, late[0].from, 200)))));
+      read(folder.write("two.pcap", packets_captured(mixed(turns(4, 2500), sent_by(late, late[0].from, 200)))));
   EXPECT_EQ(ranges_dm(capture), std::set<int>{50});
 }
 
 TEST(TwoSensors, TheOneThatIsNamedIsRead) {
   const TempFolder folder;
   const std::string file = folder.write(
-      "two.pcap",
-      capture_of(mixed(turns(4, 2500), sent_by(turns(4, 1000), {0x0A010101, 2368, 2369, 0xAA0000000002, ""}, 300))));
+      "two.pcap", packets_captured(mixed(turns(4, 2500),
+                                         sent_by(turns(4, 1000), {0x0A010101, 2368, 2369, 0xAA0000000002, ""}, 300))));
   for (const char* name : {"10.1.1.1:2369", "aa:00:00:00:00:02"}) {
     SensorOptions options;
     options.source = name;
@@ -254,20 +254,20 @@ void expect_same(const ReadCapture& capture, const ReadCapture& plain) {
 TEST(Packets, ThatWereCapturedTwiceAreOne) {
   const TempFolder folder;
   const std::vector<SentPacket> packets = turns(3, 2500);
-  const ReadCapture plain = read(folder.write("plain.pcap", capture_of(packets)));
-  expect_same(read(folder.write("all.pcap", capture_of(mixed(packets, sent_by(packets, kFirst, 3))))), plain);
+  const ReadCapture plain = read(folder.write("plain.pcap", packets_captured(packets)));
+  expect_same(read(folder.write("all.pcap", packets_captured(mixed(packets, sent_by(packets, kFirst, 3))))), plain);
   const std::vector<SentPacket> border(packets.begin() + 25, packets.begin() + 40);
-  expect_same(read(folder.write("border.pcap", capture_of(mixed(packets, sent_by(border, kFirst, 3))))), plain);
+  expect_same(read(folder.write("border.pcap", packets_captured(mixed(packets, sent_by(border, kFirst, 3))))), plain);
 }
 
 TEST(Packets, OnesThatCameLateJoinTheTurnThatTheyAreOf) {
   const TempFolder folder;
   const std::vector<SentPacket> packets = turns(3, 2500);
-  const ReadCapture plain = read(folder.write("plain.pcap", capture_of(packets)));
+  const ReadCapture plain = read(folder.write("plain.pcap", packets_captured(packets)));
   for (const std::size_t at : {10U, 28U, 29U, 30U, 59U}) {
     std::vector<SentPacket> swapped = packets;
     std::swap(swapped[at].payload, swapped[at + 1].payload);
-    const ReadCapture capture = read(folder.write("late.pcap", capture_of(swapped)));
+    const ReadCapture capture = read(folder.write("late.pcap", packets_captured(swapped)));
     ASSERT_EQ(capture.frames.size(), 3U) << at;
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_EQ(capture.frames[i].frame->cloud.width, plain.frames[i].frame->cloud.width) << at << ", frame " << i;
@@ -302,14 +302,15 @@ TEST(Packets, ALossOfAnyLengthJoinsNoTwoTurns) {
       std::vector<SentPacket> packets = turns(8, 2500);
       packets.erase(packets.begin() + static_cast<std::ptrdiff_t>(from),
                     packets.begin() + static_cast<std::ptrdiff_t>(from + lost));
-      const ReadCapture capture = read(folder.write("lost.pcap", capture_of(packets)));
+      const ReadCapture capture = read(folder.write("lost.pcap", packets_captured(packets)));
       EXPECT_GE(capture.frames.size(), 4U);
       for (const double span_ms : spans_ms(capture)) EXPECT_LE(span_ms, 41.5) << lost << " lost from " << from;
     }
   }
   std::vector<SentPacket> paused = turns(6, 2500);
   for (std::size_t i = 45; i < paused.size(); ++i) paused[i].at_us += 600'000'000;
-  for (const double span_ms : spans_ms(read(folder.write("paused.pcap", capture_of(paused))))) EXPECT_LE(span_ms, 41.5);
+  for (const double span_ms : spans_ms(read(folder.write("paused.pcap", packets_captured(paused)))))
+    EXPECT_LE(span_ms, 41.5);
 }
 
 TEST(Packets, OfAHeadThatTurnsTheOtherWayAreRefusedInWords) {
@@ -322,7 +323,7 @@ TEST(Packets, OfAHeadThatTurnsTheOtherWayAreRefusedInWords) {
     packet.clock_us = static_cast<std::uint32_t>(kPacket_us * i);
     packets.push_back({payload_of(packet), kPacket_us * i, kFirst});
   }
-  const std::string refusal = test::refusal_of(read(folder.write("back.pcap", capture_of(packets))));
+  const std::string refusal = test::refusal_of(read(folder.write("back.pcap", packets_captured(packets))));
   EXPECT_NE(refusal.find("turns the other way"), std::string::npos) << refusal;
 }
 
@@ -378,7 +379,7 @@ TEST(FieldOfView, EachTurnIsAFrameWhereverItLies) {
   const TempFolder folder;
   for (const auto& [from_deg, to_deg] : std::vector<std::pair<double, double>>{
            {100, 260}, {0, 180}, {180, 359}, {10, 350}, {30, 90}, {300, 60}, {200, 190}}) {
-    const ReadCapture capture = read(folder.write("fov.pcap", capture_of(seen(from_deg, to_deg, 10))));
+    const ReadCapture capture = read(folder.write("fov.pcap", packets_captured(seen(from_deg, to_deg, 10))));
     EXPECT_GE(capture.frames.size(), 9U) << from_deg << " to " << to_deg;
     EXPECT_LE(capture.frames.size(), 10U) << from_deg << " to " << to_deg;
     const std::vector<std::int64_t> at_ns = stamps(capture);
@@ -392,7 +393,7 @@ TEST(FieldOfView, EachTurnIsAFrameWhereverItLies) {
 // Times of points within a scan are those of the head's turning, also of a packet that spans the hole.
 TEST(FieldOfView, APacketAcrossTheHoleHasTheTimesOfBothSides) {
   const TempFolder folder;
-  const ReadCapture capture = read(folder.write("fov.pcap", capture_of(seen(100, 261, 6))));
+  const ReadCapture capture = read(folder.write("fov.pcap", packets_captured(seen(100, 261, 6))));
   ASSERT_GE(capture.frames.size(), 4U);
   for (std::size_t i = 1; i < 4; ++i) {
     const pose_wall_cloud& cloud = capture.frames[i].frame->cloud;
@@ -413,7 +414,7 @@ TEST(LinkLayer, TagsOfNetworksArePassedOver) {
   const TempFolder folder;
   const std::string one = big(0x8100) + big(5), two = big(0x88A8) + big(100) + one, old = big(0x9100) + big(7) + one;
   for (const std::string& tags : {std::string{}, one, two, old}) {
-    EXPECT_EQ(read(folder.write("tags.pcap", capture_of(turns(2, 2500), tags))).frames.size(), 2U) << tags.size();
+    EXPECT_EQ(read(folder.write("tags.pcap", packets_captured(turns(2, 2500), tags))).frames.size(), 2U) << tags.size();
     EXPECT_EQ(read(folder.write("cooked.pcap", cooked_capture_of(turns(2, 2500), tags))).frames.size(), 2U)
         << tags.size();
   }
