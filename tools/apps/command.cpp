@@ -81,7 +81,7 @@ constexpr Example kExamples[] = {
     {"pose_wall check-config road/pose_wall.yaml", translatable("resolved settings")},
 };
 
-std::string footer() {
+std::string command_footer() {
   std::string text = fmt::format("{}\n", tr("Examples:"));
   for (const Example& example : kExamples) text += fmt::format("  {:<68} {}\n", example.words, tr(example.purpose));
   return text + tr("Each verb has its own --help.");
@@ -115,7 +115,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_language_option(app);
   name_values(app);
   name_verb_group(app);
-  app.footer(footer());
+  app.footer(command_footer());
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ std::string amount(const QuantityComparison& quantity, double value) {
   return quantity.is_angle ? fmt::format("{:.4f}°", value * kDegPerRad) : fmt::format("{:.1f} mm", value * 1e3);
 }
 
-std::string percent(std::size_t part, std::size_t whole) {
+std::string exact_share(std::size_t part, std::size_t whole) {
   return whole == 0 ? "-" : fmt::format("{:.2f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
@@ -86,9 +86,9 @@ void print_points(const Efficiency& efficiency) {
 
 std::vector<std::string> raw_cells(const QuantityComparison& quantity, const std::optional<Efficiency>& efficiency) {
   const ErrorStatistics& s = quantity.statistics;
-  std::vector<std::string> cells = {quantity.name, std::to_string(s.frames()), percent(s.measured(), s.frames())};
+  std::vector<std::string> cells = {quantity.name, std::to_string(s.frames()), exact_share(s.measured(), s.frames())};
   append_figures(cells, quantity, s.raw());
-  cells.push_back(percent(s.raw_beyond_protection(), s.measured()));
+  cells.push_back(exact_share(s.raw_beyond_protection(), s.measured()));
   cells.push_back(std::isfinite(s.mean_z2()) ? fmt::format("{:.2f}", s.mean_z2()) : "-");
   if (efficiency) append_bound(cells, quantity, efficiency->quantity[quantity.index]);
   return cells;
@@ -99,10 +99,10 @@ std::vector<std::string> value_cells(const QuantityComparison& quantity) {
   const ErrorStatistics& s = quantity.statistics;
   std::vector<std::string> cells = {quantity.name, std::to_string(s.frames())};
   for (const std::uint32_t state : {POSE_WALL_VALID, POSE_WALL_DEGRADED, POSE_WALL_HELD, POSE_WALL_INVALID}) {
-    cells.push_back(percent(s.in_state(state), s.frames()));
+    cells.push_back(exact_share(s.in_state(state), s.frames()));
   }
   append_figures(cells, quantity, s.value());
-  cells.push_back(percent(s.value_beyond_protection(), s.value().count));
+  cells.push_back(exact_share(s.value_beyond_protection(), s.value().count));
   cells.push_back(s.valid() == 0 ? tr("none valid") : say("{} of {}", s.valid_beyond_alert(), s.valid()));
   return cells;
 }

@@ -153,7 +153,7 @@ void follow_scans(const LocaliseOptions& options, ScanSource& source, PlaceRecor
       ++work->unreadable;
       bar.print_above(fmt::format("pose_wall localise: {}: {}", scan->name, error));
     }
-    bar.advance(work->way.rows.empty() ? "" : state_words(work->way.rows.back().state));
+    bar.advance(work->way.rows.empty() ? "" : place_state_words(work->way.rows.back().state));
   }
 }
 
@@ -177,9 +177,9 @@ std::string candidate_table(const std::vector<pose_wall_planar_candidate>& candi
 }
 
 std::string last_place_text(const LocalisedRow& row) {
-  if (!row.has_pose()) return fmt::format("{}: {}", state_words(row.state), reason_words(row.reason));
+  if (!row.has_pose()) return fmt::format("{}: {}", place_state_words(row.state), place_reason_words(row.reason));
   return say("x {:.2f} m, y {:.2f} m, {:.1f}°, by ± {:.2f} m: {}", row.base.x_m, row.base.y_m,
-             row.base.yaw_rad * kDegPerRad, row.position_sigma_m(), state_words(row.state));
+             row.base.yaw_rad * kDegPerRad, row.position_sigma_m(), place_state_words(row.state));
 }
 
 std::string summary_text(const KnownMap& map, const MapLocaliser& localiser, const LocaliseWork& work,
@@ -208,7 +208,7 @@ std::vector<std::string> hints_of(const LocaliseFigures& figures, const KnownMap
     hints.push_back(
         say("one candidate is left, and nothing proves it: {}. If you know that the machine stands there, "
             "go on from it with --start={:.2f},{:.2f},{:.0f}",
-            reason_words(work.way.rows.back().reason), place.x_m, place.y_m, place.yaw_rad * kDegPerRad));
+            place_reason_words(work.way.rows.back().reason), place.x_m, place.y_m, place.yaw_rad * kDegPerRad));
   }
   if (figures.of_state[POSE_WALL_PLANAR_LOCALISE_AMBIGUOUS] > 0 && settings.map_is_whole == 0 &&
       figures.mostly[POSE_WALL_PLANAR_LOCALISE_AMBIGUOUS] == POSE_WALL_PLANAR_LOCALISE_SMOOTH) {

@@ -34,9 +34,9 @@ struct ReplayOptions {
   bool quiet = false;
 };
 
-const std::vector<std::string> kHead = {"event",       "kind",     "frame_index",   "stamp_ns",
-                                        "received_ns", "computed", "along_state",   "along_m",
-                                        "along_pl_m",  "run",      "motion_reasons"};
+const std::vector<std::string> kTableHead = {"event",       "kind",     "frame_index",   "stamp_ns",
+                                             "received_ns", "computed", "along_state",   "along_m",
+                                             "along_pl_m",  "run",      "motion_reasons"};
 
 // The motion's cells are empty where an event has none.
 std::vector<std::string> cells_of(const BoxEvent& e) {
@@ -45,7 +45,7 @@ std::vector<std::string> cells_of(const BoxEvent& e) {
       fmt::format("{}", e.frame_index), fmt::format("{}", e.stamp_ns),
       fmt::format("{}", e.received_ns), e.computed};
   if (!e.motion) {
-    cells.resize(kHead.size());
+    cells.resize(kTableHead.size());
     return cells;
   }
   const pose_wall_motion_result& m = *e.motion;
@@ -102,7 +102,7 @@ int replay(const ReplayOptions& options) {
   std::unique_ptr<ProgressBar> bar;
   std::optional<RowOutput> table;
   if (!options.table.empty()) {
-    table.emplace(options.table, std::vector<std::filesystem::path>{options.file}, csv_line(kHead), "--table");
+    table.emplace(options.table, std::vector<std::filesystem::path>{options.file}, csv_line(kTableHead), "--table");
   }
   bool is_written = true;
   const auto progress = [&](std::uint64_t done, std::uint64_t of) {

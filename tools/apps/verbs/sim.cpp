@@ -37,14 +37,14 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::uint32_t kFrames = 10;
+constexpr std::uint32_t kSceneFrames = 10;
 
 struct SimOptions {
   std::string scene = "clean";
   std::string surface, path;  // a real road in place of a scene
   std::optional<double> disc_radius_m;
   std::string sensor = "os1-64";
-  std::optional<std::uint32_t> frames;  // kFrames of a scene, all poses of a path
+  std::optional<std::uint32_t> frames;  // kSceneFrames of a scene, all poses of a path
   std::optional<double> rate_hz;
   std::uint64_t seed = 1;
   std::vector<std::string> settings;
@@ -212,7 +212,7 @@ void refuse_folder_of_others(const SimOptions& options) {
 // Fills in the number of frames, too.
 sim::Simulator simulator_of(SimOptions* options) {
   if (options->surface.empty()) {
-    if (!options->frames) options->frames = kFrames;
+    if (!options->frames) options->frames = kSceneFrames;
     return sim::Simulator(resolve_setup(*options), options->seed);
   }
   sim::Survey survey = resolve_survey(options);

@@ -28,7 +28,7 @@ namespace pose_wall::tools {
 namespace {
 
 // Two thousand million bytes are a hundred times the largest frame of any sensor on the market.
-constexpr std::uintmax_t kFileBytesMax = 2'000'000'000;
+constexpr std::uintmax_t kFrameBytesMax = 2'000'000'000;
 
 enum class Ending { kOther, kPcd, kBare, kPly, kText };
 
@@ -113,8 +113,8 @@ Bytes read_frame_bytes(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, error)) throw FrameError(tr("not a regular file"));
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) throw FrameError(system_error_text(error.value()));
-  if (size > kFileBytesMax) {
-    throw FrameError(say("{} bytes; a frame file of at most {} bytes is read", size, kFileBytesMax));
+  if (size > kFrameBytesMax) {
+    throw FrameError(say("{} bytes; a frame file of at most {} bytes is read", size, kFrameBytesMax));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FrameError(say("cannot be opened for reading: {}", system_error_text(errno)));

@@ -14,7 +14,7 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::size_t kFirstBytes = 1206, kLaterBytes = 1212;
+constexpr std::size_t kFirstKindBytes = 1206, kLaterBytes = 1212;
 constexpr std::uint16_t kLslidarBlockFlag = 0xEEFF;
 constexpr std::uint8_t kOneReturn = 0x37, kLastReturn = 0x38, kTwoReturns = 0x39;
 constexpr Lens kLensV4 = {0.0361, -20.25, false}, kLensV5 = {0.035, -21.80, false};
@@ -127,7 +127,7 @@ std::uint8_t lslidar_byte(ByteView payload, std::size_t offset) {
 }
 
 bool has_blocks(ByteView packet) {
-  if (packet.size != kFirstBytes && packet.size != kLaterBytes) return false;
+  if (packet.size != kFirstKindBytes && packet.size != kLaterBytes) return false;
   for (std::size_t block = 0; block < kLslidarBlocks; ++block) {
     if (little_endian_at(packet, block * kLslidarBlockBytes, 2) != kLslidarBlockFlag) return false;
     if (little_endian_at(packet, block * kLslidarBlockBytes + 2, 2) >= 36000) return false;
@@ -161,16 +161,16 @@ const BeamTable& lslidar_c32_v3_dense() {
 
 ByteView lslidar_packet(ByteView payload) {
   if (payload.size != kLaterBytes) return payload;
-  for (std::size_t i = kFirstBytes; i < kLaterBytes; ++i) {
+  for (std::size_t i = kFirstKindBytes; i < kLaterBytes; ++i) {
     if (lslidar_byte(payload, i) != 0) return payload;
   }
-  return {payload.data, kFirstBytes};
+  return {payload.data, kFirstKindBytes};
 }
 
 std::optional<LslidarModel> lslidar_model_of(ByteView payload) {
   const ByteView packet = lslidar_packet(payload);
   if (!has_blocks(packet)) return std::nullopt;
-  const bool is_first_kind = packet.size == kFirstBytes;
+  const bool is_first_kind = packet.size == kFirstKindBytes;
   for (const LslidarTraits& traits : all_lslidars()) {
     if (traits.is_first_kind() == is_first_kind && traits.byte == lslidar_byte(packet, packet.size - 1))
       return traits.model;
@@ -179,7 +179,7 @@ std::optional<LslidarModel> lslidar_model_of(ByteView payload) {
 }
 
 bool is_lslidar_dual(ByteView packet, const LslidarTraits& traits) {
-  const std::uint8_t mode = lslidar_byte(packet, (traits.is_first_kind() ? kFirstBytes : kLaterBytes) - 2);
+  const std::uint8_t mode = lslidar_byte(packet, (traits.is_first_kind() ? kFirstKindBytes : kLaterBytes) - 2);
   if (mode == kTwoReturns || mode == kOneReturn || mode == kLastReturn) return mode == kTwoReturns;
   for (std::size_t block = 0; block < kLslidarBlocks; block += 2) {
     const double azimuth_deg = lslidar_azimuth_deg(packet, block);

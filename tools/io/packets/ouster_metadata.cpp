@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double kMetresPerMm = 1e-3;
-constexpr std::uint32_t kRingsMost = 128;
+constexpr std::uint32_t kOusterRingsMost = 128;
 // Of firmware 1, which does not tell it (ouster-sdk, data_format.cpp).
 constexpr std::uint32_t kColumnsOfEarlyPackets = 16;
 // "122201000998": all serial numbers that ouster-sdk's captures hold.
@@ -200,7 +200,7 @@ void read_early_format(const Json& page, OusterMetadata& metadata) {
     if (mode.rfind(fmt::format("{}x", columns), 0) == 0) metadata.columns_per_frame = columns;
   }
   if (metadata.columns_per_frame == 0 || altitudes == nullptr || !altitudes->is_array() || altitudes->empty() ||
-      altitudes->size() > kRingsMost) {
+      altitudes->size() > kOusterRingsMost) {
     throw FrameError(tr("the metadata has no 'data_format'"));
   }
   metadata.rings = static_cast<std::uint32_t>(altitudes->size());
@@ -210,7 +210,7 @@ void read_early_format(const Json& page, OusterMetadata& metadata) {
 void read_format(const Json& page, const Json& format, OusterMetadata& metadata) {
   metadata.profile = profile_of(format);
   metadata.header = header_of(page, format, metadata.profile);
-  metadata.rings = count_of(format, "pixels_per_column", kRingsMost);
+  metadata.rings = count_of(format, "pixels_per_column", kOusterRingsMost);
   metadata.columns_per_frame = count_of(format, "columns_per_frame", 4096);
   metadata.columns_per_packet = count_of(format, "columns_per_packet", 64);
   metadata.window = window_of(format, metadata.columns_per_frame);

@@ -211,11 +211,11 @@ class LivoxWords : public PacketWords {
   void hear(const Datagram& datagram) override {
     const ByteView payload = datagram.payload;
     if (!is_livox_data(payload)) return;
-    constexpr std::size_t kNumberAt = 7, kTimeTypeAt = 11, kClockAt = 28;
+    constexpr std::size_t kCounterAt = 7, kTimeTypeAt = 11, kClockAt = 28;
     constexpr std::uint32_t kNumbers = 1U << 16U;
     is_dual_ = is_livox_dual(payload);
     time_type_ = little_endian_at(payload, kTimeTypeAt, 1);
-    const std::uint32_t number = little_endian_at(payload, kNumberAt, 2);
+    const std::uint32_t number = little_endian_at(payload, kCounterAt, 2);
     const bool is_counting_on = last_number_ >= kNumbers - kNumbersKept;
     if (number != 0 || is_counting_on) packets_.hear(number, 1.0, kNumbers);
     last_number_ = number;
@@ -226,9 +226,9 @@ class LivoxWords : public PacketWords {
 
   void describe(SourceSender* sender) const override {
     add_fact(sender, "return mode", is_dual_ ? translatable("two returns") : translatable("one return"));
-    static constexpr std::array<const char*, 3> kSources = {translatable("none: since its start"), "PTP", "GPS"};
-    if (time_type_ < kSources.size()) {
-      add_fact(sender, "time source", kSources[time_type_]);
+    static constexpr std::array<const char*, 3> kTimeSources = {translatable("none: since its start"), "PTP", "GPS"};
+    if (time_type_ < kTimeSources.size()) {
+      add_fact(sender, "time source", kTimeSources[time_type_]);
       add_fact(sender, translatable("synchronised"), time_type_ > 0 ? translatable("yes") : translatable("no"));
     }
     add_missing(sender, packets_);
@@ -318,9 +318,9 @@ class OusterWords : public PacketWords {
 class RoboSenseM1Words : public PacketWords {
  public:
   void hear(const Datagram& datagram) override {
-    constexpr std::size_t kNumberAt = 4;
+    constexpr std::size_t kCounterAt = 4;
     if (!is_robosense_m1_data(datagram.payload)) return;
-    packets_.hear(static_cast<std::int64_t>(robosense_number(datagram.payload, kNumberAt, 2)), 1.0,
+    packets_.hear(static_cast<std::int64_t>(robosense_number(datagram.payload, kCounterAt, 2)), 1.0,
                   std::int64_t{1} << 16);
   }
 

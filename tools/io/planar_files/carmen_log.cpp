@@ -36,9 +36,9 @@ struct LineFault {
 };
 
 // The words of one line, in turn. Throws LineFault.
-class Words {
+class LineWords {
  public:
-  explicit Words(std::string_view line) : left_(line) {}
+  explicit LineWords(std::string_view line) : left_(line) {}
 
   std::string_view word(const char* what) {
     const std::string_view word = take_word(left_);
@@ -91,7 +91,7 @@ class Words {
   std::string_view left_;
 };
 
-void read_stamps(Words* words, CarmenScan* scan) {
+void read_stamps(LineWords* words, CarmenScan* scan) {
   const std::string_view stamp = words->word("ipc_timestamp");
   if (!parse_stamp_ns(stamp, &scan->stamp_ns)) {
     throw LineFault{CarmenSkip::kBadLine, say("{} is no number: '{}'", "ipc_timestamp", std::string(stamp))};
@@ -136,7 +136,7 @@ double front_field_deg(std::size_t beams, double steps, const FrontView& view) {
   return told_deg;
 }
 
-CarmenScan front_laser(Words words, const FrontView& view) {
+CarmenScan front_laser(LineWords words, const FrontView& view) {
   CarmenScan scan;
   const std::size_t beams = words.count("num_readings", 2);
   scan.range_m = words.ranges(beams);
@@ -150,7 +150,7 @@ CarmenScan front_laser(Words words, const FrontView& view) {
   return scan;
 }
 
-CarmenScan robot_laser(Words words) {
+CarmenScan robot_laser(LineWords words) {
   CarmenScan scan;
   words.finite("laser_type");
   scan.angle_min_rad = words.finite("start_angle");
@@ -249,8 +249,8 @@ class LogParser {
     const std::string_view kind = take_word(line);
     if (kind.empty()) return skip(CarmenSkip::kEmpty, number);
     if (kind.front() == '#') return skip(CarmenSkip::kComment, number);
-    if (kind == "FLASER") return keep(front_laser(Words(line), front_view()), number);
-    if (kind == "ROBOTLASER1") return keep(robot_laser(Words(line)), number);
+    if (kind == "FLASER") return keep(front_laser(LineWords(line), front_view()), number);
+    if (kind == "ROBOTLASER1") return keep(robot_laser(LineWords(line)), number);
     if (kind == "PARAM") return param(line, number);
     ++log_.other_messages[std::string(kind)];
     skip(CarmenSkip::kOtherMessage, number);

@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::uint32_t kMostOfAll = 65535;  // of the format
 
-class Words {
+class HeaderWords {
  public:
-  explicit Words(std::string_view bytes) : bytes_(bytes) {}
+  explicit HeaderWords(std::string_view bytes) : bytes_(bytes) {}
 
   // A number behind white space and comments, with what it is called.
   std::uint32_t number(const char* name, std::uint32_t least, std::uint32_t most) {
@@ -60,8 +60,8 @@ class Words {
   std::size_t at_ = 2;  // behind P5
 };
 
-[[maybe_unused]] constexpr const char* kNames[] = {translatable("width"), translatable("height"), translatable("white"),
-                                                   translatable("pixel")};
+[[maybe_unused]] constexpr const char* kSizeNames[] = {translatable("width"), translatable("height"),
+                                                       translatable("white"), translatable("pixel")};
 
 void read_binary(std::string_view bytes, PgmImage* image) {
   const std::size_t pixels = image->pixels.size(), each = image->most > 255 ? 2 : 1;
@@ -83,7 +83,7 @@ PgmImage parse_pgm(std::string_view bytes) {
   const bool binary = bytes.substr(0, 2) == "P5", text = bytes.substr(0, 2) == "P2";
   if (!binary && !text) throw PgmError(tr("the image is no PGM: it must begin with P5 or P2"));
   PgmImage image;
-  Words words(bytes);
+  HeaderWords words(bytes);
   image.width = words.number("width", 1, POSE_WALL_PLANAR_GRID_SIDE_MAX);
   image.height = words.number("height", 1, POSE_WALL_PLANAR_GRID_SIDE_MAX);
   image.most = words.number("white", 1, kMostOfAll);

@@ -28,7 +28,7 @@ pose_wall_planar_pose pose_of(const sim::PlanePose& pose) {
 // Somewhere on a road, with room for the machine, and not near where the map began.
 sim::PlanePose draw_start(const sim::Network& network, const TaughtRoads& roads, std::uint64_t seed) {
   constexpr int kTries = 2000;
-  constexpr double kRoom_m = 1.5, kFar_m = 25.0;
+  constexpr double kRoom_m = 1.5, kFarStart_m = 25.0;
   sim::Random random(seed, 0x57a2);
   for (int k = 0; k < kTries; ++k) {
     const auto mark = static_cast<std::size_t>(random.uniform() * static_cast<double>(roads.marks.size()));
@@ -37,7 +37,7 @@ sim::PlanePose draw_start(const sim::Network& network, const TaughtRoads& roads,
     const sim::PlanePose pose{at.x_m, at.y_m, std::remainder(yaw_rad, 2.0 * M_PI)};
     const sim::Place ahead(std::cos(yaw_rad), std::sin(yaw_rad));
     bool has_room = (pose.place() - sim::Place(roads.marks.front().truth.x_m, roads.marks.front().truth.y_m)).norm() >
-                    (k < kTries / 2 ? kFar_m : 0.0);
+                    (k < kTries / 2 ? kFarStart_m : 0.0);
     for (double along_m = -kRear_m; along_m <= kFront_m && has_room; along_m += 0.3) {
       const sim::Place p = pose.place() + along_m * ahead;
       has_room = network.is_open(p) && network.clearance_m(p, 2.0 * kRoom_m) > kRoom_m;

@@ -8,7 +8,7 @@
 namespace pose_wall::tools {
 namespace {
 
-std::uint64_t bytes_for(const pose_wall_planar_scanner_settings& settings) {
+std::uint64_t scanner_bytes(const pose_wall_planar_scanner_settings& settings) {
   std::uint64_t bytes = 0;
   require_ok(pose_wall_planar_scanner_memory_needed(&settings, &bytes), translatable("the settings of the scan"));
   return bytes;
@@ -51,7 +51,7 @@ pose_wall_cloud cloud_of(const sim::Frame& frame, std::int64_t stamp_ns) {
 }
 
 DriveScanner::DriveScanner(const sim::SensorModel& model)
-    : config_(drive_config(model)), block_(bytes_for(drive_scanner_settings())) {
+    : config_(drive_config(model)), block_(scanner_bytes(drive_scanner_settings())) {
   const pose_wall_planar_scanner_settings settings = drive_scanner_settings();
   require_ok(engine_.open(config_), translatable("the settings of the drive"));
   require_ok(pose_wall_planar_scanner_open(config_.get(), &settings, block_.data(), block_.bytes(), &scanner_),

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kRadius_m = 0.2, kTall_m = 1.75;
 constexpr double kFromWall_m = 0.45;  // the middle of who stands at a wall
-constexpr double kReach_m = 6.0;      // of the look for a wall
+constexpr double kWallReach_m = 6.0;  // of the look for a wall
 constexpr double kKeepsOff_m = 0.3;   // between skin and machine
 constexpr double kLeaves_m = 14.0;    // back along the way, past the machine
 constexpr double kThere_m = 0.05;
@@ -38,8 +38,8 @@ Stand stand_at(const std::vector<Place>& line, double along_m) {
 // Beside the line at one side, close to the wall.
 Place at_wall(const Network& network, const Stand& stand, double side) {
   const Place across(-side * stand.ahead.y(), side * stand.ahead.x());
-  const PlaneHit hit = network.cast(stand.at, across, kReach_m);
-  return stand.at + (std::min(hit.range_m, kReach_m) - kFromWall_m) * across;
+  const PlaneHit hit = network.cast(stand.at, across, kWallReach_m);
+  return stand.at + (std::min(hit.range_m, kWallReach_m) - kFromWall_m) * across;
 }
 
 }  // namespace

@@ -22,21 +22,24 @@ constexpr double kHeading_m = 6.0;
 // Between the middles of cross roads.
 constexpr double kPillar_m = 11.0;
 
-void demand(bool is_kept, const char* rule) {
+void demand_of_plan(bool is_kept, const char* rule) {
   if (!is_kept) throw std::invalid_argument(std::string("network plan: ") + rule);
 }
 
 void check(const NetworkPlan& plan) {
-  demand(plan.length_m >= 60.0 && plan.length_m <= 20000.0, "length_m must be from 60 to 20000");
-  demand(plan.roads >= 0 && plan.roads <= 6, "roads must be from 0 to 6");
-  demand(plan.spacing_m == 0.0 || (plan.spacing_m >= 16.0 && plan.spacing_m <= 60.0), "spacing_m must be 16 to 60");
-  demand(plan.crosscut_m == 0.0 || (plan.crosscut_m >= 16.0 && plan.crosscut_m <= 20000.0), "crosscut_m from 16");
-  demand(plan.width_min_m >= 2.5 && plan.width_max_m <= 8.0 && plan.width_min_m <= plan.width_max_m,
-         "widths must be from 2.5 to 8");
-  demand(plan.roughness_m >= 0.0 && plan.roughness_m <= 0.3 && plan.wave_m >= 0.0 && plan.wave_m <= 0.3,
-         "relief must be from 0 to 0.3");
-  demand(plan.bend_m >= 0.0 && plan.bend_m <= 12.0 && std::abs(plan.turn_rad) <= 4.5, "bend_m to 12, turn_rad to 4.5");
-  demand(plan.height_m >= 2.0 && plan.height_m <= 8.0, "height_m must be from 2 to 8");
+  demand_of_plan(plan.length_m >= 60.0 && plan.length_m <= 20000.0, "length_m must be from 60 to 20000");
+  demand_of_plan(plan.roads >= 0 && plan.roads <= 6, "roads must be from 0 to 6");
+  demand_of_plan(plan.spacing_m == 0.0 || (plan.spacing_m >= 16.0 && plan.spacing_m <= 60.0),
+                 "spacing_m must be 16 to 60");
+  demand_of_plan(plan.crosscut_m == 0.0 || (plan.crosscut_m >= 16.0 && plan.crosscut_m <= 20000.0),
+                 "crosscut_m from 16");
+  demand_of_plan(plan.width_min_m >= 2.5 && plan.width_max_m <= 8.0 && plan.width_min_m <= plan.width_max_m,
+                 "widths must be from 2.5 to 8");
+  demand_of_plan(plan.roughness_m >= 0.0 && plan.roughness_m <= 0.3 && plan.wave_m >= 0.0 && plan.wave_m <= 0.3,
+                 "relief must be from 0 to 0.3");
+  demand_of_plan(plan.bend_m >= 0.0 && plan.bend_m <= 12.0 && std::abs(plan.turn_rad) <= 4.5,
+                 "bend_m to 12, turn_rad to 4.5");
+  demand_of_plan(plan.height_m >= 2.0 && plan.height_m <= 8.0, "height_m must be from 2 to 8");
 }
 
 // Roads on straight lines, to be bent at the end: along is x, across is y.

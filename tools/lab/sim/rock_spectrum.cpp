@@ -14,8 +14,8 @@ namespace pose_wall::tools::sim {
 namespace {
 
 // About half an octave apart, from what a dense scan resolves to twice what a wall is fitted over.
-constexpr std::array<double, RockSpectra::kLengths> kLengths_m = {0.1, 0.15, 0.2, 0.3, 0.5, 0.8,
-                                                                  1.2, 2.0,  3.0, 4.5, 6.0, 10.0};
+constexpr std::array<double, RockSpectra::kLengths> kSpectrumLengths_m = {0.1, 0.15, 0.2, 0.3, 0.5, 0.8,
+                                                                          1.2, 2.0,  3.0, 4.5, 6.0, 10.0};
 constexpr int kSamples = 17;                // of a stretch: sixteen steps show all that is longer than an eighth of it
 constexpr std::size_t kFewestSamples = 13;  // a hole of a quarter
 constexpr double kBroken_m = 0.5;           // between two samples: an opening, no rock that bulges
@@ -58,14 +58,14 @@ std::vector<ReliefAtLength> RockSpectra::Reliefs::told() const {
   for (std::size_t k = 0; k < kLengths; ++k) {
     std::vector<double> sorted = of_m[k];
     if (sorted.empty()) {
-      all.push_back({kLengths_m[k], kNoTruth, kNoTruth, 0, broken[k]});
+      all.push_back({kSpectrumLengths_m[k], kNoTruth, kNoTruth, 0, broken[k]});
       continue;
     }
     std::sort(sorted.begin(), sorted.end());
     const auto at = [&](double share) {
       return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
     };
-    all.push_back({kLengths_m[k], at(0.5), at(kRough), sorted.size(), broken[k]});
+    all.push_back({kSpectrumLengths_m[k], at(0.5), at(kRough), sorted.size(), broken[k]});
   }
   return all;
 }
@@ -75,7 +75,7 @@ void RockSpectra::measure(const RockSurface& rock, const Face& face, std::array<
   constexpr int kRows = 5;
   const double wide_m = face.high_m - face.low_m;
   for (std::size_t k = 0; k < kLengths; ++k) {
-    const double length_m = kLengths_m[k];
+    const double length_m = kSpectrumLengths_m[k];
     const auto add = [&](std::size_t direction, const Vector& middle, const Vector& axis) {
       Reliefs& reliefs = (*along_and_across)[direction];
       if (const auto relief = relief_of(rock, middle, axis, face.probe, length_m)) {

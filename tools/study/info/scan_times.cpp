@@ -144,20 +144,20 @@ bool is_flat(const Note& note) {
   return note.has_rings && !note.leans;
 }
 
-bool is_turn(const Note& note) {
+bool is_of_turn(const Note& note) {
   return note.turn_s > 0.0 && note.off_moment <= kOffMomentMost;
 }
 
 // More turns in a scan than any sensor makes, and about as many as there are rings.
 bool is_by_row(const Note& note, std::size_t rings) {
-  if (!is_turn(note) || note.turn_s >= kTurnLeast_s) return false;
+  if (!is_of_turn(note) || note.turn_s >= kTurnLeast_s) return false;
   return std::fabs(note.spread_s / note.turn_s / static_cast<double>(rings) - 1.0) < 0.25;  // empty rings are left out
 }
 
 // A scan of a whole turn takes a stamp's step, or some steps fewer where frames were left out; one of a part does not
 // take longer than a step.
 bool is_span_wrong(const Note& note, double step_s) {
-  if (!is_turn(note)) return false;
+  if (!is_of_turn(note)) return false;
   if (note.turn_s < kTurnLeast_s) return true;
   if (step_s <= 0.0) return false;
   if (note.spread_s > (1.0 + kSpanRoom) * step_s) return true;
@@ -203,7 +203,7 @@ void ScanTimeLook::add(const Frame& frame) {
     note.order = order_of(returns);
     note.has_rings = returns.has_rings;
     note.leans = returns.has_rings && lean_rad(returns.all) > kLeanMost_rad;
-    if (is_turn(note)) note.moved_m_s = moved_m_s(returns.all, turn, note.spread_s).value_or(0.0);
+    if (is_of_turn(note)) note.moved_m_s = moved_m_s(returns.all, turn, note.spread_s).value_or(0.0);
   }
   notes_.push_back(note);
 }
@@ -217,7 +217,7 @@ ScanTimeFacts ScanTimeLook::facts(const SensorFacts& sensor, const std::vector<s
   facts.step_s = steps.rate_hz > 0.0 ? 1.0 / steps.rate_hz : 0.0;
   facts.spread_s = median_by(
       notes_, [](const Note& note) { return note.spread_s > 0.0; }, &Note::spread_s);
-  facts.turn_s = median_by(notes_, is_turn, &Note::turn_s);
+  facts.turn_s = median_by(notes_, is_of_turn, &Note::turn_s);
   const bool turns = sensor.rings >= kRingsLeast && sensor.azimuth_span_deg >= kRoundLeast_deg;
   const std::pair<TimeFault, Rule> rules[] = {
       {TimeFault::kType, [](const Note& n) { return n.is_type; }},
@@ -226,8 +226,8 @@ ScanTimeFacts ScanTimeLook::facts(const SensorFacts& sensor, const std::vector<s
       {TimeFault::kNoTurn, [&](const Note& n) { return turns && !n.leans && n.off_moment > kOffMomentMost; }},
       {TimeFault::kByRow, [&](const Note& n) { return turns && is_by_row(n, sensor.rings); }},
       {TimeFault::kUneven,
-       [&](const Note& n) { return turns && is_flat(n) && is_turn(n) && n.off_turn > kOffTurnMost; }},
-      {TimeFault::kBackward, [&](const Note& n) { return turns && is_turn(n) && n.order < kOrderLeast; }},
+       [&](const Note& n) { return turns && is_flat(n) && is_of_turn(n) && n.off_turn > kOffTurnMost; }},
+      {TimeFault::kBackward, [&](const Note& n) { return turns && is_of_turn(n) && n.order < kOrderLeast; }},
       {TimeFault::kSpan, [&](const Note& n) { return turns && is_span_wrong(n, facts.step_s); }},
       {TimeFault::kMoved, [&](const Note& n) { return turns && is_flat(n) && n.moved_m_s > 0.0; }},
   };

@@ -18,7 +18,7 @@ constexpr std::size_t kMoments = 180;  // of a scan: 2 deg of a turn each, below
 // A twentieth of a turn: beams look up to 8 deg beside the sensor's azimuth (HDL-64E manual, Ouster's metadata).
 constexpr double kOffTurn_rad = 18.0 * kRadPerDeg;
 
-double wrapped(double angle_rad) {
+double wrapped_rad(double angle_rad) {
   return std::remainder(angle_rad, 2.0 * M_PI);
 }
 
@@ -46,7 +46,7 @@ double first_rate(const Moments& moments, double moment_s) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < kMoments; ++k) {
     if (moments[k].count == 0.0 || moments[k - 1].count == 0.0) continue;
-    steps.push_back(wrapped(moments[k].angle() - moments[k - 1].angle()));
+    steps.push_back(wrapped_rad(moments[k].angle() - moments[k - 1].angle()));
   }
   if (steps.empty()) return 0.0;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
@@ -68,7 +68,7 @@ void fit_line(const Moments& moments, double moment_s, Turn* turn) {
   for (int round = 0; round < 2; ++round) {
     double w = 0.0, t = 0.0, a = 0.0, tt = 0.0, ta = 0.0;
     for (std::size_t k = 0; k < kMoments; ++k) {
-      const double off = wrapped(moments[k].angle() - turn->phase_rad - turn->rate_rad_s * time_s(k));
+      const double off = wrapped_rad(moments[k].angle() - turn->phase_rad - turn->rate_rad_s * time_s(k));
       if (round > 0 && std::fabs(off) > kOffTurn_rad) continue;
       const double n = moments[k].count;
       w += n, t += n * time_s(k), a += n * off, tt += n * time_s(k) * time_s(k), ta += n * time_s(k) * off;
@@ -81,39 +81,39 @@ void fit_line(const Moments& moments, double moment_s, Turn* turn) {
 }
 
 double off_line(const TimedReturn& one, const Turn& turn) {
-  return wrapped(one.azimuth_rad - turn.phase_rad - turn.rate_rad_s * one.time_s);
+  return wrapped_rad(one.azimuth_rad - turn.phase_rad - turn.rate_rad_s * one.time_s);
 }
 
 // What is known of a return's azimuth: first what a sound sensor may show (a rate a little other, a centre beside the
 // cloud's origin, an axis that leans a little), then what a motion that was taken out leaves, by speed and turn.
 constexpr int kSound = 6, kMoved = 4, kColumns = kSound + kMoved;
-using Row = Eigen::Matrix<double, kColumns + 1, 1>;  // and the angle itself
+using SolverRow = Eigen::Matrix<double, kColumns + 1, 1>;  // and the angle itself
 
-Row row_of(const TimedReturn& one, const Turn& turn, double middle_s) {
+SolverRow solver_row(const TimedReturn& one, const Turn& turn, double middle_s) {
   const double dt = one.time_s - middle_s, c = std::cos(one.azimuth_rad), s = std::sin(one.azimuth_rad);
   const double near = 1.0 / one.across_m, up = std::tan(one.elevation_rad);
-  Row row;
+  SolverRow row;
   row << dt, near, near * s, near * c, up * c, up * s, -near * s * dt, near * c * dt, up * c * dt, up * s * dt,
       off_line(one, turn);
   return row;
 }
 
 // Each ring looks a little beside the sensor's azimuth: its mean is taken out.
-std::vector<Row> rows_of(const std::vector<TimedReturn>& returns, const Turn& turn, double middle_s) {
+std::vector<SolverRow> solver_rows(const std::vector<TimedReturn>& returns, const Turn& turn, double middle_s) {
   // Nearer things are the machine's, and steep beams turn round the axis too closely. Judgement, 2026-11-27.
   constexpr double kNearest_m = 0.5, kSteepest_rad = 1.0;
-  std::map<std::uint32_t, std::pair<Row, double>> means;
-  std::vector<std::pair<std::uint32_t, Row>> all;
+  std::map<std::uint32_t, std::pair<SolverRow, double>> means;
+  std::vector<std::pair<std::uint32_t, SolverRow>> all;
   for (const TimedReturn& one : returns) {
     if (one.across_m < kNearest_m || std::fabs(one.elevation_rad) > kSteepest_rad) continue;
-    const Row row = row_of(one, turn, middle_s);
+    const SolverRow row = solver_row(one, turn, middle_s);
     if (std::fabs(row[kColumns]) > kOffTurn_rad) continue;
-    auto [mean, is_new] = means.try_emplace(one.ring, Row::Zero(), 0.0);
+    auto [mean, is_new] = means.try_emplace(one.ring, SolverRow::Zero(), 0.0);
     mean->second.first += row;
     mean->second.second += 1.0;
     all.emplace_back(one.ring, row);
   }
-  std::vector<Row> rows;
+  std::vector<SolverRow> rows;
   rows.reserve(all.size());
   for (const auto& [ring, row] : all) rows.push_back(row - means[ring].first / means[ring].second);
   return rows;
@@ -125,17 +125,17 @@ struct Fit {
 };
 
 // By the first `columns` of them.
-Fit fit_of(const std::vector<Row>& rows, int columns) {
+Fit fit_of(const std::vector<SolverRow>& rows, int columns) {
   Eigen::Matrix<double, kColumns, kColumns> A = Eigen::Matrix<double, kColumns, kColumns>::Zero();
   Eigen::Matrix<double, kColumns, 1> b = Eigen::Matrix<double, kColumns, 1>::Zero();
-  for (const Row& row : rows) {
+  for (const SolverRow& row : rows) {
     A.noalias() += row.head<kColumns>() * row.head<kColumns>().transpose();
     b += row.head<kColumns>() * row[kColumns];
   }
   Fit fit;
   fit.by.head(columns) = A.topLeftCorner(columns, columns).ldlt().solve(b.head(columns));
   double sum = 0.0;
-  for (const Row& row : rows) {
+  for (const SolverRow& row : rows) {
     const double off = row[kColumns] - row.head<kColumns>().dot(fit.by);
     sum += off * off;
   }
@@ -181,11 +181,11 @@ std::optional<double> moved_m_s(const std::vector<TimedReturn>& returns, const T
   constexpr double kExplained_rad = 3.5e-3;  // 0.2 deg: more that stays unexplained, and it is something else
   constexpr double kShareExplained = 0.6;    // of the squares. All three: judgement, 2026-11-27; tests/tools
   constexpr double kLeast_m_s = 0.1;         // a centimetre a scan at 10 Hz: below it costs little
-  std::vector<Row> rows = rows_of(returns, turn, 0.5 * spread_s);
+  std::vector<SolverRow> rows = solver_rows(returns, turn, 0.5 * spread_s);
   if (rows.size() < kLeast) return std::nullopt;
   const Fit rough = fit_of(rows, kColumns);
   rows.erase(std::remove_if(rows.begin(), rows.end(),
-                            [&rough](const Row& row) {
+                            [&rough](const SolverRow& row) {
                               return std::fabs(row[kColumns] - row.head<kColumns>().dot(rough.by)) >
                                      3.0 * rough.rms_rad + 1e-9;
                             }),

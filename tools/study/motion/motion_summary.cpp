@@ -11,6 +11,7 @@
 
 #include "io/frames/frame_stamps.hpp"
 #include "io/terminal/counted.hpp"
+#include "io/terminal/share_text.hpp"
 #include "io/terminal/text_table.hpp"
 #include "study/motion/directions.hpp"
 
@@ -18,11 +19,6 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr std::size_t kMotionReasonsShown = 5;
-
-std::string share_text(std::size_t part, std::size_t whole) {
-  if (whole == 0) return "-";
-  return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
-}
 
 }  // namespace
 

@@ -81,7 +81,7 @@ std::array<std::uint32_t, kLocaliseStates> frequent_reasons(const std::vector<Lo
   return mostly;
 }
 
-std::string share_text(std::size_t part, std::size_t whole) {
+std::string share_of(std::size_t part, std::size_t whole) {
   return fmt::format("{:.1f} %",
                      100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, whole)));
 }
@@ -121,11 +121,11 @@ LocaliseFigures figures_of(const std::vector<LocalisedRow>& rows) {
   return out;
 }
 
-std::string state_words(std::uint32_t state) {
+std::string place_state_words(std::uint32_t state) {
   return tr(kStateWords[std::min<std::uint32_t>(state, kLocaliseStates - 1)]);
 }
 
-std::string reason_words(std::uint32_t reason) {
+std::string place_reason_words(std::uint32_t reason) {
   return reason == 0 || reason >= std::size(kReasonWords) ? "" : tr(kReasonWords[reason]);
 }
 
@@ -136,8 +136,8 @@ std::vector<std::vector<std::string>> state_table(const LocaliseFigures& figures
         POSE_WALL_PLANAR_LOCALISE_UNKNOWN, POSE_WALL_PLANAR_LOCALISE_SEARCHING}) {
     const std::size_t scans = figures.of_state[state];
     if (scans == 0) continue;
-    rows.push_back({state_words(state), std::to_string(scans), share_text(scans, figures.scans),
-                    reason_words(figures.mostly[state])});
+    rows.push_back({place_state_words(state), std::to_string(scans), share_of(scans, figures.scans),
+                    place_reason_words(figures.mostly[state])});
   }
   return rows;
 }

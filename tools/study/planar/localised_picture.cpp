@@ -82,7 +82,7 @@ std::string localised_picture(const KnownMap& map, const LocalisedWay& way, cons
   for (const std::uint32_t state :
        {POSE_WALL_PLANAR_LOCALISE_UNIQUE, POSE_WALL_PLANAR_LOCALISE_DOUBTFUL, POSE_WALL_PLANAR_LOCALISE_AMBIGUOUS,
         POSE_WALL_PLANAR_LOCALISE_UNKNOWN, POSE_WALL_PLANAR_LOCALISE_SEARCHING}) {
-    scene.legend.push_back({kLocaliseColours[state], state_words(state)});
+    scene.legend.push_back({kLocaliseColours[state], place_state_words(state)});
   }
   return map_picture(scene);
 }

@@ -81,8 +81,8 @@ struct LocaliseFigures {
 LocaliseFigures figures_of(const std::vector<LocalisedRow>& rows);
 
 // One word, and a sentence without its full stop; both in the chosen language.
-std::string state_words(std::uint32_t state);
-std::string reason_words(std::uint32_t reason);
+std::string place_state_words(std::uint32_t state);
+std::string place_reason_words(std::uint32_t reason);
 
 using NamedFigure = std::pair<std::string, std::string>;
 std::vector<NamedFigure> named_figures(const LocaliseFigures& figures);

@@ -14,6 +14,7 @@
 #include "io/numbers/quantile.hpp"
 #include "io/numbers/quantities.hpp"
 #include "io/terminal/frames_text.hpp"
+#include "io/terminal/share_text.hpp"
 #include "io/terminal/text_table.hpp"
 
 namespace pose_wall::tools {
@@ -32,11 +33,6 @@ std::string amount(std::size_t quantity, double value) {
 std::string name_of(std::size_t quantity, const std::string& positive_means) {
   const std::string name = pose_wall_quantity_name(static_cast<std::uint32_t>(quantity));
   return positive_means.empty() ? name : say("{} (+ {})", name, tr(positive_means.c_str()));
-}
-
-std::string percent(std::size_t part, std::size_t whole) {
-  if (whole == 0) return "-";
-  return fmt::format("{:.1f} %", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
 }  // namespace
@@ -101,10 +97,10 @@ std::string RunSummary::quantities_text() const {
   const std::size_t measured = frames_ - unreadable_;
   for (std::size_t q = 0; q < quantities_.size(); ++q) {
     const Quantity& quantity = quantities_[q];
-    table.add_row({name_of(q, quantity.positive_means), percent(quantity.states[POSE_WALL_VALID], measured),
-                   percent(quantity.states[POSE_WALL_DEGRADED], measured),
-                   percent(quantity.states[POSE_WALL_HELD], measured),
-                   percent(quantity.states[POSE_WALL_INVALID], measured), amount(q, quantile(quantity.values, 0.5)),
+    table.add_row({name_of(q, quantity.positive_means), share_text(quantity.states[POSE_WALL_VALID], measured),
+                   share_text(quantity.states[POSE_WALL_DEGRADED], measured),
+                   share_text(quantity.states[POSE_WALL_HELD], measured),
+                   share_text(quantity.states[POSE_WALL_INVALID], measured), amount(q, quantile(quantity.values, 0.5)),
                    amount(q, quantile(quantity.raws, 0.5)), level_text(q, quantity.protection_levels)});
   }
   return table.text();
@@ -131,9 +127,9 @@ std::string RunSummary::levels_text() const {
     for (const std::uint32_t part : shown) cells.push_back(level_text(q, quantity.parts[part]));
     const auto most = std::max_element(quantity.largest.begin(), quantity.largest.end());
     const auto cause = static_cast<std::uint32_t>(most - quantity.largest.begin());
-    cells.push_back(
-        *most == 0 ? "-"
-                   : fmt::format("{} ({})", tr(part_words(cause).c_str()), percent(*most, quantity.parts[0].size())));
+    cells.push_back(*most == 0 ? "-"
+                               : fmt::format("{} ({})", tr(part_words(cause).c_str()),
+                                             share_text(*most, quantity.parts[0].size())));
     table.add_row(cells);
   }
   return '\n' + table.text();
