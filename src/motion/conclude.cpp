@@ -88,7 +88,7 @@ Concluded conclude(const Road& road, const Frame& frame, const MachinePrior& pri
   step.is_along_known = measured || prior.has_way();
   step.slip_m = slip_of(settings, frame, prior, placed, along_m);
   take_rock(last, a, weighed.variance_m2, measured, along_m, &next.covariance);
-  next.of_rock = next.covariance.diagonal();
+  next.of_rock = next.covariance;
   if (!measured) add_bend(road.map, step.slip_m, &next.covariance);
   step.variance = Travel::variance_of_step(last.of_rock, next.of_rock);
   const double slip_m = measured ? last.slipped_m : step.slip_m;  // the first one found makes up for the others

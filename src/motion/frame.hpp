@@ -30,7 +30,7 @@ struct Course {
   Pose pose;
   RoadAxes axes;
   SixBySix covariance = SixBySix::Zero();  // of the last alignment, with what slip adds
-  Six of_rock = Six::Zero();               // its variances by the patches of rock alone
+  SixBySix of_rock = SixBySix::Zero();     // the same by the patches of rock alone
   double rock_variance_m2 = 0.0;           // of the way along by the rock, pooled over frames; 0: none yet on this map
   Travel travel;
   double slipped_m = 0.0;    // since the way was last known

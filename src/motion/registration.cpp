@@ -14,7 +14,10 @@ namespace {
 constexpr double kDamping = 1e-3;     // Levenberg's, of the diagonal, at the start
 constexpr double kStepLeast2 = 1e-9;  // a step of 0.03 mm and mrad is the last
 constexpr float kStill2 = 4e-6F;      // 2 mm and mrad: surfaces are found anew for more
-constexpr float kNear_m = 0.3F;       // from a plane whose relief is not used: most of a tile's layer
+// Of a patch that is left out: where it alone holds a direction, its own pull counts a hundredfold, and not without
+// end.
+constexpr double kLeftOut = 0.99;
+constexpr float kNear_m = 0.3F;  // from a plane whose relief is not used: most of a tile's layer
 
 struct Sums {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
@@ -44,6 +47,29 @@ enum Part : std::uint32_t { kOfGround = 0, kOfWalls = 1, kOfRoof = 2, kParts = 3
 
 Part part_of(const Observation& o) {
   return o.ground != 0 ? kOfGround : o.facing == kFacesZ ? kOfRoof : kOfWalls;
+}
+
+// One step: the parts of the scan, and the three of the six moves that they determine.
+struct Step {
+  Part first;
+  std::uint32_t last;
+  int free[3];
+  bool asked[3];
+};
+
+Eigen::Vector3d solve(const Sums& sums, double damping, const bool (&asked)[3]) {
+  Eigen::Matrix3d A = sums.A;
+  Eigen::Vector3d b = sums.b;
+  for (int k = 0; k < 3; ++k) {
+    A(k, k) += damping * A(k, k) + 1e-9;
+    if (asked[k]) continue;
+    A.row(k).setZero();
+    A.col(k).setZero();
+    A(k, k) = 1.0;
+    b[k] = 0.0;
+  }
+  const SmallCholesky<3> factor(A);
+  return factor.solved() ? factor.solve(b) : Eigen::Vector3d::Zero();
 }
 
 // The observations on the map as equations: a distance, and how it goes with six small moves. They are drawn up once;
@@ -106,6 +132,7 @@ class Equations {
       const FourFloats left = larger_of(one - squared / cut2, zero), trust = left * left;
       const FourFloats weight = trust / variance, pull = weight * distance;
       store_four(pull, &s_.pull[i]);
+      store_four(weight, &s_.weight[i]);
       const FourFloats misfit2 = pull * distance;
       lanes.trusts += trust;
       lanes.known_trusts += known_share * trust;
@@ -124,21 +151,34 @@ class Equations {
     return lanes.sums();
   }
 
-  // The pull of the patches of rock, each as a whole: the sum of their squares.
-  Eigen::Matrix3d pulls(Part first, std::uint32_t last, const int (&free)[3], std::uint32_t tiles) const {
-    for (int k = 0; k < 3; ++k) s_.sum[k].first(tiles).fill(0.0F);
-    for (std::uint32_t i = begin_[first]; i < begin_[last]; ++i) {
-      const float pull = s_.pull[i];
+  // Variance of the three by the patches of rock: each is left out as a whole, and the rest finds its own place. Points
+  // of a patch err together, so they count once; and where few patches hold a direction, the ones that do are not their
+  // own witnesses.
+  Eigen::Matrix3d variance_by_patches(const Step& step, const Sums& sums, std::uint32_t tiles) const {
+    for (Span<float>& s : s_.sum) s.first(tiles).fill(0.0F);
+    for (std::uint32_t i = begin_[step.first]; i < begin_[step.last]; ++i) {
       const std::uint32_t tile = s_.tile[i];
-      for (int k = 0; k < 3; ++k) s_.sum[k][tile] += pull * s_.by_move[free[k]][i];
+      for (int r = 0, n = 3; r < 3; ++r) {
+        const float by = s_.by_move[step.free[r]][i], weighed = s_.weight[i] * by;
+        s_.sum[r][tile] += s_.pull[i] * by;
+        for (int j = 0; j <= r; ++j) s_.sum[n++][tile] += weighed * s_.by_move[step.free[j]][i];
+      }
     }
-    Eigen::Matrix3d B = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d variance = Eigen::Matrix3d::Zero();
     for (std::uint32_t t = 0; t < tiles; ++t) {
-      const Eigen::Vector3d g(static_cast<double>(s_.sum[0][t]), static_cast<double>(s_.sum[1][t]),
-                              static_cast<double>(s_.sum[2][t]));
-      if (g.squaredNorm() > 0.0) B += g * g.transpose();  // most tiles are out of sight
+      if (s_.sum[3][t] == 0.0F && s_.sum[5][t] == 0.0F && s_.sum[8][t] == 0.0F) continue;  // most are out of sight
+      Sums rest = sums;
+      for (int r = 0, n = 3; r < 3; ++r) {
+        rest.b[r] = static_cast<double>(s_.sum[r][t]);
+        for (int j = 0; j <= r; ++j, ++n) {
+          rest.A(r, j) -= kLeftOut * static_cast<double>(s_.sum[n][t]);
+          rest.A(j, r) = rest.A(r, j);
+        }
+      }
+      const Eigen::Vector3d moves_by = solve(rest, 0.0, step.asked);
+      variance += moves_by * moves_by.transpose();
     }
-    return B;
+    return variance;
   }
 
  private:
@@ -168,41 +208,6 @@ class Equations {
 
   StepScratch& s_;
   std::uint32_t count_ = 0, begin_[kParts + 1];
-};
-
-Eigen::Vector3d solve(const Sums& sums, double damping, const bool (&asked)[3]) {
-  Eigen::Matrix3d A = sums.A;
-  Eigen::Vector3d b = sums.b;
-  for (int k = 0; k < 3; ++k) {
-    A(k, k) += damping * A(k, k) + 1e-9;
-    if (asked[k]) continue;
-    A.row(k).setZero();
-    A.col(k).setZero();
-    A(k, k) = 1.0;
-    b[k] = 0.0;
-  }
-  const SmallCholesky<3> factor(A);
-  return factor.solved() ? factor.solve(b) : Eigen::Vector3d::Zero();
-}
-
-// Sandwich: A^-1 (sum over patches of g g') A^-1.
-Eigen::Matrix3d covariance_of(const Sums& sums, const bool (&asked)[3], const Eigen::Matrix3d& B) {
-  Eigen::Matrix3d inverse;
-  for (int k = 0; k < 3; ++k) {
-    Sums unit = sums;
-    unit.b = Eigen::Vector3d::Unit(k);
-    inverse.col(k) = solve(unit, 0.0, asked);
-    if (!asked[k]) inverse.col(k).setZero();
-  }
-  return inverse * B * inverse.transpose();
-}
-
-// One step: the parts of the scan, and the three of the six moves that they determine.
-struct Step {
-  Part first;
-  std::uint32_t last;
-  int free[3];
-  bool asked[3];
 };
 
 // Levenberg-Marquardt on three of the six moves. False where too little counts.
@@ -245,7 +250,7 @@ void take_step(const Equations& equations, const Step& step, const StepOptions& 
     scales.learn(sums);
     sums = equations.sum_up(step.first, step.last, step.free, by, scales, true);
     (step.first == kOfGround ? a->ground : a->matched) = sums.count;
-    if (told) C = covariance_of(sums, step.asked, equations.pulls(step.first, step.last, step.free, tiles));
+    if (told) C = equations.variance_by_patches(step, sums, tiles);
   }
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) a->covariance(step.free[i], step.free[j]) = C(i, j);
@@ -271,6 +276,7 @@ void StepScratch::lay_out(Arena& arena) {
   distance = arena.take<float>(kMost);
   variance = arena.take<float>(kMost);
   known = arena.take<float>(kMost);
+  weight = arena.take<float>(kMost);
   pull = arena.take<float>(kMost);
   tile = arena.take<std::uint16_t>(kMost);
   for (Span<float>& s : sum) s = arena.take<float>(kTilesMost);

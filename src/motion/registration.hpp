@@ -25,10 +25,10 @@ struct StepScratch {
   void lay_out(Arena& arena);
   Span<float> by_move[6];  // how the distance goes along, across, up, and with turns about these axes
   Span<float> distance, variance;
-  Span<float> known;  // 1 where the map knows the relief
-  Span<float> pull;   // distance by its weight, as last summed
+  Span<float> known;         // 1 where the map knows the relief
+  Span<float> weight, pull;  // as last summed; pull is distance by weight
   Span<std::uint16_t> tile;
-  Span<float> sum[3];  // by tile
+  Span<float> sum[9];  // by tile: of pulls, of weights
 };
 
 // From surfaces nearby, or with use_relief from those within a few deviations of the rock. with_along: the step across

@@ -3,9 +3,9 @@
 
 #include "motion/relief_map.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
-#include "base/estimation/small_cholesky.hpp"
 #include "base/math/golden_ratio.hpp"
 
 namespace pose_wall::motion {
@@ -252,22 +252,60 @@ void ReliefMap::add(const Eigen::Vector3f& p, std::uint8_t facing) {
   cell.along = static_cast<std::int8_t>(rounded(along + (place - along) * share, 127.0F));
 }
 
-// The plane of a surface that began in this keyframe, by least squares over its cells; heights count from it then.
+// How far rays from the sensor go along a tile, along u and v, for each metre towards its axis.
+struct ReliefMap::RaysOver {
+  RaysOver(const Tile& tile, float height_m, const Eigen::Vector3f& sensor)
+      : towards_m(height_m - sensor[tile.facing]),
+        middle_u_m(static_cast<float>(tile.u) + 0.5F - sensor[kU[tile.facing]]),
+        middle_v_m(static_cast<float>(tile.v) + 0.5F - sensor[kV[tile.facing]]) {}
+
+  // At a place of the tile.
+  float along_u(float u) const { return no_flatter(middle_u_m + u); }
+  float along_v(float v) const { return no_flatter(middle_v_m + v); }
+
+  // A ray flatter than 3 degrees meets the edge of a surface, not the surface.
+  float no_flatter(float along_m) const {
+    constexpr float kFlattest = 20.0F;
+    const float most_m = kFlattest * std::fabs(towards_m);
+    return std::fabs(along_m) < most_m ? along_m / towards_m : std::copysign(kFlattest, along_m * towards_m);
+  }
+
+  float towards_m, middle_u_m, middle_v_m;
+};
+
+// The plane of a surface that began in this keyframe; heights count from it then.
+//
+// Where rock stands out, a ray meets it sooner: places and heights err together along the ray, and a line of points on
+// rough ground tilts towards the sensor, whatever the ground does. Where a ray meets the tile's mean height is the
+// ray's alone, so that place is the instrument of the place (least squares by instrumental variables).
 void ReliefMap::settle(Tile* tile) {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  float mean = 0.0F, cells = 0.0F;
+  for (const Cell& cell : tile->cell) {
+    if (cell.count == 0) continue;
+    mean += height_of(cell);
+    cells += 1.0F;
+  }
+  mean /= cells;
+  const RaysOver rays(*tile, tile->height_m + mean, sensor_);
+  Eigen::Matrix3d A = Eigen::Vector3d(1e-6, kRidge, kRidge).asDiagonal(), by_rays = A;
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  A(0, 0) = 1e-6;
-  A(1, 1) = A(2, 2) = kRidge;
   for (std::int32_t k = 0; k < kAlongCells * kAcrossCells; ++k) {
     const Cell& cell = tile->cell[k];
     if (cell.count == 0) continue;
-    const Eigen::Vector3d row(1.0, static_cast<double>(along_of(cell, k % kAlongCells)),
-                              static_cast<double>(middle_across(k / kAlongCells)));
-    A += row * row.transpose();
-    b += row * static_cast<double>(height_of(cell));
+    const float u = along_of(cell, k % kAlongCells), v = middle_across(k / kAlongCells);
+    const float above = height_of(cell) - mean;
+    const Eigen::Vector3d place(1.0, static_cast<double>(u), static_cast<double>(v));
+    const Eigen::Vector3d ray(1.0, static_cast<double>(u - above * rays.along_u(u)),
+                              static_cast<double>(v - above * rays.along_v(v)));
+    A += ray * place.transpose();
+    by_rays += ray * ray.transpose();
+    b += ray * static_cast<double>(above);
   }
-  const SmallCholesky<3> factor(A);
-  const Eigen::Vector3f plane = (factor.solved() ? factor.solve(b) : Eigen::Vector3d::Zero()).cast<float>();
+  // Where a plane nearly holds its rays they tell no slope: places then follow heights, and not the rays.
+  constexpr double kTells = 0.25;
+  const bool tells = A.determinant() > kTells * by_rays.determinant();
+  Eigen::Vector3f plane = ((tells ? A : by_rays).inverse() * b).cast<float>();
+  plane[0] += mean;
   for (std::int32_t k = 0; k < kAlongCells * kAcrossCells; ++k) {
     Cell& cell = tile->cell[k];
     if (cell.count == 0) continue;

@@ -20,10 +20,11 @@ constexpr float kCellSigma_m = 0.004F;
 constexpr float kRockSigma_m = 0.04F;
 
 // The distance of the point from the rock, and its expectation from noise alone, for a fit that holds surface and
-// incidence.
-void measure(Fit* fit) {
+// incidence. Of ground, from its plane: the lines of a sensor lie further apart there than cells. So where two scans
+// show one cell, each shows the part of it that its own line meets, and the difference is the lines', not the rock's.
+void measure(Fit* fit, bool by_plane = false) {
   Relief relief;
-  fit->has_relief = ReliefMap::relief(fit->surface, &relief);
+  fit->has_relief = !by_plane && ReliefMap::relief(fit->surface, &relief);
   const float above_rock_m = fit->surface.above_m - (fit->has_relief ? relief.height_m : 0.0F);
   fit->distance_m = above_rock_m * fit->surface.tile->cosine;
   fit->variance_m2 = kRangeSigma_m * kRangeSigma_m * fit->incidence2 * (fit->has_relief ? relief.spread : 1.0F) +
@@ -50,7 +51,7 @@ bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation&
   const Eigen::Vector3f ray = base - scan.sensor_base_m;
   const float towards = (pose.R * ray).dot(fit->normal);
   fit->incidence2 = towards * towards / ray.squaredNorm();
-  measure(fit);
+  measure(fit, o.ground != 0);
   return true;
 }
 

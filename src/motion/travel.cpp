@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "base/estimation/small_cholesky.hpp"
+
 namespace pose_wall::motion {
 namespace {
 
@@ -28,23 +30,19 @@ double least_variance(int k) {
   return least * least;
 }
 
-double doubt(int k) {
-  return is_turn(k) ? kTurnDoubt : 1.0;
-}
-
+// The turns doubted, and what places have from them: a floor seen behind alone lifts the machine as it pitches it.
 SixBySix doubted(const SixBySix& C) {
+  constexpr double kMore = kTurnDoubt * kTurnDoubt - 1.0;  // of a variance, beside the one that is there
+  const Eigen::Matrix3d turns = C.bottomRightCorner<3, 3>(), of_places = C.bottomLeftCorner<3, 3>();
   SixBySix out = C;
-  for (int i = 0; i < POSE_WALL_MOTION_DIRECTIONS; ++i) {
-    for (int j = 0; j < POSE_WALL_MOTION_DIRECTIONS; ++j) out(i, j) *= doubt(i) * doubt(j);
-    out(i, i) += least_variance(i);
-  }
-  return out;
-}
-
-Six doubted(const Six& variance) {
-  Six out;
-  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k)
-    out[k] = variance[k] * (doubt(k) * doubt(k)) + least_variance(k);
+  for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) out(k, k) += least_variance(k);
+  const SmallCholesky<3> factor(out.bottomRightCorner<3, 3>());
+  Eigen::Matrix3d by_turns;
+  for (int k = 0; k < 3; ++k) by_turns.col(k) = factor.solve(of_places.col(k));
+  out.topLeftCorner<3, 3>() += kMore * of_places.transpose() * by_turns;
+  out.bottomRightCorner<3, 3>() += kMore * turns;
+  out.bottomLeftCorner<3, 3>() += kMore * of_places;
+  out.topRightCorner<3, 3>() += kMore * of_places.transpose();
   return out;
 }
 
@@ -97,7 +95,7 @@ void Travel::slip(double along_m, double unevenness) {
 }
 
 Bounds Travel::bounds(const SixBySix& of_alignment, double slipping_m, double factor) const {
-  const Six variance = of_map_.diagonal() + doubted(Six(of_alignment.diagonal()));
+  const Six variance = of_map_.diagonal() + Six(doubted(of_alignment).diagonal());
   Bounds out;
   for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
     const double lost = is_turn(k) ? lost_rad_ : lost_m_;
@@ -110,13 +108,13 @@ Bounds Travel::bounds(const SixBySix& of_alignment, double slipping_m, double fa
 }
 
 Six Travel::level_of(const SixBySix& of_alignment, double slipping_m, double factor) {
-  Six level = factor * doubted(Six(of_alignment.diagonal())).cwiseSqrt();
+  Six level = factor * doubted(of_alignment).diagonal().cwiseSqrt();
   level[POSE_WALL_MOTION_ALONG] += slipping_m;
   return level;
 }
 
 Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor) {
-  const Six variance = variance_of_step(before.diagonal(), now.diagonal());
+  const Six variance = variance_of_step(before, now);
   Bounds out;
   for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
     const double slip = k == POSE_WALL_MOTION_ALONG ? slip_m : 0.0;
@@ -126,8 +124,8 @@ Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, double slip_
   return out;
 }
 
-Six Travel::variance_of_step(const Six& before, const Six& now) {
-  return doubted(before) + doubted(now);
+Six Travel::variance_of_step(const SixBySix& before, const SixBySix& now) {
+  return doubted(before).diagonal() + doubted(now).diagonal();
 }
 
 }  // namespace pose_wall::motion

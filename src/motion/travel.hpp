@@ -47,7 +47,7 @@ class Travel {
   static Bounds of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor);
 
   // Variances of a step by the patches of rock alone.
-  static Six variance_of_step(const Six& before, const Six& now);
+  static Six variance_of_step(const SixBySix& before, const SixBySix& now);
 
   // The lasting part of each direction's errors since reset, without lever arms. The error between two places in one
   // map is that of either alignment and the difference of these two.

@@ -5,7 +5,7 @@
 // sensor is mounted, on the side that things stand on, on the order of the points or on how they are written; who
 // drives back comes back; who stands stays; on a smooth road nothing is measured, and people who walk along change
 // nothing in that; after a frame of nothing or of garbage the motion goes on, and what it says meanwhile keeps its
-// contract.
+// contract; a sensor of few rings keeps height and turns within their levels on rough ground that it sees behind alone.
 
 #include <gtest/gtest.h>
 
@@ -54,6 +54,10 @@ void expect_within_levels(const std::vector<MotionFrame>& frames) {
     EXPECT_LE(std::fabs(off.dot(axis)), f.result.protection_level[POSE_WALL_MOTION_ALONG]) << i;
     EXPECT_LE(std::fabs(off.dot(left)), f.result.protection_level[POSE_WALL_MOTION_ACROSS]) << i;
     EXPECT_LE(std::fabs(off.dot(up)), f.result.protection_level[POSE_WALL_MOTION_UP]) << i;
+    const Eigen::Vector3d turn = f.turn_off();
+    EXPECT_LE(std::fabs(turn.dot(axis)), f.result.protection_level[POSE_WALL_MOTION_ROLL]) << i;
+    EXPECT_LE(std::fabs(turn.dot(left)), f.result.protection_level[POSE_WALL_MOTION_PITCH]) << i;
+    EXPECT_LE(std::fabs(turn.dot(up)), f.result.protection_level[POSE_WALL_MOTION_YAW]) << i;
   }
 }
 
@@ -68,6 +72,32 @@ TEST(SimRun, RoughRockTellsTheWay) {
   EXPECT_NEAR(frames.back().result.along_m, 2.95, 0.03);
   EXPECT_LT(frames.back().error_m(), 0.03);
   EXPECT_LT(frames.back().turn_error_rad(), 0.2 * kRadPerDeg);
+}
+
+// Rings of 16 meet the ground from 5 m on, and before a face only behind the machine: height hangs on pitch there.
+TEST(SimRun, FewRingsOverRoughGroundStayWithinTheirLevels) {
+  for (const std::uint64_t seed : {3U, 4U, 5U}) {
+    SCOPED_TRACE(seed);
+    sim::SceneSetup setup = rough_road(1.0);
+    setup.rock.roughness_m = 0.05;
+    setup.floor.floor_roughness_m = 0.02;
+    setup.road.face_distance_m = 6.0;
+    setup.sensor.rings = 16.0;
+    setup.sensor.elevation_min_deg = -15.0;
+    setup.sensor.elevation_max_deg = 15.0;
+    setup.sensor.columns = 1800.0;
+    const SimulatedRun run(setup, seed);
+    MotionUnderTest motion(config_for(setup));
+    const std::vector<MotionFrame> frames = run.run_by(0, 20, [&](std::uint32_t, sim::Frame frame, std::int64_t*) {
+      for (std::size_t i = 0; i < frame.count(); ++i)
+        frame.xyz_intensity[4 * i + 3] = static_cast<float>(frame.ring[i]);
+      pose_wall_cloud cloud = run.cloud_of(frame);
+      cloud.ring = {3 * sizeof(float), POSE_WALL_FIELD_FLOAT32};
+      return motion.process(cloud);
+    });
+    expect_contract(frames);
+    expect_within_levels(frames);
+  }
 }
 
 TEST(SimRun, TheFirstPoseIsTheIdentity) {

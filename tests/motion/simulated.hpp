@@ -62,10 +62,12 @@ struct MotionFrame {
     return (Eigen::Vector3d(result.step_m[0], result.step_m[1], result.step_m[2]) - step)
         .dot(truth.R.transpose() * axis());
   }
-  double turn_error_rad() const {
+  // From the true attitude to the one found, in start.
+  Eigen::Vector3d turn_off() const {
     const Eigen::Quaterniond q(result.quaternion[3], result.quaternion[0], result.quaternion[1], result.quaternion[2]);
-    return turn_of(truth.R.transpose() * q.toRotationMatrix()).norm();
+    return turn_of(q.toRotationMatrix() * truth.R.transpose());
   }
+  double turn_error_rad() const { return turn_off().norm(); }
 };
 
 // A frame's cloud as it is given to the motion; points may be changed before.

@@ -68,6 +68,20 @@ TEST(Travel, ATurnThatIsOffBecomesAPlaceThatIsOff) {
   }
 }
 
+// Ground that is seen 9 m behind alone: what pitches the machine lifts it, so height is as doubtful as pitch.
+TEST(Travel, APlaceThatHangsOnATurnIsDoubtedWithIt) {
+  constexpr double kLever_m = 9.0, kPitch_rad = 0.001, kOwn_m = 0.0005;
+  SixBySix C = only(POSE_WALL_MOTION_PITCH, kPitch_rad);
+  C(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_UP) = std::pow(kLever_m * kPitch_rad, 2) + kOwn_m * kOwn_m;
+  C(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_PITCH) = -kLever_m * kPitch_rad * kPitch_rad;
+  C(POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_UP) = C(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_PITCH);
+  const Six level = Travel::level_of(C, 0.0, kFactor);
+  EXPECT_GT(level[POSE_WALL_MOTION_UP], 0.99 * kLever_m * level[POSE_WALL_MOTION_PITCH]);
+  const Six apart = Travel::level_of(only(POSE_WALL_MOTION_UP, kLever_m * kPitch_rad), 0.0, kFactor);
+  EXPECT_LT(apart[POSE_WALL_MOTION_UP], 1.01 * kFactor * kLever_m * kPitch_rad) << "a height of its own is not";
+  EXPECT_LT(level[POSE_WALL_MOTION_ACROSS], 0.01) << "nor is what hangs on another turn";
+}
+
 // Two keyframes on the way: the first turn has the whole lever, the second one half of it.
 TEST(Travel, LeversAddUpKeyframeByKeyframe) {
   Travel once, twice;
