@@ -20,16 +20,14 @@
 #include "engine/output/quality.hpp"
 #include "engine/report.hpp"
 #include "engine/walls/region.hpp"
+#include "lidar/mount.hpp"
 
 namespace pose_wall {
 namespace {
 
 Axes axes_of(std::int32_t forward_choice) {
-  // In the order of the key's choices: +X, -X, +Y, -Y.
-  const Eigen::Vector3d forward[] = {Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
-                                     -Eigen::Vector3d::UnitY()};
-  const Eigen::Vector3d& f = forward[forward_choice];
-  return {f, Eigen::Vector3d(-f.y(), f.x(), 0.0)};
+  const Eigen::Vector2d f = forward_of(forward_choice);
+  return {Eigen::Vector3d(f.x(), f.y(), 0.0), Eigen::Vector3d(-f.y(), f.x(), 0.0)};
 }
 
 Extrinsic extrinsic_of(const Settings& s) {

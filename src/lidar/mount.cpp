@@ -8,11 +8,10 @@
 namespace pose_wall {
 namespace {
 
-Eigen::Vector2d forward_of(const pose_wall_config& config) {
+std::int32_t forward_choice(const pose_wall_config& config) {
   char axis[POSE_WALL_TEXT_MAX] = {};
   (void)pose_wall_config_get_text(&config, "forward_axis", axis, sizeof(axis));
-  const Eigen::Vector2d positive = axis[1] == 'Y' ? Eigen::Vector2d::UnitY() : Eigen::Vector2d::UnitX();
-  return axis[0] == '-' ? Eigen::Vector2d(-positive) : positive;
+  return (axis[1] == 'Y' ? 2 : 0) + (axis[0] == '-' ? 1 : 0);
 }
 
 }  // namespace
@@ -29,7 +28,7 @@ Mount mount_of(const pose_wall_config& config) {
                                     number_of(config, "extrinsic_yaw"));
   mount.sensor_base_m = {number_of(config, "extrinsic_x"), number_of(config, "extrinsic_y"),
                          number_of(config, "extrinsic_z")};
-  mount.forward_base = forward_of(config);
+  mount.forward_base = forward_of(forward_choice(config));
   mount.range_min_m = number_of(config, "range_min");
   mount.range_max_m = number_of(config, "range_max");
   static constexpr const char* kBoxes[BodyBoxes::kOfConfig] = {"body_box_1", "body_box_2", "body_box_3", "body_box_4"};

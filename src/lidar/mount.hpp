@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// How a sensor is mounted, for motion and planar: the numbers of a config that tell so. The engine reads the same keys.
+// How a sensor is mounted, and where the machine points: the numbers of a config that tell so. The engine has them in
+// its settings.
 
 #pragma once
 
@@ -12,6 +13,12 @@
 #include "pose_wall.h"
 
 namespace pose_wall {
+
+// In base, by the choices of the key forward_axis in their order: +X, -X, +Y, -Y.
+inline Eigen::Vector2d forward_of(std::int32_t choice) {
+  const Eigen::Vector2d axis = choice < 2 ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY();
+  return (choice & 1) != 0 ? Eigen::Vector2d(-axis) : axis;
+}
 
 struct Mount {
   Eigen::Matrix3d R_base_lidar = Eigen::Matrix3d::Identity();

@@ -252,8 +252,10 @@ void ReliefMap::add(const Eigen::Vector3f& p, std::uint8_t facing) {
   cell.along = static_cast<std::int8_t>(rounded(along + (place - along) * share, 127.0F));
 }
 
+namespace {
+
 // How far rays from the sensor go along a tile, along u and v, for each metre towards its axis.
-struct ReliefMap::RaysOver {
+struct RaysOver {
   RaysOver(const Tile& tile, float height_m, const Eigen::Vector3f& sensor)
       : towards_m(height_m - sensor[tile.facing]),
         middle_u_m(static_cast<float>(tile.u) + 0.5F - sensor[kU[tile.facing]]),
@@ -263,9 +265,9 @@ struct ReliefMap::RaysOver {
   float along_u(float u) const { return no_flatter(middle_u_m + u); }
   float along_v(float v) const { return no_flatter(middle_v_m + v); }
 
-  // A ray flatter than 3 degrees meets the edge of a surface, not the surface.
+  // A flatter ray meets the edge of a surface, not the surface.
   float no_flatter(float along_m) const {
-    constexpr float kFlattest = 20.0F;
+    constexpr float kFlattest = 20.0F;  // 2.9 degrees: ground that a sensor 1.4 m high sees 28 m away
     const float most_m = kFlattest * std::fabs(towards_m);
     return std::fabs(along_m) < most_m ? along_m / towards_m : std::copysign(kFlattest, along_m * towards_m);
   }
@@ -273,24 +275,28 @@ struct ReliefMap::RaysOver {
   float towards_m, middle_u_m, middle_v_m;
 };
 
-// The plane of a surface that began in this keyframe; heights count from it then.
+float mean_height(const Tile& tile) {
+  float sum = 0.0F, cells = 0.0F;
+  for (const Cell& cell : tile.cell) {
+    if (cell.count == 0) continue;
+    sum += height_of(cell);
+    cells += 1.0F;
+  }
+  return sum / cells;  // a tile begins with a point
+}
+
+// A plane through a tile's cells: its height in the middle, and its slopes along u and v.
 //
 // Where rock stands out, a ray meets it sooner: places and heights err together along the ray, and a line of points on
 // rough ground tilts towards the sensor, whatever the ground does. Where a ray meets the tile's mean height is the
 // ray's alone, so that place is the instrument of the place (least squares by instrumental variables).
-void ReliefMap::settle(Tile* tile) {
-  float mean = 0.0F, cells = 0.0F;
-  for (const Cell& cell : tile->cell) {
-    if (cell.count == 0) continue;
-    mean += height_of(cell);
-    cells += 1.0F;
-  }
-  mean /= cells;
-  const RaysOver rays(*tile, tile->height_m + mean, sensor_);
+Eigen::Vector3f plane_of(const Tile& tile, const Eigen::Vector3f& sensor) {
+  const float mean = mean_height(tile);
+  const RaysOver rays(tile, tile.height_m + mean, sensor);
   Eigen::Matrix3d A = Eigen::Vector3d(1e-6, kRidge, kRidge).asDiagonal(), by_rays = A;
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (std::int32_t k = 0; k < kAlongCells * kAcrossCells; ++k) {
-    const Cell& cell = tile->cell[k];
+    const Cell& cell = tile.cell[k];
     if (cell.count == 0) continue;
     const float u = along_of(cell, k % kAlongCells), v = middle_across(k / kAlongCells);
     const float above = height_of(cell) - mean;
@@ -306,6 +312,14 @@ void ReliefMap::settle(Tile* tile) {
   const bool tells = A.determinant() > kTells * by_rays.determinant();
   Eigen::Vector3f plane = ((tells ? A : by_rays).inverse() * b).cast<float>();
   plane[0] += mean;
+  return plane;
+}
+
+}  // namespace
+
+// The plane of a surface that began in this keyframe; heights count from it then.
+void ReliefMap::settle(Tile* tile) {
+  const Eigen::Vector3f plane = plane_of(*tile, sensor_);
   for (std::int32_t k = 0; k < kAlongCells * kAcrossCells; ++k) {
     Cell& cell = tile->cell[k];
     if (cell.count == 0) continue;

@@ -144,7 +144,6 @@ class ReliefMap {
   std::int32_t take_tile();
   Surface over(const Tile& tile, const Eigen::Vector3f& p) const;
   bool is_still_over(const Tile& tile, const Eigen::Vector3f& p, std::uint8_t facing, Surface* at) const;
-  struct RaysOver;
   void settle(Tile* tile);
   bool goes_on_behind(const Tile& tile) const;
   bool has_ground(std::int32_t x, std::int32_t y, float below_m) const;

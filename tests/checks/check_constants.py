@@ -7,7 +7,7 @@ a colon, for the row of declarations below it, up to a blank line, another comme
 That somebody judged so on some day is no reason: "judgement" and dates are not counted among the three words.
 
 Looked at is what is declared constexpr with an arithmetic type, or as an array of one, in any scope; and of each row of
-engine/gates/gates.def its origin, which may be one word ("key"), but not that one.
+a gates.def its origin, which may be one word ("key"), but not that one.
 
 usage: check_constants.py ROOT [FOLDER...]      folders and files below src/, all of it if none is given;
                                                 exit status 1 and one line per constant without a reason"""
@@ -17,7 +17,6 @@ import re
 import sys
 
 ALL = ("*",)
-GATES = "engine/gates/gates.def"
 WORDS_MIN = 3
 NUMBER = (r"(?:double|float|auto|bool|char|short|(?:unsigned|signed|long|int)(?:\s+(?:long|int|char|short))*"
           r"|(?:std::)?(?:u?int(?:_fast|_least)?\d+_t|u?intptr_t|size_t|ptrdiff_t)"
@@ -28,7 +27,8 @@ COMMENT_OR_STRING = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|(?<![
 NAME = re.compile(r"\s*(\w+)\s*(?:\[[^\]]*\]\s*)*(?=[={])")
 WORD = re.compile(r"[A-Za-z][A-Za-z'_]+")
 NO_REASON = re.compile(r"NO" r"LINT\S*|clang-format (?:on|off)|\b[Jj]udge?ments?\b")
-GATE = re.compile(r'^GATE\((\w+), "\w+", \w+, .*?, "[^"]*", "[^"]*", \w+, [^"]*?, "([^"]*)",')
+# A row's last text but one is its origin: the very last says what the value is.
+GATE = re.compile(r'^GATE\((\w+), "\w+", .*"([^"]*)", "[^"]*"\)$')
 
 
 def split(text):
@@ -95,12 +95,11 @@ def sources(src, places):
         yield from sorted(p for p in [path, *path.rglob("*")] if p.suffix in {".cpp", ".hpp"})
 
 
-def gates_without_origin(table):
-    """(line, name) of rows whose origin says nothing."""
-    if not table.exists():
-        return []
-    rows = ((k, GATE.match(line)) for k, line in enumerate(table.read_text(encoding="utf-8").split("\n"), 1))
-    return [(k, row[1]) for k, row in rows if row and not WORD.search(NO_REASON.sub("", row[2]))]
+def gates(text):
+    """(line, name, origin) of each row of a table of gates."""
+    lines = [(k, line) for k, line in enumerate(text.split("\n"), 1) if line.startswith("GATE(")]
+    rows = [(k, GATE.match(line), line) for k, line in lines]
+    return [(k, row[1], row[2]) if row else (k, line[:60], "") for k, row, line in rows]
 
 
 def main():
@@ -114,11 +113,14 @@ def main():
             of_file = constants(path.read_text(encoding="utf-8"))
             looked_at += len(of_file)
             found += [f"{path.relative_to(root)}:{line} {name}" for line, name, text in of_file if not is_reason(text)]
-    if "engine" in places:
-        found += [f"src/{GATES}:{line} {name}" for line, name in gates_without_origin(root / "src" / GATES)]
+        for path in sorted(path for top in (root / "src").glob(place) for path in top.rglob("gates.def")):
+            of_file = gates(path.read_text(encoding="utf-8"))
+            looked_at += len(of_file)
+            found += [f"{path.relative_to(root)}:{line} {name}" for line, name, origin in of_file
+                      if not WORD.search(NO_REASON.sub("", origin))]
     if not looked_at:
         sys.exit("no constants: nothing was checked")
-    print("\n".join([*found, f"{looked_at} constants, {len(found)} without a reason"]))
+    print("\n".join([*found, f"{looked_at} constants and gates, {len(found)} without a reason"]))
     sys.exit(1 if found else 0)
 
 

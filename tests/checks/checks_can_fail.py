@@ -299,11 +299,13 @@ class Constants(BrokenProject):
         self.passes(*self.check("constexpr double kEnd_m = 2.0;  // judgement, 2026-11-21: a wall is longer"))
 
     def test_origin_of_a_gate(self):
-        for status, origin in ((1, "judgement, 2026-11-21"), (0, "key"), (0, "definition")):
-            row = f'GATE(POINTS, "points", AT_LEAST, 1.0, "", "", REFUSES, 0, "{origin}", "voxels")'
-            self.write("src/engine/gates/gates.def", row + "\n")
-            self.check("constexpr double kEnd_m = 2.0;  // a wall is longer")
-            self.assertEqual(self.run_check(CHECKS / "check_constants.py", self.root, "engine")[0], status)
+        for table, row in (("engine/gates", 'GATE(POINTS, "points", AT_LEAST, 1.0, "", "", TELLS, 0, "{}", "voxels")'),
+                           ("motion", 'GATE(ROWS, "rows", AT_LEAST, 100, "rows", "{}", "rows of a curve, of 1024")')):
+            for status, origin in ((1, "judgement, 2026-11-21"), (1, ""), (0, "key"), (0, "definition: of (this)")):
+                self.write(f"src/{table}/gates.def", row.format(origin) + "\n")
+                self.check("constexpr double kEnd_m = 2.0;  // a wall is longer")
+                with self.row(f"{table}: {origin}"):
+                    self.assertEqual(self.run_check(CHECKS / "check_constants.py", self.root)[0], status)
 
     def test_two_words_beside_a_reason_above(self):
         self.passes(*self.check("// A wall that ends sooner is none.", "constexpr double kEnd_m = 2.0;  // two metres"))

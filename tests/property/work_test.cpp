@@ -4,7 +4,7 @@
 // Proves: what a frame costs, in steps that are the same on every machine, is within the bound that is computed from
 // the caps, and for every cloud that is known to be dear within three and a half bare roads of as many points, which
 // are two furnished ones (bench/README.md). What would cost more ends with a reason of its own. It does not prove that
-// steps are instructions: bench/instructions/work.py does.
+// steps are instructions: `bench/instructions/count.py` counts them.
 
 #include <gtest/gtest.h>
 

@@ -49,7 +49,7 @@ struct GateNotes<gate::Id> {
 };
 #endif
 
-// The same. If the value fails, the verdict gets the gate's reasons and is refused if the gate refuses.
+// As passes(). If the value fails, the verdict gets the gate's reasons and is refused if the gate refuses.
 template <auto id, typename... Limit>
 bool demand(Verdict* verdict, const Limit&... value_and_limit) {
   if (passes<id>(value_and_limit...)) return true;

@@ -19,7 +19,7 @@ constexpr std::uint32_t kReturnsLeast = SeenClouds::kReturnsLeast;
 constexpr std::uint32_t kMomentFirst_ms = 1000000;  // the first frame's time: that of a place that was never seen is 0
 constexpr std::uint32_t kMomentMost_ms = 0xF0000000U;  // after 46 days all is forgotten once
 constexpr double kFuture_s = 0.005;                    // a stamp may lie so far ahead of the caller's clock
-constexpr std::uint32_t kStandsMost = 100;             // calls with one time: a clock in steps of 16 ms takes some
+constexpr std::uint32_t kClockStandsMost = 100;        // calls with one time: a clock in steps of 16 ms takes some
 constexpr double kGap_s = 1.0;                         // beyond stale_s: what the machine did in between is not known
 constexpr double kStill = 1e-9;                        // m/s and rad/s: it stands
 
@@ -60,7 +60,7 @@ void Stop::open(const StopSettings& settings, const Mount& mount, std::uint32_t 
 void Stop::reset() {
   has_now_ = false;
   now_ns_ = 0;
-  standing_calls_ = 0;
+  clock_stood_calls_ = 0;
   repeat_guard_ = RepeatGuard{};  // a clock that is set back leaves it: what was seen is old all the same
   forget();
 }
@@ -87,16 +87,16 @@ std::uint32_t Stop::heed_clock(std::int64_t now_ns) {
   if (is_first || is_set_back || now_ns > now_ns_) {
     has_now_ = true;
     now_ns_ = now_ns;
-    standing_calls_ = 0;
+    clock_stood_calls_ = 0;
     ++heartbeat_;
-  } else if (standing_calls_ < kStandsMost) {
-    ++standing_calls_;
+  } else if (clock_stood_calls_ < kClockStandsMost) {
+    ++clock_stood_calls_;
   }
   if (is_set_back) {
     forget();
     return POSE_WALL_PLANAR_STOP_R_INVALID;
   }
-  return standing_calls_ < kStandsMost ? 0 : POSE_WALL_PLANAR_STOP_R_STALE;
+  return clock_stood_calls_ < kClockStandsMost ? 0 : POSE_WALL_PLANAR_STOP_R_STALE;
 }
 
 // One stamp that goes back is a frame that was overtaken. The second in a row is a clock that was set back: it is taken

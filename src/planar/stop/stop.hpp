@@ -64,8 +64,8 @@ class Stop {
   std::uint64_t frames_;
   std::uint32_t now_ms_, heartbeat_, settings_crc32_;
   bool is_stopped_, is_clear_;
-  std::int64_t now_ns_, back_ns_;  // the latest time of a call; the frame before, where its stamp went back
-  std::uint32_t standing_calls_;   // in a row that did not bring a later time
+  std::int64_t now_ns_, back_ns_;    // the latest time of a call; the frame before, where its stamp went back
+  std::uint32_t clock_stood_calls_;  // in a row that did not bring a later time
   bool has_now_, went_back_;
   pose_wall_planar_stop_result last_;
 };
