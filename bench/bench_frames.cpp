@@ -79,7 +79,7 @@ tools::sim::Frame spread(std::uint32_t points) {
 
 api::Config config(const std::string& sensor, std::uint32_t road) {
   api::Config config;
-  for (const tools::sim::EngineSetting& s : tools::sim::engine_setting_list(setup(sensor, road))) {
+  for (const tools::EngineSetting& s : tools::sim::engine_setting_list(setup(sensor, road))) {
     if (config.set(s.key.c_str(), s.value.c_str()) != POSE_WALL_OK) {
       throw std::runtime_error("the config refused " + s.key + "=" + s.value);
     }

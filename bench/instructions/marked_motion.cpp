@@ -69,7 +69,7 @@ int run(const std::string& scene, std::uint32_t count) {
   const tools::sim::Simulator simulator(setup, kSeed);
   pose_wall_config config;
   if (pose_wall_config_init(&config) != POSE_WALL_OK) return EXIT_FAILURE;
-  for (const tools::sim::EngineSetting& s : tools::sim::engine_setting_list(setup)) {
+  for (const tools::EngineSetting& s : tools::sim::engine_setting_list(setup)) {
     if (pose_wall_config_set(&config, s.key.c_str(), s.value.c_str()) != POSE_WALL_OK) return EXIT_FAILURE;
   }
   test::MotionUnderTest motion(config);

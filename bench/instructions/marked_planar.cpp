@@ -152,7 +152,7 @@ int run(const std::string& scene, std::uint32_t count) {
   const tools::sim::Simulator simulator(setup, kSeed);
   pose_wall_config config;
   must(pose_wall_config_init(&config), "config");
-  for (const tools::sim::EngineSetting& s : tools::sim::engine_setting_list(setup)) {
+  for (const tools::EngineSetting& s : tools::sim::engine_setting_list(setup)) {
     must(pose_wall_config_set(&config, s.key.c_str(), s.value.c_str()), s.key.c_str());
   }
   const Chain chain(config);

@@ -219,7 +219,7 @@ Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, co
       out.state = POSE_WALL_ALONG_UNOBSERVABLE;
     }
   }
-  const bool few = !passes<gate::MATCHED>(a.matched), far = !placing.is_in_reach(a);
+  const bool few = !passes<gate::MATCHED>(a.matched) || !a.told, far = !placing.is_in_reach(a);
   out.reasons |= bit(!a.ground_alone, POSE_WALL_MOTION_R_NO_GROUND) | bit(few, POSE_WALL_MOTION_R_FEW_MATCHES) |
                  bit(far, POSE_WALL_MOTION_R_AT_EDGE);
   if (few || far) out.state = POSE_WALL_ALONG_LOST;

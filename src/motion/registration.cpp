@@ -17,7 +17,8 @@ constexpr float kStill2 = 4e-6F;      // 2 mm and mrad: surfaces are found anew 
 // Of a patch that is left out: where it alone holds a direction, its own pull counts a hundredfold, and not without
 // end.
 constexpr double kLeftOut = 0.99;
-constexpr float kNear_m = 0.3F;  // from a plane whose relief is not used: most of a tile's layer
+constexpr std::uint32_t kPatchesLeast = 4;  // three unknowns, and one that can contradict
+constexpr float kNear_m = 0.3F;             // from a plane whose relief is not used: most of a tile's layer
 
 struct Sums {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
@@ -57,7 +58,8 @@ struct Step {
   bool asked[3];
 };
 
-Eigen::Vector3d solve(const Sums& sums, double damping, const bool (&asked)[3]) {
+// False where the sums do not hold all that is asked.
+bool solve(const Sums& sums, double damping, const bool (&asked)[3], Eigen::Vector3d* move) {
   Eigen::Matrix3d A = sums.A;
   Eigen::Vector3d b = sums.b;
   for (int k = 0; k < 3; ++k) {
@@ -69,7 +71,9 @@ Eigen::Vector3d solve(const Sums& sums, double damping, const bool (&asked)[3]) 
     b[k] = 0.0;
   }
   const SmallCholesky<3> factor(A);
-  return factor.solved() ? factor.solve(b) : Eigen::Vector3d::Zero();
+  move->setZero();
+  if (factor.solved()) *move = factor.solve(b);
+  return factor.solved();
 }
 
 // The observations on the map as equations: a distance, and how it goes with six small moves. They are drawn up once;
@@ -85,7 +89,10 @@ class Equations {
       for (std::uint32_t i = 0; i < scan.observation.size(); i += every) {
         const Observation& o = scan.observation[i];
         Fit fit;
-        if (part_of(o) != part || !fit_observation(scan, local, o, &fit)) continue;
+        // The lines of a sensor lie further apart on the ground than cells. Where two scans show one cell, each shows
+        // the part of it that its own line meets, and the difference is the lines', not the rock's.
+        const bool by_plane = part == kOfGround;
+        if (part_of(o) != part || !fit_observation(scan, local, o, &fit, by_plane)) continue;
         if (is_road && faces_along(fit.normal, axis[0])) continue;
         add(fit, fit.p - local.t, axis, scan.map->index_of(fit.surface.tile));
       }
@@ -154,7 +161,8 @@ class Equations {
   // Variance of the three by the patches of rock: each is left out as a whole, and the rest finds its own place. Points
   // of a patch err together, so they count once; and where few patches hold a direction, the ones that do are not their
   // own witnesses.
-  Eigen::Matrix3d variance_by_patches(const Step& step, const Sums& sums, std::uint32_t tiles) const {
+  // False where they are too few to be each other's.
+  bool variance_by_patches(const Step& step, const Sums& sums, std::uint32_t tiles, Eigen::Matrix3d* variance) const {
     for (Span<float>& s : s_.sum) s.first(tiles).fill(0.0F);
     for (std::uint32_t i = begin_[step.first]; i < begin_[step.last]; ++i) {
       const std::uint32_t tile = s_.tile[i];
@@ -164,7 +172,8 @@ class Equations {
         for (int j = 0; j <= r; ++j) s_.sum[n++][tile] += weighed * s_.by_move[step.free[j]][i];
       }
     }
-    Eigen::Matrix3d variance = Eigen::Matrix3d::Zero();
+    variance->setZero();
+    std::uint32_t patches = 0;
     for (std::uint32_t t = 0; t < tiles; ++t) {
       if (s_.sum[3][t] == 0.0F && s_.sum[5][t] == 0.0F && s_.sum[8][t] == 0.0F) continue;  // most are out of sight
       Sums rest = sums;
@@ -175,10 +184,12 @@ class Equations {
           rest.A(j, r) = rest.A(r, j);
         }
       }
-      const Eigen::Vector3d moves_by = solve(rest, 0.0, step.asked);
-      variance += moves_by * moves_by.transpose();
+      Eigen::Vector3d moves_by;
+      if (!solve(rest, 0.0, step.asked, &moves_by)) return false;
+      *variance += moves_by * moves_by.transpose();
+      ++patches;
     }
-    return variance;
+    return patches >= kPatchesLeast;
   }
 
  private:
@@ -220,7 +231,8 @@ bool iterate(const Equations& equations, const Step& step, const StepOptions& op
   *sums = at(by);
   for (int round = 0; round < options.rounds; ++round) {
     if (!passes<gate::EQUATIONS>(sums->count)) return false;
-    const Eigen::Vector3d move = solve(*sums, damping, step.asked);
+    Eigen::Vector3d move;
+    (void)solve(*sums, damping, step.asked, &move);
     float trial[6];
     for (int k = 0; k < 6; ++k) trial[k] = by[k];
     for (int k = 0; k < 3; ++k) trial[step.free[k]] += static_cast<float>(move[k]);
@@ -237,7 +249,8 @@ bool iterate(const Equations& equations, const Step& step, const StepOptions& op
   return passes<gate::EQUATIONS>(sums->count);
 }
 
-void take_step(const Equations& equations, const Step& step, const StepOptions& options, std::uint32_t tiles,
+// False where too little counts to tell how sure the step is.
+bool take_step(const Equations& equations, const Step& step, const StepOptions& options, std::uint32_t tiles,
                float (&by)[6], Alignment* a) {
   Eigen::Matrix3d C = Eigen::Matrix3d::Zero();
   Scales scales;
@@ -250,11 +263,12 @@ void take_step(const Equations& equations, const Step& step, const StepOptions& 
     scales.learn(sums);
     sums = equations.sum_up(step.first, step.last, step.free, by, scales, true);
     (step.first == kOfGround ? a->ground : a->matched) = sums.count;
-    if (told) C = equations.variance_by_patches(step, sums, tiles);
+    told = told && equations.variance_by_patches(step, sums, tiles, &C);
   }
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) a->covariance(step.free[i], step.free[j]) = C(i, j);
   }
+  return told;
 }
 
 // along, left and up, and turns about them.
@@ -290,9 +304,9 @@ bool take_steps(const Scan& scan, const StepOptions& options, StepScratch* scrat
   const std::uint32_t tiles = scan.map->tiles();
   float by[6] = {};
   const Step one = {kOfGround, a->ground_alone ? kOfRoof : kParts, {3, 4, 2}, {true, true, true}};
-  take_step(equations, one, options, tiles, by, a);
+  a->told = take_step(equations, one, options, tiles, by, a);
   const Step two = {kOfWalls, kParts, {0, 1, 5}, {options.with_along, true, true}};
-  take_step(equations, two, options, tiles, by, a);
+  a->told = take_step(equations, two, options, tiles, by, a) && a->told;
   a->pose = moved(*a, by);
   float far2 = 0.0F;
   for (const float move : by) far2 += move * move;

@@ -15,6 +15,7 @@ struct Alignment {
   RoadAxes axes;
   std::uint32_t matched = 0, ground = 0;  // observations that count
   bool ground_alone = false;              // the ground is seen well enough to do without the roof
+  bool told = false;                      // both steps had enough for a covariance; else it is none
   // Covariance of along, across, up, and turns about these axes, by patches of rock, so that neighbours that err
   // together count once. The along row is zero if it was not requested.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();

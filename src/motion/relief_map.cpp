@@ -293,8 +293,8 @@ float mean_height(const Tile& tile) {
 Eigen::Vector3f plane_of(const Tile& tile, const Eigen::Vector3f& sensor) {
   const float mean = mean_height(tile);
   const RaysOver rays(tile, tile.height_m + mean, sensor);
-  Eigen::Matrix3d A = Eigen::Vector3d(1e-6, kRidge, kRidge).asDiagonal(), by_rays = A;
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d A = Eigen::Vector3d(1e-6, kRidge, kRidge).asDiagonal(), by_places = A, by_rays = A;
+  Eigen::Vector3d b = Eigen::Vector3d::Zero(), b_by_places = b;
   for (std::int32_t k = 0; k < kAlongCells * kAcrossCells; ++k) {
     const Cell& cell = tile.cell[k];
     if (cell.count == 0) continue;
@@ -304,13 +304,16 @@ Eigen::Vector3f plane_of(const Tile& tile, const Eigen::Vector3f& sensor) {
     const Eigen::Vector3d ray(1.0, static_cast<double>(u - above * rays.along_u(u)),
                               static_cast<double>(v - above * rays.along_v(v)));
     A += ray * place.transpose();
+    by_places += place * place.transpose();
     by_rays += ray * ray.transpose();
     b += ray * static_cast<double>(above);
+    b_by_places += place * static_cast<double>(above);
   }
-  // Where a plane nearly holds its rays they tell no slope: places then follow heights, and not the rays.
+  // A surface that faces flat rays steeply, or noise: the rays tell little of the places, and the places do not follow
+  // the heights.
   constexpr double kTells = 0.25;
   const bool tells = A.determinant() > kTells * by_rays.determinant();
-  Eigen::Vector3f plane = ((tells ? A : by_rays).inverse() * b).cast<float>();
+  Eigen::Vector3f plane = (tells ? A.inverse() * b : by_places.inverse() * b_by_places).cast<float>();
   plane[0] += mean;
   return plane;
 }

@@ -20,8 +20,7 @@ constexpr float kCellSigma_m = 0.004F;
 constexpr float kRockSigma_m = 0.04F;
 
 // The distance of the point from the rock, and its expectation from noise alone, for a fit that holds surface and
-// incidence. Of ground, from its plane: the lines of a sensor lie further apart there than cells. So where two scans
-// show one cell, each shows the part of it that its own line meets, and the difference is the lines', not the rock's.
+// incidence.
 void measure(Fit* fit, bool by_plane = false) {
   Relief relief;
   fit->has_relief = !by_plane && ReliefMap::relief(fit->surface, &relief);
@@ -43,7 +42,7 @@ bool fit_beyond(const Scan& scan, const Eigen::Vector3f& p, bool by_plane, Fit* 
 
 }  // namespace
 
-bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation& o, Fit* fit) {
+bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation& o, Fit* fit, bool by_plane) {
   const Eigen::Vector3f base(o.x, o.y, o.z);
   fit->p = pose(base);
   if (!scan.map->find(fit->p, o.facing, &fit->surface)) return false;
@@ -51,7 +50,7 @@ bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation&
   const Eigen::Vector3f ray = base - scan.sensor_base_m;
   const float towards = (pose.R * ray).dot(fit->normal);
   fit->incidence2 = towards * towards / ray.squaredNorm();
-  measure(fit, o.ground != 0);
+  measure(fit, by_plane);
   return true;
 }
 

@@ -37,12 +37,10 @@ SixBySix doubted(const SixBySix& C) {
   SixBySix out = C;
   for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) out(k, k) += least_variance(k);
   const SmallCholesky<3> factor(out.bottomRightCorner<3, 3>());
-  Eigen::Matrix3d by_turns;
-  for (int k = 0; k < 3; ++k) by_turns.col(k) = factor.solve(of_places.col(k));
-  out.topLeftCorner<3, 3>() += kMore * of_places.transpose() * by_turns;
-  out.bottomRightCorner<3, 3>() += kMore * turns;
-  out.bottomLeftCorner<3, 3>() += kMore * of_places;
-  out.topRightCorner<3, 3>() += kMore * of_places.transpose();
+  Eigen::Matrix<double, 6, 3> hangs;  // places and turns by turns: a congruence, so that no variance can be negative
+  for (int k = 0; k < 3; ++k) hangs.row(k) = factor.solve(of_places.col(k)).transpose();
+  hangs.bottomRows<3>().setIdentity();
+  out += kMore * hangs * turns * hangs.transpose();
   return out;
 }
 
