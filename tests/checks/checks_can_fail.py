@@ -269,7 +269,7 @@ class Constants(BrokenProject):
 
     def test_says_how_many(self):
         status, text = self.run_check(*self.check("constexpr int kA = 1, kB = 2;  // one for each side"))
-        self.assertEqual((status, text), (0, "2 constants, 0 without a reason\n"))
+        self.assertEqual((status, text), (0, "2 constants and gates, 0 without a reason\n"))
 
     def test_without_a_reason(self):
         layout, end = "// Layout of a key, from the lowest bit:", "constexpr double kEnd_m = 2.0;"
@@ -302,9 +302,9 @@ class Constants(BrokenProject):
         for table, row in (("engine/gates", 'GATE(POINTS, "points", AT_LEAST, 1.0, "", "", TELLS, 0, "{}", "voxels")'),
                            ("motion", 'GATE(ROWS, "rows", AT_LEAST, 100, "rows", "{}", "rows of a curve, of 1024")')):
             for status, origin in ((1, "judgement, 2026-11-21"), (1, ""), (0, "key"), (0, "definition: of (this)")):
-                self.write(f"src/{table}/gates.def", row.format(origin) + "\n")
-                self.check("constexpr double kEnd_m = 2.0;  // a wall is longer")
                 with self.row(f"{table}: {origin}"):
+                    self.write(f"src/{table}/gates.def", row.format(origin) + "\n")
+                    self.check("constexpr double kEnd_m = 2.0;  // a wall is longer")
                     self.assertEqual(self.run_check(CHECKS / "check_constants.py", self.root)[0], status)
 
     def test_two_words_beside_a_reason_above(self):
