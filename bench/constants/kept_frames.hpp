@@ -13,9 +13,9 @@
 #include <optional>
 #include <string>
 
+#include "io/csv/truth_csv.hpp"
 #include "lab/campaign/plan.hpp"
 #include "lab/sim/simulator.hpp"
-#include "truth/truth_csv.hpp"
 
 namespace pose_wall::tools::campaign {
 

@@ -3,8 +3,8 @@
 # Copyright (c) 2026 the pose_wall authors
 """What half and twice each constant of the engine changes in simulated roads.
 
-    bench/constants/sweep.py --word swept                       all constants whose reason holds the word, and gates
-    bench/constants/sweep.py engine/floor/candidates.cpp:kGhostShare engine/gates/gates.def:POINTS
+    bench/constants/sweep.py --word swept                       all constants whose reason holds the word
+    bench/constants/sweep.py engine/floor/candidates.cpp:kGhostShare
     bench/constants/sweep.py engine/floor/candidates.cpp:kGhostShare=1e9     another value, as one that is never met
     bench/constants/sweep.py --word swept --list                only names them
     bench/constants/sweep.py --table                            the table of what is measured already
@@ -160,7 +160,7 @@ def table(rows):
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="FILE:NAME[=VALUE]", help="below src/; of a gate VALUE is a factor")
+    parser.add_argument("names", nargs="*", metavar="FILE:NAME[=VALUE]", help="below src/")
     parser.add_argument("--word", help="also all constants whose reason holds this word")
     parser.add_argument("--values", default="half,twice", help="half, twice or numbers; default %(default)s")
     parser.add_argument("--plans", default="scenes", help=f"of {', '.join(PLANS)}; default %(default)s")

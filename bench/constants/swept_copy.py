@@ -22,8 +22,6 @@ import check_constants as checked  # noqa: E402  # one reader of constants and t
 
 ROOMS = ("base", "lidar", "engine")
 COPIED = ("CMakeLists.txt", "LICENSE", "README.md", "bench", "config", "include", "src", "tools", "toolchains")
-GATES = "engine/gates/gates.def"
-GATE = re.compile(r'^GATE\((\w+), "(\w+)", \w+, (.*?), "[^"]*", "[^"]*", \w+, [^"]*?, "([^"]*)",', re.M)
 DECLARED = (r"(?P<aside>(?:(?:static|inline)\s+)*)constexpr\s+(?P<type>[\w:]+(?:\s+\w+)?)\s+{name}\s*=\s*"
             r"(?P<value>[^;]+);")
 NOT_CONSTANT = re.compile(
@@ -48,9 +46,7 @@ def all_constants(root=ROOT):
     for path in checked.sources(root / "src", ROOMS):
         file = str(path.relative_to(root / "src"))
         found += [Constant(file, name, reason) for _, name, reason in checked.constants(path.read_text("utf-8"))]
-    rows = GATE.findall((root / "src" / GATES).read_text("utf-8"))
-    # A limit that the caller of a gate knows is no number of the table.
-    return found + [Constant(GATES, name, origin) for name, _, limit, origin in rows if limit != "BY_CALLER"]
+    return found
 
 
 def scope_at(code, at):
@@ -117,8 +113,6 @@ class Copy:
         shutil.copymode(path, self.tree / file)
 
     def rewritten(self, file, text):
-        if file == "engine/gates/gate.hpp":
-            return with_swept_gates(text)
         before = text
         for key, constant in self.swept.items():
             if constant.file == file:
@@ -272,14 +266,3 @@ def with_kept_frames(text):
     before = '#include "lab/campaign/folder.hpp"\n'
     text = replaced_once(text, before, before + '#include "lab/campaign/kept_frames.hpp"\n')
     return replaced_once(text, "const sim::Simulator simulator = simulator_of(run);", "KeptRun simulator(run);")
-
-
-def with_swept_gates(text):
-    """A limit of the engine's table times a factor, 1 unless it is swept."""
-    before = '#include "base/containers/work.hpp"'
-    text = replaced_once(text, before, before + '\n#include "base/swept.hpp"')
-    before = "static double limit([[maybe_unused]] const Settings& s) { return "
-    factor = ("static double factor() { \\\n"
-              f'      static const double f = pose_wall_swept::swept<double>("{GATES}:" #id, 1.0); \\\n'
-              "      return f; } \\\n    ")
-    return replaced_once(text, before, factor + before + "factor() * ")
