@@ -17,8 +17,7 @@ constexpr float kStill2 = 4e-6F;      // 2 mm and mrad: surfaces are found anew 
 // Of a patch that is left out: where it alone holds a direction, its own pull counts a hundredfold, and not without
 // end.
 constexpr double kLeftOut = 0.99;
-constexpr std::uint32_t kPatchesLeast = 4;  // three unknowns, and one that can contradict
-constexpr float kNear_m = 0.3F;             // from a plane whose relief is not used: most of a tile's layer
+constexpr float kNear_m = 0.3F;  // from a plane whose relief is not used: most of a tile's layer
 
 struct Sums {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
@@ -160,8 +159,7 @@ class Equations {
 
   // Variance of the three by the patches of rock: each is left out as a whole, and the rest finds its own place. Points
   // of a patch err together, so they count once; and where few patches hold a direction, the ones that do are not their
-  // own witnesses.
-  // False where they are too few to be each other's.
+  // own witnesses. False where they are too few to be each other's.
   bool variance_by_patches(const Step& step, const Sums& sums, std::uint32_t tiles, Eigen::Matrix3d* variance) const {
     for (Span<float>& s : s_.sum) s.first(tiles).fill(0.0F);
     for (std::uint32_t i = begin_[step.first]; i < begin_[step.last]; ++i) {
@@ -189,7 +187,7 @@ class Equations {
       *variance += moves_by * moves_by.transpose();
       ++patches;
     }
-    return patches >= kPatchesLeast;
+    return passes<gate::PATCHES>(patches);
   }
 
  private:

@@ -28,6 +28,7 @@ struct Fit {
   float incidence2;        // squared cosine between ray and normal
   bool has_relief;
 };
+// by_plane: by the tile's plane alone, also where its relief is known.
 bool fit_observation(const Scan& scan, const LocalPose& pose, const Observation& o, Fit* fit, bool by_plane = false);
 // The same for poses that are shifted by equal steps.
 struct Shifts {

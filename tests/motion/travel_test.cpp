@@ -70,7 +70,7 @@ TEST(Travel, ATurnThatIsOffBecomesAPlaceThatIsOff) {
 
 // Ground that is seen 9 m behind alone: what pitches the machine lifts it, so height is as doubtful as pitch.
 TEST(Travel, APlaceThatHangsOnATurnIsDoubtedWithIt) {
-  constexpr double kLever_m = 9.0, kPitch_rad = 0.001, kOwn_m = 0.0005;
+  constexpr double kLever_m = 9.0, kPitch_rad = 0.001, kOwn_m = 0.0005;  // as of a VLP-16 before a face
   SixBySix C = only(POSE_WALL_MOTION_PITCH, kPitch_rad);
   C(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_UP) = std::pow(kLever_m * kPitch_rad, 2) + kOwn_m * kOwn_m;
   C(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_PITCH) = -kLever_m * kPitch_rad * kPitch_rad;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: the summary counts states, reasons and stretches as the frames have them and names the worst frame; its
-// memory is bounded; its commands explain the frames that they name; a frame is found by number, name or stamp, and a
+// Proves: the summary counts states, reasons and stretches as the frames have them, and names the worst frame. Its
+// memory is bounded. Its commands explain the frames that they name. A frame is found by number, name or stamp, and a
 // fault names what is allowed. Does not prove: that the chosen frames are those that a person would choose.
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: each sense holds at its limit and on its own side alone; NaN passes no gate; a test ratio is compared without
-// a division, so that nothing allowed is no fault; limits are compared in the value's own type where both are whole.
+// Proves: each sense holds at its limit and on its own side alone. NaN passes no gate. A test ratio is compared without
+// a division, so that nothing allowed is no fault. Limits are compared in the value's own type where both are whole.
 
 #include "base/gates/gate.hpp"
 

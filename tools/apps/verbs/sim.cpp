@@ -37,7 +37,7 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::uint32_t kSceneFrames = 10;
+constexpr std::uint32_t kSceneFrames = 10;  // a second of most sensors
 
 struct SimOptions {
   std::string scene = "clean";

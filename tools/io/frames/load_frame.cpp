@@ -27,8 +27,7 @@
 namespace pose_wall::tools {
 namespace {
 
-// Two thousand million bytes are a hundred times the largest frame of any sensor on the market.
-constexpr std::uintmax_t kFrameBytesMax = 2'000'000'000;
+constexpr std::uintmax_t kFrameBytesMax = 2'000'000'000;  // a hundred times the largest frame of a sensor on the market
 
 enum class Ending { kOther, kPcd, kBare, kPly, kText };
 

@@ -14,6 +14,7 @@
 namespace pose_wall::tools {
 namespace {
 
+// Of a packet: of firmware 2 and 3, and of 4 and 5, as the maker's driver takes them.
 constexpr std::size_t kFirstKindBytes = 1206, kLaterBytes = 1212;
 constexpr std::uint16_t kLslidarBlockFlag = 0xEEFF;
 constexpr std::uint8_t kOneReturn = 0x37, kLastReturn = 0x38, kTwoReturns = 0x39;

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <optional>
-#include <sstream>
 
+#include "lab/campaign/limit_words.hpp"
 #include "study/explain/gate_list.hpp"
 #include "study/explain/traced_frame.hpp"
 
@@ -31,8 +31,7 @@ GateRows gate_rows(const std::string& words) {
     return asked;
   }
   asked.rows.emplace_back();
-  std::istringstream list(words + ",");
-  for (std::string name; std::getline(list, name, ',');) {
+  for (const std::string& name : words_between_commas(words)) {
     const std::optional<std::uint32_t> gate = explain::find_gate(name);
     if (!gate) {
       constexpr const char* kAllowed = "; 'each' and the names of `pose_wall explain --gates` are allowed";

@@ -14,8 +14,10 @@
 
 #include "io/csv/csv_table.hpp"
 #include "io/terminal/counted.hpp"
+#include "lab/campaign/limit_words.hpp"
 #include "lab/campaign/motion_record.hpp"
 #include "lab/campaign/runner.hpp"
+#include "study/explain/traced_frame.hpp"
 
 namespace pose_wall::tools::campaign {
 namespace {
@@ -35,29 +37,12 @@ std::string no_motion_gate(const std::string& name) {
   return fmt::format("'{}' is no gate of the motion library; these are: {}", name, motion_gate_names(all));
 }
 
-std::vector<std::string> parts_of(const std::string& words) {
-  std::vector<std::string> parts;
-  std::istringstream list(words + ",");
-  for (std::string part; std::getline(list, part, ',');) parts.push_back(part);
-  return parts;
-}
-
 // NaN for what is no number that a limit may be.
 double limit_in(const std::string& word) {
-  std::istringstream in(word);
-  in.imbue(std::locale::classic());
-  double limit = kNoLimit;
-  in >> limit;
+  const double limit = number_in(word);
   constexpr double kMost = 1e9;  // as pose_wall_motion_trace_set_limit takes
-  return !in.fail() && (in >> std::ws).eof() && limit >= 0.0 && limit <= kMost ? limit : kNoLimit;
+  return limit >= 0.0 && limit <= kMost ? limit : kNoLimit;
 }
-
-struct MotionLimitsRestored {
-  MotionLimitsRestored() = default;
-  ~MotionLimitsRestored() { pose_wall_motion_trace_forget_limits(); }
-  MotionLimitsRestored(const MotionLimitsRestored&) = delete;
-  MotionLimitsRestored& operator=(const MotionLimitsRestored&) = delete;
-};
 
 void set(const MotionTrial& trial) {
   for (const std::uint32_t gate : trial.gates) {
@@ -149,7 +134,7 @@ std::vector<TrialRun> measure(const MotionTrial& trial, const std::vector<TrialR
     again.push_back(runs[run]);
     which.push_back(run);
   }
-  const MotionLimitsRestored afterwards;
+  const LimitsRestoredBy<pose_wall_motion_trace_forget_limits> afterwards;
   set(trial);
   std::vector<TrialRun> measured = count_gates(manifest.engine, again, crew), all = with_table;
   for (std::size_t k = 0; k < which.size(); ++k) all[which[k]] = std::move(measured[k]);
@@ -182,7 +167,7 @@ MotionTrialRequest motion_sweep(const std::string& words) {
   if (!gate) return {true, words, {}, no_motion_gate(name)};
   if (end == std::string::npos)
     return {true, words, {}, fmt::format("'{}' has no limits; GATE=A,B,... is asked for", words)};
-  for (const std::string& word : parts_of(words.substr(end + 1))) {
+  for (const std::string& word : words_between_commas(words.substr(end + 1))) {
     const double limit = limit_in(word);
     if (std::isnan(limit)) {
       request.fault = fmt::format("{}: '{}' is refused; numbers from 0 to 1e9 in {}, separated by commas, are allowed",
@@ -202,7 +187,7 @@ MotionTrialRequest motion_ablation(const std::string& words) {
     return request;
   }
   MotionTrial together{{}, kNoLimit};
-  for (const std::string& name : parts_of(words)) {
+  for (const std::string& name : words_between_commas(words)) {
     const std::optional<std::uint32_t> gate = find_motion_gate(name);
     if (!gate) return {false, words, {}, no_motion_gate(name)};
     together.gates.push_back(*gate);

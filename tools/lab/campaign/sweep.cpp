@@ -5,17 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
-#include <system_error>
 
-#include "io/frames/text_cursor.hpp"
 #include "io/terminal/counted.hpp"
+#include "lab/campaign/limit_words.hpp"
 #include "lab/campaign/traced_runs.hpp"
 #include "study/explain/gate_list.hpp"
 #include "study/explain/notes.hpp"
@@ -42,15 +39,6 @@ std::string allowed_limits(const pose_wall_trace_info& gate) {
 bool is_allowed(const pose_wall_trace_info& gate, double limit) {
   if (gate.sense == POSE_WALL_TRACE_IS_SO) return limit == 0.0 || limit == 1.0;
   return std::isfinite(limit) && (!is_floor_planes(gate) || limit >= kFewestFloorPlanes);
-}
-
-// NaN for what is no number, or too large to be one. Blanks around it do not matter.
-double number_in(std::string_view word) {
-  const std::string_view digits = take_word(word);
-  double number = kNaN;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  const bool is_whole = error == std::errc{} && end == digits.data() + digits.size();
-  return is_whole && take_word(word).empty() ? number : kNaN;
 }
 
 struct Parsed {

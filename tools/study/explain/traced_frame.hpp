@@ -23,12 +23,14 @@ inline bool has_failed(const pose_wall_trace& trace, std::uint32_t gate) {
 }
 
 // The table's limits are back, whatever ends its life. Limits are of the whole program.
-struct LimitsRestored {
-  LimitsRestored() = default;
-  ~LimitsRestored() { pose_wall_trace_forget_limits(); }
-  LimitsRestored(const LimitsRestored&) = delete;
-  LimitsRestored& operator=(const LimitsRestored&) = delete;
+template <void (*forget_limits)()>
+struct LimitsRestoredBy {
+  LimitsRestoredBy() = default;
+  ~LimitsRestoredBy() { forget_limits(); }
+  LimitsRestoredBy(const LimitsRestoredBy&) = delete;
+  LimitsRestoredBy& operator=(const LimitsRestoredBy&) = delete;
 };
+using LimitsRestored = LimitsRestoredBy<pose_wall_trace_forget_limits>;
 
 // The engine's memory before a frame.
 using Memento = std::vector<std::byte>;
