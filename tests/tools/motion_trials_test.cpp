@@ -90,6 +90,7 @@ TEST(MotionTrials, TwoJobsPrintTheSameAsOne) {
 
 TEST(MotionTrials, WhatCannotBeTriedIsRefusedByName) {
   kRuns.expect_refused("--sweep", {{"wall_length=1", "'wall_length' is no gate of the motion library"},
+                                   {"nothing=1", "these are: observations, in_time"},
                                    {"matched", "has no limits"},
                                    {"matched=", "'' is refused"},
                                    {"matched=few", "'few' is refused"},

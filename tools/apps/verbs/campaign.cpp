@@ -374,23 +374,23 @@ void add_part_options(CLI::App& verb, CampaignOptions& options) {
       ->type_name("DIR");
 }
 
+// Behind --motion, which is known when these are checked.
 void add_sweep_options(CLI::App& verb, CampaignOptions& options) {
+  const bool& motion = options.plan.motion;
   verb.add_option("--sweep", options.sweep,
                   "GATE=A,B,...: print the results of the runs with the table's limit of a gate, and with each of "
                   "these limits; pose_wall explain --gates lists the gates. With --motion: of a gate of motion")
       ->check(
-          [](const std::string& words) {
-            return campaign::names_motion_gate(words) ? campaign::motion_sweep(words).fault
-                                                      : campaign::sweep_fault(words);
+          [&motion](const std::string& words) {
+            return motion ? campaign::motion_sweep(words).fault : campaign::sweep_fault(words);
           },
           "");
   verb.add_option("--ablate", options.ablate,
                   "each, or GATE,...: print what becomes valid, and what becomes wrong, without each gate alone, or "
                   "without these gates together")
       ->check(
-          [](const std::string& words) {
-            return campaign::names_motion_gate(words) ? campaign::motion_ablation(words).fault
-                                                      : campaign::gate_rows(words).fault;
+          [&motion](const std::string& words) {
+            return motion ? campaign::motion_ablation(words).fault : campaign::gate_rows(words).fault;
           },
           "");
   verb.add_flag("--json", options.json, "With --sweep or --ablate: the table as JSON");

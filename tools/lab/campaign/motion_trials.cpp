@@ -155,10 +155,6 @@ std::string motion_gate_names(const std::vector<std::uint32_t>& gates) {
   return names;
 }
 
-bool names_motion_gate(const std::string& words) {
-  return find_motion_gate(words.substr(0, words.find_first_of("=,"))).has_value();
-}
-
 MotionTrialRequest motion_sweep(const std::string& words) {
   const std::size_t end = words.find('=');
   const std::string name = words.substr(0, end);

@@ -33,8 +33,6 @@ struct MotionTrialRequest {
   std::vector<MotionTrial> trials;
   std::string fault;  // empty, or what is wrong with the words
 };
-// Whether the first word is one of them.
-bool names_motion_gate(const std::string& words);
 
 // "matched=40,160"
 MotionTrialRequest motion_sweep(const std::string& words);
