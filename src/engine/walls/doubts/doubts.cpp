@@ -12,7 +12,7 @@ namespace pose_wall {
 namespace {
 
 // A rival is not fitted in full: its distance may be 5 % and 3 cm more, and its direction half a degree.
-constexpr double kRivalStretch = 1.05;
+constexpr double kRivalStretch = 1.05;   // swept: half 19 moved, twice 1 lost
 constexpr double kRivalMargin_m = 0.03;  // the noise of a sensor; swept: half 19 moved, twice 19 moved
 // 2 to 3 m of rough rock err by so much; swept: half 13 moved, twice 7 lost.
 constexpr double kRivalMargin_rad = 0.0087;
