@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-#define POSE_WALL_MOTION_TRACE_GATES 22
+#define POSE_WALL_MOTION_TRACE_GATES 20
 
 typedef struct pose_wall_motion_trace_info {
   const char* name;   /* "matched" */

@@ -154,7 +154,8 @@ class CurveBuilder {
 
   // By how much each tile's rows fit better at one shift than at another, or than at all others (kElsewhere): the sum
   // over its standard error. Under no evidence it is a standard normal number, however uneven the tiles are (self-
-  // normalised sums: de la Pena, Lai and Shao 2009).
+  // normalised sums: de la Pena, Lai and Shao 2009). Tiles that face along are asked apart as well: in a hall they are
+  // few, and all others only add their noise. Where both kinds tell, their sum does (Stouffer).
   static constexpr std::uint32_t kElsewhere = 0xFFFF;
   double agreement(std::uint32_t best, std::uint32_t other) {
     s_->gain.first(patches_).fill(0.0F);
@@ -164,15 +165,17 @@ class CurveBuilder {
       const float there = other == kElsewhere ? mean_away_from(best, row) : s_->misfit[other * kRowsMost + row];
       if (is_known(there)) s_->gain[s_->patch[row]] += there - here;
     }
-    double sum = 0.0, squares = 1e-9;
+    double sum[2] = {}, squares[2] = {1e-9, 1e-9};  // of tiles along the road, and of those that face along
     for (std::uint32_t p = 0; p < patches_; ++p) {
       // By its root, with its sign: one prop that stands out of the rock is one patch's word, too.
       const double g = static_cast<double>(s_->gain[p]), size = std::fabs(g);
       if (!(size > 0.0)) continue;
-      sum += g > 0.0 ? std::sqrt(size) : -std::sqrt(size);
-      squares += size;
+      sum[s_->faces[p]] += g > 0.0 ? std::sqrt(size) : -std::sqrt(size);
+      squares[s_->faces[p]] += size;
     }
-    return sum / std::sqrt(squares);
+    const double of_faces = sum[1] / std::sqrt(squares[1]), of_rest = sum[0] / std::sqrt(squares[0]);
+    const double of_all = (sum[0] + sum[1]) / std::sqrt(squares[0] + squares[1]);
+    return larger(of_all, larger(of_faces, (of_faces + of_rest) / std::sqrt(2.0)));
   }
 
  private:
@@ -245,8 +248,11 @@ class CurveBuilder {
     patch_of.fill(kNone);
     for (std::uint32_t row = 0; row < rows_; ++row) patch_of[s_->tile[row]] = 0;
     patches_ = 0;
-    for (std::uint16_t& patch : patch_of) {
-      if (patch != kNone) patch = static_cast<std::uint16_t>(patches_++);
+    const Eigen::Vector3f along = alignment_.axes.along.cast<float>();
+    for (std::uint32_t tile = 0; tile < patch_of.size(); ++tile) {
+      if (patch_of[tile] == kNone) continue;
+      s_->faces[patches_] = faces_along(scan_.map->tile(tile).normal(), along) ? 1 : 0;
+      patch_of[tile] = static_cast<std::uint16_t>(patches_++);
     }
     for (std::uint32_t row = 0; row < rows_; ++row) s_->patch[row] = patch_of[s_->tile[row]];
   }
@@ -354,6 +360,7 @@ void CurveScratch::lay_out(Arena& arena) {
   tile = arena.take<std::uint16_t>(kRowsMost);
   patch = arena.take<std::uint16_t>(kRowsMost);
   patch_of = arena.take<std::uint16_t>(kTilesMost);
+  faces = arena.take<std::uint8_t>(kRowsMost);
   gain = arena.take<float>(kRowsMost);
 }
 

@@ -41,6 +41,7 @@ struct CurveScratch {
   Span<std::uint16_t> tile;      // [row]
   Span<std::uint16_t> patch;     // [row]: of the tiles that rows lie on, in their order
   Span<std::uint16_t> patch_of;  // [tile], where rows lie on it
+  Span<std::uint8_t> faces;      // [patch]: 1 if it faces along
   Span<float> gain;              // [patch]
 };
 

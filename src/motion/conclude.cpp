@@ -59,10 +59,12 @@ void take_rock(const Course& last, const Alignment& a, double variance_m2, bool 
   C.col(0).setZero();
 }
 
-// Where the road bends or dips, the slipped machine follows it.
-void add_bend(const ReliefMap& map, double slip_m, SixBySix* covariance) {
-  const double bend_rad = kBendOfSpread * map.unevenness() * slip_m;
-  for (const int k : {POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_YAW}) (*covariance)(k, k) += bend_rad * bend_rad;
+// Where the road bends or dips, the slipped machine follows it, and the surfaces it is placed by are those of another
+// place, which lie off by their slopes.
+void add_slip(const ReliefMap& map, double slip_m, SixBySix* covariance) {
+  const double off_m = map.unevenness() * slip_m, bend_rad = kBendOfSpread * off_m;
+  for (const int k : {POSE_WALL_MOTION_ACROSS, POSE_WALL_MOTION_UP}) (*covariance)(k, k) += off_m * off_m;
+  for (int k = POSE_WALL_MOTION_ROLL; k < POSE_WALL_MOTION_DIRECTIONS; ++k) (*covariance)(k, k) += bend_rad * bend_rad;
 }
 
 }  // namespace
@@ -80,7 +82,7 @@ Concluded conclude(const Road& road, const Frame& frame, const MachinePrior& pri
   next.pose = {a.pose.R, weighed.t};
   next.axes = a.axes;
   next.rock_variance_m2 = placed.rock_variance_m2;
-  next.travel.go(along_m);
+  next.travel.go(a.axes.in_road() * move_m, a.axes.in_road());
   MotionStep& step = out.step;
   step.s = frame.dt_s + last.lost_s;
   step.m = last.pose.R.transpose() * move_m;
@@ -89,15 +91,23 @@ Concluded conclude(const Road& road, const Frame& frame, const MachinePrior& pri
   step.slip_m = slip_of(settings, frame, prior, placed, along_m);
   take_rock(last, a, weighed.variance_m2, measured, along_m, &next.covariance);
   next.of_rock = next.covariance;
-  if (!measured) add_bend(road.map, step.slip_m, &next.covariance);
-  step.variance = Travel::variance_of_step(last.of_rock, next.of_rock);
-  const double slip_m = measured ? last.slipped_m : step.slip_m;  // the first one found makes up for the others
-  step.bounds = Travel::of_step(last.covariance, next.covariance, slip_m, settings.protection_sigmas);
+  if (!measured) add_slip(road.map, step.slip_m, &next.covariance);
+  const auto further_on = [&](const SixBySix& C) { return turned(C, last.axes.in_road(), a.axes.in_road()); };
+  step.variance = Travel::variance_of_step(further_on(last.of_rock), next.of_rock);
+  Pieces of_step;
+  of_step.add(step.slip_m, a.axes.along);
+  const Pieces& slip = measured ? last.since_known : of_step;  // the first one found makes up for the others
+  step.bounds = next.travel.of_step(further_on(last.covariance), next.covariance, slip, settings.protection_sigmas);
   step.bounds.widen(settings.speed_max_m_s * last.lost_s, settings.turn_max_rad_s * last.lost_s);
   next.lost_s = 0.0;
   // A place found again in the map undoes the slip since, unless guesses went into the map.
-  if (measured && last.guesses) next.travel.slip(last.slipped_m, 0.0);
-  next.slipped_m = measured ? 0.0 : last.slipped_m + step.slip_m;
+  if (measured && last.guesses) next.travel.slip(last.slipped, 0.0);
+  if (measured) {
+    next.slipped = next.since_known = Pieces{};
+  } else {
+    next.slipped.add(of_step);
+    next.since_known.add(of_step);
+  }
   next.guesses = !measured && (last.guesses || placed.is_guessed);
   ++next.frames;
   out.whole = next.bounds(settings.protection_sigmas);

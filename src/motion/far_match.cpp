@@ -13,17 +13,14 @@ namespace {
 
 constexpr int kWindowsMost = 4;                       // to each side
 constexpr double kWindowStep_m = 1.5 * kReachMost_m;  // each overlaps the next by a quarter
-constexpr int kCurvesInFull = 3;                      // more, and all but the best are drawn coarsely
 
-// How a curve is drawn: in steps of 25 mm by all that it takes; or in steps of 5 cm, a cell of the map, by fewer
-// observations. Of 80 gaps of 0.6 to 6 s on five roads, all curves in full measured the way after 63, coarse ones after
-// 62, and with half as many observations after 57 (2026-11, simulated). What a wide start has placed gets an eighth: of
-// 210 scans of 80 roads, turned and after 0.8 to 4.5 s, it measured 161, as with a quarter. Of half of them a sixteenth
-// measured 77, and an eighth 79.
+// How a curve is drawn: in steps of 25 mm by all that it takes; or in steps of 5 cm, a cell of the map, by an eighth of
+// the observations. Of 210 scans of 80 roads, turned and after 0.8 to 4.5 s, an eighth measured 161, as did a quarter.
+// Of half of them a sixteenth measured 77, and an eighth 79 (2026-11, simulated).
 struct Drawn {
   std::uint32_t rows, shifts;
 };
-constexpr Drawn kFull = {kRowsMost, kShiftsMost}, kCoarse = {kRowsMost / 2, 17}, kOfPlaced = {kRowsMost / 8, 17};
+constexpr Drawn kFull = {kRowsMost, kShiftsMost}, kCoarse = {kRowsMost / 8, 17};
 
 bool is_better(const Curve& curve, const Curve& than) {
   if (is_evidence(curve) != is_evidence(than)) return is_evidence(curve);
@@ -52,17 +49,14 @@ class Windows {
 
 }  // namespace
 
-FarPlace match_far(const Scan& scan, double far_m, bool placed, const Alignment& middle, CurveScratch* scratch,
-                   Work* work) {
+FarPlace match_far(const Scan& scan, double far_m, const Alignment& middle, CurveScratch* scratch, Work* work) {
   const double needed = far_m / (2.0 * kReachMost_m) + 1.0;
   const int windows = needed < kWindowsMost ? static_cast<int>(needed) : kWindowsMost, count = 2 * windows + 1;
-  const Drawn& drawn = placed ? kOfPlaced : count <= kCurvesInFull ? kFull : kCoarse;
-  const bool in_full = &drawn == &kFull;
   const Windows draw_window(scan, middle, scratch, work);
   Curve found[2 * kWindowsMost + 1];
   int best = 0;
   for (int k = 0; k < count; ++k) {
-    found[k] = draw_window.draw(k - windows, drawn);
+    found[k] = draw_window.draw(k - windows, kCoarse);
     if (is_better(found[k], found[best])) best = k;
   }
   double apart_m = 0.0;
@@ -71,8 +65,8 @@ FarPlace match_far(const Scan& scan, double far_m, bool placed, const Alignment&
     const bool rivals = found[k].told && passes_of<gate::RIVAL_MISFIT>(found[k].bottom, found[best].bottom);
     if (rivals && away_m > 2.0 * kReachMost_m) apart_m = away_m + kReachMost_m;
   }
-  FarPlace out = {in_full ? found[best] : draw_window.draw(best - windows, kFull), middle.pose.t};
-  if (apart_m > 0.0) out.curve.apart_m = in_full ? apart_m : larger(apart_m, out.curve.apart_m);
+  FarPlace out = {draw_window.draw(best - windows, kFull), middle.pose.t};
+  out.curve.apart_m = larger(apart_m, out.curve.apart_m);
   out.t += Windows::way_m(best - windows) * middle.axes.along;
   return out;
 }

@@ -17,8 +17,7 @@ struct FarPlace {
 };
 
 // If another curve that is not the best one's neighbour fits nearly as well, that is a second place, even if it is no
-// evidence by itself. placed: a wide start has found the scan, at a cost that leaves less for the curves.
-FarPlace match_far(const Scan& scan, double far_m, bool placed, const Alignment& middle, CurveScratch* scratch,
-                   Work* work);
+// evidence by itself.
+FarPlace match_far(const Scan& scan, double far_m, const Alignment& middle, CurveScratch* scratch, Work* work);
 
 }  // namespace pose_wall::motion

@@ -33,13 +33,14 @@ struct Course {
   SixBySix of_rock = SixBySix::Zero();     // the same by the patches of rock alone
   double rock_variance_m2 = 0.0;           // of the way along by the rock, pooled over frames; 0: none yet on this map
   Travel travel;
-  double slipped_m = 0.0;    // since the way was last known
+  Pieces slipped;            // since the way was last known on this relief
+  Pieces since_known;        // since it was last known, whatever the relief
   double lost_s = 0.0;       // since the last pose, where the map began anew
   std::uint32_t frames = 0;  // on this map
   bool is_bent = false;      // the map's scans, by unknown motion
   bool guesses = false;      // keyframes of unknown place since the way was last known
 
-  Bounds bounds(double factor) const { return travel.bounds(covariance, slipped_m, factor); }
+  Bounds bounds(double factor) const { return travel.bounds(covariance, slipped, factor); }
 };
 
 }  // namespace pose_wall::motion

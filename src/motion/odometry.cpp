@@ -137,6 +137,7 @@ void Odometry::begin_map(const Frame& frame, const Seen& seen, const Pose& at) {
   course_.pose = at;
   course_.axes.along = at.R * settings_.forward_base;
   course_.axes.left = Eigen::Vector3d::UnitZ().cross(course_.axes.along).normalized();
+  course_.axes.up = course_.axes.along.cross(course_.axes.left);
   course_.axes.hold = 0.0;
   course_.covariance.setZero();
   course_.of_rock.setZero();
@@ -158,11 +159,11 @@ void Odometry::begin_map_here() {
 void Odometry::take(const Frame& frame, const Placed& placed, const Concluded& concluded) {
   model_.learn(course_, concluded.course.axes, settings_, concluded.step, frame.dt_s);
   course_ = concluded.course;
-  if (!passes<gate::SLIP>(course_.slipped_m)) {  // the place of the relief is lost
+  if (!passes<gate::SLIP>(course_.slipped.m())) {  // the place of the relief is lost
     keyframes_.forget_relief();
     take_in_scan();
-    course_.travel.slip(course_.slipped_m, keyframes_.map().unevenness());
-    course_.slipped_m = 0.0;
+    course_.travel.slip(course_.slipped, keyframes_.map().unevenness());
+    course_.slipped = Pieces{};
     course_.guesses = false;
   } else if (begins_unbent(frame, placed)) {
     begin_unbent(frame);
@@ -218,7 +219,7 @@ bool Odometry::tell(pose_wall_odometry* out) const {
   Eigen::Quaterniond q(course_.pose.R);
   q.normalize();
   out->run = run_;
-  const Six level = Travel::level_of(course_.covariance, course_.slipped_m, settings_.protection_sigmas);
+  const Six level = course_.travel.level_of(course_.covariance, course_.slipped, settings_.protection_sigmas);
   const Six rate_level = model_.rate_level(settings_.protection_sigmas);
   const Twist moves = model_.rates(course_);
   for (int k = 0; k < 3; ++k) {

@@ -26,6 +26,11 @@ constexpr int kPassesMost = 4;
 // 0.4 rock further off is taken for this one: the 95th percentile of step errors is 48 mm and not 17.
 constexpr double kReachLeast_m = 0.2;
 
+// Planes that face along give the way by themselves.
+bool planes_hold(const Alignment& a) {
+  return !passes<gate::ROAD>(a.axes.hold);
+}
+
 // Where the search along the road begins, and whether the scan fits there at all.
 struct Entry {
   Pose pose;
@@ -50,13 +55,13 @@ class Placing {
         s_(*scratch),
         work_(*work) {}
 
-  // The expected place, or after a gap the one that a wide search finds.
+  // The expected place; after a gap, which any guess may be off by, the one that a wide search finds.
   Entry enter(const Pose& expected) {
     const std::uint32_t stride = observations_.size() / kAskedOfGuess + 1;
-    const bool in_time = passes<gate::IN_TIME>(frame_.dt_s);
-    const double share = share_on_map(road_.map, observations_, expected, stride);
-    const bool on_map = in_time ? passes<gate::ON_MAP_IN_TIME>(share) : passes<gate::ON_MAP_AFTER_GAP>(share);
-    if (on_map) return {expected, false, true};
+    if (passes<gate::IN_TIME>(frame_.dt_s) &&
+        passes<gate::ON_MAP_IN_TIME>(share_on_map(road_.map, observations_, expected, stride))) {
+      return {expected, false, true};
+    }
     Pose at = expected;
     at.R = orthonormal(upright(observations_, at.R, road_.sensor_base_m) * at.R);
     face(at.R, observations_);
@@ -73,7 +78,7 @@ class Placing {
     const Eigen::Vector3d forward = at.R * road_.settings.forward_base;
     a->axes = find_axes(scan_, a->pose, forward, a->axes);
     StepOptions coarse;
-    coarse.with_along = passes<gate::HALL>(a->axes.hold);
+    coarse.with_along = planes_hold(*a);
     coarse.every = 4;
     bool moves = true;
     for (int pass = 0; pass < kPassesMost && moves; ++pass) {
@@ -84,36 +89,38 @@ class Placing {
   }
 
   // The place along the road and its uncertainty.
-  Way match_way(const Alignment& a, bool wide) {
+  Way match_way(const Alignment& a) {
     // Where planes face along, the wide start has placed the scan; along a road nothing has yet.
-    const bool far = !passes<gate::IN_TIME>(frame_.dt_s) && passes<gate::ROAD>(a.axes.hold);
-    const FarPlace place =
-        far ? match_far(scan_, road_.settings.speed_max_m_s * frame_.dt_s, wide, a, &s_.curve, &work_)
-            : FarPlace{match_near(a), a.pose.t};
+    const bool far = !passes<gate::IN_TIME>(frame_.dt_s) && !planes_hold(a);
+    const FarPlace place = far ? match_far(scan_, road_.settings.speed_max_m_s * frame_.dt_s, a, &s_.curve, &work_)
+                               : FarPlace{match_near(a), a.pose.t};
     Way out;
     out.curve = place.curve;
-    out.t = place.t;
+    out.t = a.pose.t;
     if (!is_evidence(out.curve)) {
       const bool smooth = !passes<gate::CONTRAST>(out.curve.contrast);
       out.reasons = smooth ? POSE_WALL_MOTION_R_SMOOTH : POSE_WALL_MOTION_R_FEW_PATCHES;
       out.state = POSE_WALL_ALONG_UNOBSERVABLE;
       // Not worth a claim, but a better guess than the last speed: without it a sparse sensor that starts on the move
-      // never gets a map to claim by.
-      out.is_guessed = !smooth && passes<gate::GUESS>(out.curve.patches);
+      // never gets a map to claim by. Planes that hold have placed the scan themselves, but without evidence none of
+      // that goes into the map: in a bend of smooth lining a range error moves them.
+      out.is_guessed = !smooth && !planes_hold(a) && passes<gate::GUESS>(out.curve.patches);
       if (!out.is_guessed) return out;
     } else if (out.curve.apart_m > 0.0) {
       out.reasons = POSE_WALL_MOTION_R_SECOND_PEAK;
       out.state = POSE_WALL_ALONG_AMBIGUOUS;
     }
-    out.t += out.curve.best_m * a.axes.along;
+    out.t = place.t + out.curve.best_m * a.axes.along;
     return out;
   }
 
+  // By the relief of the rock, and where planes hold along, by these.
   void fit_relief(Alignment* a) {
     StepOptions fine;
     fine.use_relief = true;
     fine.every = (observations_.size() + kEquationsMost - 1) / kEquationsMost;
     fine.rounds = 3;
+    fine.with_along = planes_hold(*a);
     work_.add(observations_.size() / fine.every, steps::kEquation);
     take_steps(scan_, fine, &s_.steps, a);
   }
@@ -138,7 +145,7 @@ class Placing {
   Curve match_near(const Alignment& a) {
     const double start_m =
         road_.course.frames == 0 ? limit_of<gate::REACH>() * road_.settings.speed_max_m_s * frame_.dt_s : 0.0;
-    double reach = road_.course.slipped_m + start_m;
+    double reach = road_.course.slipped.m() + start_m;
     reach = reach < kReachLeast_m ? kReachLeast_m : reach > kReachMost_m ? kReachMost_m : reach;
     const std::uint32_t shifts = 2 * static_cast<std::uint32_t>(reach / kCurveStep_m + 0.5) + 1;
     work_.add(steps::of_curve(observations_.size(), kRowsMost, shifts));
@@ -200,7 +207,7 @@ Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, co
   }
   Alignment& a = out.alignment;
   placing.fit_planes(entry.pose, &a);
-  const Way way = placing.match_way(a, entry.wide);
+  const Way way = placing.match_way(a);
   out.curve = way.curve;
   out.is_guessed = way.is_guessed;
   out.state = way.state;
@@ -209,12 +216,15 @@ Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, co
   placing.fit_relief(&a);
   if (!out.is(POSE_WALL_ALONG_UNOBSERVABLE)) {
     const FinePlace fine = placing.refine(a);
-    if (fine.told && passes<gate::HALVES>(fine.halves_m)) {
+    const bool agree = passes<gate::HALVES>(fine.halves_m);  // or one half tells nothing by itself
+    if (fine.told && agree) {
       a.pose.t += fine.best_m * a.axes.along;
       out.rock_variance_m2 = pooled(fine.sigma_m * fine.sigma_m, out.rock_variance_m2);
-      a.covariance(0, 0) = variance_along(road, out.curve, out.rock_variance_m2);
       out.halves_m = fine.halves_m;
-    } else {
+    }
+    a.covariance(0, 0) =
+        variance_along(road, out.curve, fine.told ? out.rock_variance_m2 : kCurveStep_m * kCurveStep_m);
+    if (!agree) {
       out.reasons |= POSE_WALL_MOTION_R_HALVES_DIFFER;
       out.state = POSE_WALL_ALONG_UNOBSERVABLE;
     }

@@ -79,9 +79,9 @@ bool solve(const Sums& sums, double damping, const bool (&asked)[3], Eigen::Vect
 // within a step's centimetres surfaces are planes, and each round of the steps is a sum over numbers that lie in rows.
 class Equations {
  public:
-  Equations(const Scan& scan, const Alignment& a, std::uint32_t every, StepScratch* scratch) : s_(*scratch) {
+  Equations(const Scan& scan, const Alignment& a, std::uint32_t every, bool with_along, StepScratch* scratch)
+      : s_(*scratch) {
     const LocalPose local(a.pose, scan.map->corner());
-    const bool is_road = passes<gate::ROAD>(a.axes.hold);
     const Eigen::Vector3f axis[3] = {a.axes.along.cast<float>(), a.axes.left.cast<float>(), a.axes.up.cast<float>()};
     for (std::uint32_t part = kOfGround; part < kParts; ++part) {
       begin_[part] = count_;
@@ -92,7 +92,7 @@ class Equations {
         // the part of it that its own line meets, and the difference is the lines', not the rock's.
         const bool by_plane = part == kOfGround;
         if (part_of(o) != part || !fit_observation(scan, local, o, &fit, by_plane)) continue;
-        if (is_road && faces_along(fit.normal, axis[0])) continue;
+        if (faces_along(fit.normal, axis[0]) && (!with_along || fit.surface.tile->stands_free != 0)) continue;
         add(fit, fit.p - local.t, axis, scan.map->index_of(fit.surface.tile));
       }
       fill_up();
@@ -298,7 +298,7 @@ bool take_steps(const Scan& scan, const StepOptions& options, StepScratch* scrat
   std::uint32_t ground = 0;
   for (const Observation& o : scan.observation) ground += o.ground;
   a->ground_alone = passes<gate::GROUND>(ground);
-  const Equations equations(scan, *a, options.every, scratch);
+  const Equations equations(scan, *a, options.every, options.with_along, scratch);
   const std::uint32_t tiles = scan.map->tiles();
   float by[6] = {};
   const Step one = {kOfGround, a->ground_alone ? kOfRoof : kParts, {3, 4, 2}, {true, true, true}};

@@ -35,10 +35,12 @@ RoadAxes find_axes(const Scan& scan, const Pose& pose, const Eigen::Vector3d& fo
   Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
   for (std::uint32_t i = 0; i < scan.observation.size(); i += kEvery) {
     Fit fit;
-    if (!fit_observation(scan, local, scan.observation[i], &fit) || !(std::fabs(fit.distance_m) < 0.15F)) continue;
+    if (!fit_observation(scan, local, scan.observation[i], &fit)) continue;
     if (fit.surface.tile->stands_free != 0) continue;
     const Eigen::Vector3d n = fit.normal.cast<double>();
-    N += n * n.transpose();
+    // By how near it is. What faces along lies off while the way is not known yet, and must still count.
+    const double off = static_cast<double>(fit.surface.above_m / kLayer_m), near = 1.0 - off * off;
+    N += near * near * n * n.transpose();
   }
   const double all = N.trace();
   if (!(all > kNormalsLeast)) return axes;
@@ -53,11 +55,12 @@ RoadAxes find_axes(const Scan& scan, const Pose& pose, const Eigen::Vector3d& fo
   if (axis.dot(forward_map) < 0.0) axis = -axis;
   const double least = axis.dot(N * axis);
   axes.along = axis;
-  axes.hold = 2.0 * least / (all - least);
+
   const Eigen::Vector3d left = Eigen::Vector3d::UnitZ().cross(axis);
   const double flat = std::sqrt(left.squaredNorm());
   axes.left = flat > 0.1 ? Eigen::Vector3d(left / flat) : Eigen::Vector3d(Eigen::Vector3d::UnitY());
   axes.up = axis.cross(axes.left);
+  axes.hold = least / axes.left.dot(N * axes.left);
   return axes;
 }
 

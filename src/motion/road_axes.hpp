@@ -14,6 +14,13 @@ namespace pose_wall::motion {
 struct RoadAxes {
   Eigen::Vector3d along = Eigen::Vector3d::UnitX(), left = Eigen::Vector3d::UnitY(), up = Eigen::Vector3d::UnitZ();
   double hold = 0.0;  // information of the surfaces' normals along it, over that across; 1: a hall, 0: a smooth road
+
+  // Turns from the map into the road.
+  Eigen::Matrix3d in_road() const {
+    Eigen::Matrix3d rows;
+    rows << along.transpose(), left.transpose(), up.transpose();
+    return rows;
+  }
 };
 // By the surfaces that the scan meets at a pose. Where too few are met, the axes before.
 RoadAxes find_axes(const Scan& scan, const Pose& pose, const Eigen::Vector3d& forward_map, const RoadAxes& before);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/estimation/small_cholesky.hpp"
+#include "base/math/finite.hpp"
 
 namespace pose_wall::motion {
 namespace {
@@ -54,14 +55,39 @@ void Bounds::widen(double place_m, double turn_rad) {
   }
 }
 
-void Travel::go(double along_m) {
+void Pieces::add(double m, const Eigen::Vector3d& direction) {
+  m_ += m;
+  by_way_ += m * direction * direction.transpose();
+}
+
+void Pieces::add(const Pieces& other) {
+  m_ += other.m_;
+  by_way_ += other.by_way_;
+}
+
+double Pieces::towards(const Eigen::Vector3d& direction) const {
+  return std::sqrt(larger(m_ * direction.dot(by_way_ * direction), 0.0));  // beside the way it may round below nothing
+}
+
+SixBySix turned(const SixBySix& covariance, const Eigen::Matrix3d& in_road_before, const Eigen::Matrix3d& in_road_now) {
+  SixBySix by = SixBySix::Zero();
+  by.topLeftCorner<3, 3>() = by.bottomRightCorner<3, 3>() = in_road_now * in_road_before.transpose();
+  return by * covariance * by.transpose();
+}
+
+void Travel::go(const Eigen::Vector3d& moved_m, const Eigen::Matrix3d& in_road) {
+  of_map_ = turned(of_map_, in_road_, in_road);
+  in_road_ = in_road;
+  const double along_m = moved_m.x();
   along_m_ += along_m;
-  way_m_ += std::fabs(along_m);
-  lost_m_ += lost_rad_ * std::fabs(along_m);
+  const double way_m = std::sqrt(moved_m.squaredNorm());
+  if (way_m > 0.0) way_.add(way_m, in_road.transpose() * moved_m / way_m);
+  lost_m_ += lost_rad_ * way_m;
   drift_[POSE_WALL_MOTION_ALONG] += kStretch * std::fabs(along_m);
   SixBySix F = SixBySix::Identity();
-  F(POSE_WALL_MOTION_ACROSS, POSE_WALL_MOTION_YAW) = along_m;
-  F(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_PITCH) = -along_m;
+  for (int turn = 0; turn < 3; ++turn) {
+    F.col(POSE_WALL_MOTION_ROLL + turn).head<3>() = Eigen::Vector3d::Unit(turn).cross(moved_m);
+  }
   of_map_ = (F * of_map_ * F.transpose()).eval();
 }
 
@@ -82,8 +108,9 @@ void Travel::drift_by(const SixBySix& covariance) {
   drift_variance_ += covariance.diagonal();
 }
 
-void Travel::slip(double along_m, double unevenness) {
-  slip_m_ += along_m;
+void Travel::slip(const Pieces& slip, double unevenness) {
+  const double along_m = slip.m();
+  slip_.add(slip);
   drift_[POSE_WALL_MOTION_ALONG] += along_m;
   const double turn2 = unevenness * unevenness, place2 = turn2 * along_m * along_m;
   Six variance = Six::Constant(place2);
@@ -92,30 +119,29 @@ void Travel::slip(double along_m, double unevenness) {
   drift_by(variance.asDiagonal());
 }
 
-Bounds Travel::bounds(const SixBySix& of_alignment, double slipping_m, double factor) const {
+Bounds Travel::bounds(const SixBySix& of_alignment, const Pieces& slipping, double factor) const {
   const Six variance = of_map_.diagonal() + Six(doubted(of_alignment).diagonal());
   Bounds out;
   for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
     const double lost = is_turn(k) ? lost_rad_ : lost_m_;
-    const double slip = k == POSE_WALL_MOTION_ALONG ? slip_m_ + slipping_m : 0.0;
+    const double slip = part_of(slip_, k) + part_of(slipping, k);
     out.sigma[k] = std::sqrt(variance[k] + (slip + lost) * (slip + lost) / 3.0);
-    out.level[k] = factor * std::sqrt(variance[k]) + slip + lost;
+    out.level[k] = factor * std::sqrt(variance[k]) + kStretch * part_of(way_, k) + slip + lost;
   }
-  out.level[POSE_WALL_MOTION_ALONG] += kStretch * way_m_;
   return out;
 }
 
-Six Travel::level_of(const SixBySix& of_alignment, double slipping_m, double factor) {
+Six Travel::level_of(const SixBySix& of_alignment, const Pieces& slipping, double factor) const {
   Six level = factor * doubted(of_alignment).diagonal().cwiseSqrt();
-  level[POSE_WALL_MOTION_ALONG] += slipping_m;
+  for (int k = 0; k < POSE_WALL_MOTION_ROLL; ++k) level[k] += part_of(slipping, k);
   return level;
 }
 
-Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, double slip_m, double factor) {
+Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, const Pieces& of_way, double factor) const {
   const Six variance = variance_of_step(before, now);
   Bounds out;
   for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
-    const double slip = k == POSE_WALL_MOTION_ALONG ? slip_m : 0.0;
+    const double slip = part_of(of_way, k);
     out.sigma[k] = std::sqrt(variance[k] + slip * slip / 3.0);
     out.level[k] = factor * std::sqrt(variance[k]) + slip;
   }

@@ -67,7 +67,7 @@ double share_on_map(const ReliefMap& map, Span<const Observation> observations, 
   double on = 0.0, asked = 0.0;
   for (std::uint32_t i = 0; i < observations.size(); i += stride) {
     const Observation& o = observations[i];
-    if (o.ground != 0) continue;  // is met wherever the machine turns and goes
+    if (o.facing == kFacesZ) continue;  // is met wherever the machine turns and goes
     asked += 1.0;
     on += nearness(map, local, o, o.facing);
   }
@@ -76,12 +76,15 @@ double share_on_map(const ReliefMap& map, Span<const Observation> observations, 
 
 namespace {
 
-// The observations that answer: evenly chosen. Ground is met wherever the machine turns and goes.
+// The observations that answer: evenly chosen of those on walls. Ground and roof are met wherever the machine turns and
+// goes.
 std::uint32_t choose_asked(Span<const Observation> observations, Span<Observation> asked) {
-  const std::uint32_t stride = observations.size() / kAskedMost + 1;
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < observations.size(); i += stride) {
-    if (observations[i].ground == 0) asked[count++] = observations[i];
+  std::uint32_t walls = 0;
+  for (const Observation& o : observations) walls += o.facing != kFacesZ ? 1U : 0U;
+  const std::uint32_t stride = walls / kAskedMost + 1;
+  std::uint32_t count = 0, next = 0;
+  for (const Observation& o : observations) {
+    if (o.facing != kFacesZ && next++ % stride == 0) asked[count++] = o;
   }
   return count;
 }

@@ -134,6 +134,28 @@ TEST_F(Steps, AHallHoldsInEveryDirection) {
   EXPECT_GT(a.axes.hold, 0.3);
 }
 
+// Floor and roof of a wide hall are nine points of ten. Its walls still give half of what is observed, or all they
+// have.
+TEST_F(Steps, TheWallsOfAHallAreNotOutnumbered) {
+  room_ = {16.0, 14.0, 1.4, 3.0, {}};
+  pipeline_.see(scan_of(room_, Pose{}, {128, 1024}), Pose{});
+  std::uint32_t on_walls = 0, level = 0;
+  for (const Observation& o : pipeline_.observations) ++(o.facing == kFacesZ ? level : on_walls);
+  EXPECT_GT(on_walls, kObservationsMost / 4);
+  EXPECT_GT(level, kObservationsMost / 4);
+  EXPECT_EQ(on_walls + level, kObservationsMost);
+}
+
+// A machine that begins to move is not where it is expected, and its hall is a hall all the same.
+TEST_F(Steps, AHallHoldsAlsoWhereTheWayIsNotKnownYet) {
+  room_ = {6.0, 5.0, 1.4, 1.8, {}};
+  map_room();
+  pipeline_.see(scan_of(room_, pose_of(0.25, 0.0, 0.0, 0.0, 0.0, 0.0)), Pose{});
+  Alignment a;
+  a.axes = find_axes(pipeline_.scan(), a.pose, Eigen::Vector3d::UnitX(), a.axes);
+  EXPECT_GT(a.axes.hold, 0.1);
+}
+
 TEST_F(Steps, AnEmptyMapMovesNothing) {
   const Pose from = pose_of(0.1, 0.2, 0.3, 0.0, 0.0, 0.1);
   pipeline_.see(scan_of(room_, Pose{}), from);

@@ -75,6 +75,27 @@ TEST(SimRun, RoughRockTellsTheWay) {
   EXPECT_LT(frames.back().turn_error_rad(), 0.2 * kRadPerDeg);
 }
 
+// At two frames a second, with turns: no guess of the place is good, and smooth walls give no relief. Its planes do.
+TEST(SimRun, AHallTellsTheWayByItsPlanes) {
+  for (const double turn_deg_s : {0.0, 12.0, -30.0}) {
+    SCOPED_TRACE(turn_deg_s);
+    sim::SceneSetup setup = clean_road(0.8);
+    setup.road.width_m = 19.0;
+    setup.road.height_m = 5.5;
+    setup.road.face_distance_m = 24.0;
+    setup.road.rear_distance_m = 9.0;
+    setup.machine.lateral_m = 2.5;
+    setup.machine.turn_rate_dps = turn_deg_s;
+    setup.sequence.rate_hz = 2.0;
+    const std::vector<MotionFrame> frames = SimulatedRun(setup).run(24);
+    EXPECT_GE(expect_contract(frames), 23U);
+    expect_nothing_misleading(frames);
+    expect_within_levels(frames);
+    EXPECT_LT(frames.back().error_m(), 0.03);
+    EXPECT_LT(frames.back().turn_error_rad(), 0.2 * kRadPerDeg);
+  }
+}
+
 TEST(SimRun, TheFirstPoseIsTheIdentity) {
   const SimulatedRun run(rough_road(0.5));
   const MotionFrame first = run.run(1).front();

@@ -9,13 +9,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
 #include <cmath>
+#include <random>
+#include <vector>
 
 namespace pose_wall::motion {
 namespace {
 
 constexpr double kFactor = 5.0;
+const Eigen::Matrix3d kStraight = Eigen::Matrix3d::Identity();  // into a road along the map's x
 
 SixBySix only(int k, double sigma) {
   SixBySix C = SixBySix::Zero();
@@ -23,8 +25,14 @@ SixBySix only(int k, double sigma) {
   return C;
 }
 
+Pieces along(double m) {
+  Pieces pieces;
+  pieces.add(m, Eigen::Vector3d::UnitX());
+  return pieces;
+}
+
 Bounds bounds_of(const Travel& travel, double slipping_m = 0.0) {
-  return travel.bounds(SixBySix::Zero(), slipping_m, kFactor);
+  return travel.bounds(SixBySix::Zero(), along(slipping_m), kFactor);
 }
 
 // By how much a variance grew.
@@ -35,8 +43,8 @@ double grown(const Travel& travel, const Bounds& before, int k) {
 
 TEST(Travel, CountsTheWayAndTheWayBack) {
   Travel travel;
-  travel.go(3.0);
-  travel.go(-1.0);
+  travel.go({3.0, 0.0, 0.0}, kStraight);
+  travel.go({-1.0, 0.0, 0.0}, kStraight);
   EXPECT_DOUBLE_EQ(travel.along_m(), 2.0);
   EXPECT_DOUBLE_EQ(travel.way_m(), 4.0);
   travel.reset();
@@ -59,10 +67,10 @@ TEST(Travel, ATurnThatIsOffBecomesAPlaceThatIsOff) {
     const Bounds before = bounds_of(turned);
     const double variance = before.sigma[lever.turn] * before.sigma[lever.turn] -
                             fresh.sigma[lever.turn] * fresh.sigma[lever.turn];  // of the map's turn
-    turned.go(10.0);
+    turned.go({10.0, 0.0, 0.0}, kStraight);
     EXPECT_NEAR(grown(turned, before, lever.place), 100.0 * variance, 1e-9 + 1e-6 * 100.0 * variance);
     EXPECT_NEAR(grown(turned, before, lever.turn), 0.0, 1e-15);
-    turned.go(-10.0);
+    turned.go({-10.0, 0.0, 0.0}, kStraight);
     EXPECT_NEAR(grown(turned, before, lever.place), 0.0, 1e-12) << "back where it was";
     EXPECT_GT(before.sigma[lever.turn], floor.sigma[lever.turn]);
   }
@@ -75,9 +83,9 @@ TEST(Travel, APlaceThatHangsOnATurnIsDoubtedWithIt) {
   C(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_UP) = std::pow(kLever_m * kPitch_rad, 2) + kOwn_m * kOwn_m;
   C(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_PITCH) = -kLever_m * kPitch_rad * kPitch_rad;
   C(POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_UP) = C(POSE_WALL_MOTION_UP, POSE_WALL_MOTION_PITCH);
-  const Six level = Travel::level_of(C, 0.0, kFactor);
+  const Six level = Travel().level_of(C, Pieces{}, kFactor);
   EXPECT_GT(level[POSE_WALL_MOTION_UP], 0.99 * kLever_m * level[POSE_WALL_MOTION_PITCH]);
-  const Six apart = Travel::level_of(only(POSE_WALL_MOTION_UP, kLever_m * kPitch_rad), 0.0, kFactor);
+  const Six apart = Travel().level_of(only(POSE_WALL_MOTION_UP, kLever_m * kPitch_rad), Pieces{}, kFactor);
   EXPECT_LT(apart[POSE_WALL_MOTION_UP], 1.01 * kFactor * kLever_m * kPitch_rad) << "a height of its own is not";
   EXPECT_LT(level[POSE_WALL_MOTION_ACROSS], 0.01) << "nor is what hangs on another turn";
 }
@@ -89,12 +97,12 @@ TEST(Travel, LeversAddUpKeyframeByKeyframe) {
   const double turn2 = std::pow(bounds_of(once).sigma[POSE_WALL_MOTION_YAW], 2) -
                        std::pow(bounds_of(Travel()).sigma[POSE_WALL_MOTION_YAW], 2);
   twice.take_in(only(POSE_WALL_MOTION_YAW, 0.01), 9);
-  twice.go(5.0);
+  twice.go({5.0, 0.0, 0.0}, kStraight);
   const Bounds before = bounds_of(twice);
   twice.take_in(only(POSE_WALL_MOTION_YAW, 0.01), 9);
   const double by_keyframe = grown(twice, before, POSE_WALL_MOTION_ACROSS);
   const double start = std::pow(bounds_of(once).sigma[POSE_WALL_MOTION_ACROSS], 2);
-  twice.go(5.0);
+  twice.go({5.0, 0.0, 0.0}, kStraight);
   const double across2 = std::pow(bounds_of(twice).sigma[POSE_WALL_MOTION_ACROSS], 2);
   EXPECT_NEAR(across2, start + by_keyframe + (100.0 + 25.0) * turn2, 1e-6 * across2);
 }
@@ -104,7 +112,7 @@ TEST(Travel, LevelsGrowWithTheWay) {
   SixBySix C = SixBySix::Identity() * 1e-6;
   Bounds before = bounds_of(travel);
   for (int i = 0; i < 200; ++i) {
-    travel.go(0.2);
+    travel.go({0.2, 0.0, 0.0}, kStraight);
     travel.take_in(C, 9);
     const Bounds now = bounds_of(travel);
     for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
@@ -121,18 +129,52 @@ TEST(Travel, WhatSlippedAddsToTheLevelAlongInFull) {
   const double before = bounds_of(travel).level[POSE_WALL_MOTION_ALONG];
   EXPECT_NEAR(bounds_of(travel, 0.3).level[POSE_WALL_MOTION_ALONG], before + 0.3, 1e-12) << "and may be told again";
   EXPECT_NEAR(bounds_of(travel).level[POSE_WALL_MOTION_ALONG], before, 1e-12);
-  travel.slip(0.3, 0.0);
+  travel.slip(along(0.3), 0.0);
   EXPECT_NEAR(bounds_of(travel).level[POSE_WALL_MOTION_ALONG], before + 0.3, 1e-12);
-  travel.slip(0.2, 0.0);
+  travel.slip(along(0.2), 0.0);
   EXPECT_NEAR(bounds_of(travel).level[POSE_WALL_MOTION_ALONG], before + 0.5, 1e-12);
   EXPECT_GE(bounds_of(travel).sigma[POSE_WALL_MOTION_ALONG], 0.5 / std::sqrt(3.0)) << "even within its bounds";
+}
+
+// In a hall the axis that surfaces hold least turns, and what slipped along the old one is across the new one.
+TEST(Travel, WhatSlippedStaysWhereItSlippedWhenTheRoadTurns) {
+  Eigen::Matrix3d to_the_left;
+  to_the_left << 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+  Travel travel;
+  travel.take_in(only(POSE_WALL_MOTION_ALONG, 0.02), 9);
+  const Bounds before = bounds_of(travel);
+  travel.slip(along(0.3), 0.0);
+  travel.go(Eigen::Vector3d::Zero(), to_the_left);
+  const Bounds now = bounds_of(travel);
+  EXPECT_NEAR(now.level[POSE_WALL_MOTION_ACROSS], before.level[POSE_WALL_MOTION_ALONG] + 0.3, 1e-12);
+  EXPECT_NEAR(now.level[POSE_WALL_MOTION_ALONG], before.level[POSE_WALL_MOTION_ACROSS], 1e-12);
+  EXPECT_NEAR(bounds_of(travel, 0.1).level[POSE_WALL_MOTION_ACROSS], now.level[POSE_WALL_MOTION_ACROSS] + 0.1, 1e-12);
+}
+
+// Pieces in several directions: never less than the truth, which may add up all of them.
+TEST(Travel, PiecesOfAWayAreBoundedInEveryDirection) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int run = 0; run < 100; ++run) {
+    Pieces pieces;
+    std::vector<Eigen::Vector3d> all;
+    for (int k = 0; k < 6; ++k) {
+      all.push_back({normal(random), normal(random), normal(random)});
+      pieces.add(all.back().norm(), all.back().normalized());
+    }
+    const Eigen::Vector3d direction = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    double worst = 0.0, length = 0.0;
+    for (const Eigen::Vector3d& piece : all) worst += std::fabs(piece.dot(direction)), length += piece.norm();
+    EXPECT_GE(pieces.towards(direction), worst * (1.0 - 1e-12));
+    EXPECT_LE(pieces.towards(direction), length * (1.0 + 1e-12));
+  }
 }
 
 // Surfaces of another place slope otherwise: by the unevenness, with the way as lever.
 TEST(Travel, ASlipOnUnevenGroundWidensTheOthersToo) {
   Travel travel;
   const Bounds before = bounds_of(travel);
-  travel.slip(0.5, 0.01);
+  travel.slip(along(0.5), 0.01);
   for (const int k : {POSE_WALL_MOTION_ROLL, POSE_WALL_MOTION_PITCH, POSE_WALL_MOTION_YAW}) {
     EXPECT_NEAR(grown(travel, before, k), 1e-4, 1e-12);
   }
@@ -159,17 +201,17 @@ TEST(Travel, ATurnThatWasLostBecomesAPlaceThatIsLost) {
   Travel travel;
   travel.lose(0.0, 0.1);
   const double before = bounds_of(travel).level[POSE_WALL_MOTION_ACROSS];
-  travel.go(10.0);
+  travel.go({10.0, 0.0, 0.0}, kStraight);
   EXPECT_GE(bounds_of(travel).level[POSE_WALL_MOTION_ACROSS], before + 10.0 * 0.1 * 0.99);
 }
 
 TEST(Travel, AStepIsWorthItsTwoEndsAndItsSlip) {
-  const Bounds still = Travel::of_step(SixBySix::Zero(), SixBySix::Zero(), 0.0, kFactor);
-  const Bounds both = Travel::of_step(only(1, 0.03), only(1, 0.04), 0.0, kFactor);
+  const Bounds still = Travel().of_step(SixBySix::Zero(), SixBySix::Zero(), Pieces{}, kFactor);
+  const Bounds both = Travel().of_step(only(1, 0.03), only(1, 0.04), Pieces{}, kFactor);
   const double floor2 = still.sigma[1] * still.sigma[1];
   EXPECT_NEAR(both.sigma[1] * both.sigma[1], floor2 + 0.0025, 1e-12) << "3, 4, 5";
   EXPECT_NEAR(both.level[1], kFactor * both.sigma[1], 1e-12);
-  const Bounds slipped = Travel::of_step(SixBySix::Zero(), SixBySix::Zero(), 0.2, kFactor);
+  const Bounds slipped = Travel().of_step(SixBySix::Zero(), SixBySix::Zero(), along(0.2), kFactor);
   EXPECT_NEAR(slipped.level[POSE_WALL_MOTION_ALONG], still.level[POSE_WALL_MOTION_ALONG] + 0.2, 1e-12);
   EXPECT_EQ(slipped.level[POSE_WALL_MOTION_ACROSS], still.level[POSE_WALL_MOTION_ACROSS]);
 }
@@ -181,7 +223,7 @@ TEST(Travel, AYoungMapKeepsMoreOfAScansError) {
   for (const std::uint32_t keyframes : {2U, 3U, 10U}) {
     Travel travel;
     travel.take_in(only(POSE_WALL_MOTION_ALONG, along_m), keyframes);
-    const double sigma = travel.bounds(SixBySix::Zero(), 0.0, 5.0).sigma[POSE_WALL_MOTION_ALONG];
+    const double sigma = travel.bounds(SixBySix::Zero(), Pieces{}, 5.0).sigma[POSE_WALL_MOTION_ALONG];
     EXPECT_LT(sigma, before);
     before = sigma;
     EXPECT_NEAR(sigma, along_m * std::max(0.3, 1.0 / keyframes), 1e-4);

@@ -85,9 +85,12 @@ void search_each(const ReliefMap& map, Span<const Observation> asked, const Star
 
 std::vector<Observation> chosen(Span<const Observation> all) {
   std::vector<Observation> asked;
-  for (std::uint32_t i = 0; i < all.size(); i += all.size() / kAskedMost + 1) {
-    if (all[i].ground == 0) asked.push_back(all[i]);
+  for (const Observation& o : all) {
+    if (o.facing != kFacesZ) asked.push_back(o);
   }
+  const std::size_t stride = asked.size() / kAskedMost + 1;
+  for (std::size_t i = 0; i * stride < asked.size(); ++i) asked[i] = asked[i * stride];
+  asked.resize((asked.size() + stride - 1) / stride);
   return asked;
 }
 
