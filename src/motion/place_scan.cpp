@@ -25,6 +25,8 @@ constexpr int kPassesMost = 4;
 // Of the curve, however little the machine can have slipped. With 0.1 the sweep measured 326 frames and not 348. With
 // 0.4 rock further off is taken for this one: the 95th percentile of step errors is 48 mm and not 17.
 constexpr double kReachLeast_m = 0.2;
+// A plane's points are looked for in its layer, to both sides of where they lie: a cell less than that.
+constexpr double kReachOfPlanes_m = 0.3;
 
 // Planes that face along give the way by themselves.
 bool planes_hold(const Alignment& a) {
@@ -78,7 +80,6 @@ class Placing {
     const Eigen::Vector3d forward = at.R * road_.settings.forward_base;
     a->axes = find_axes(scan_, a->pose, forward, a->axes);
     StepOptions coarse;
-    coarse.with_along = planes_hold(*a);
     coarse.every = 4;
     bool moves = true;
     for (int pass = 0; pass < kPassesMost && moves; ++pass) {
@@ -102,9 +103,8 @@ class Placing {
       out.reasons = smooth ? POSE_WALL_MOTION_R_SMOOTH : POSE_WALL_MOTION_R_FEW_PATCHES;
       out.state = POSE_WALL_ALONG_UNOBSERVABLE;
       // Not worth a claim, but a better guess than the last speed: without it a sparse sensor that starts on the move
-      // never gets a map to claim by. Planes that hold have placed the scan themselves, but without evidence none of
-      // that goes into the map: in a bend of smooth lining a range error moves them.
-      out.is_guessed = !smooth && !planes_hold(a) && passes<gate::GUESS>(out.curve.patches);
+      // never gets a map to claim by.
+      out.is_guessed = !smooth && passes<gate::GUESS>(out.curve.patches);
       if (!out.is_guessed) return out;
     } else if (out.curve.apart_m > 0.0) {
       out.reasons = POSE_WALL_MOTION_R_SECOND_PEAK;
@@ -115,12 +115,12 @@ class Placing {
   }
 
   // By the relief of the rock, and where planes hold along, by these.
-  void fit_relief(Alignment* a) {
+  void fit_relief(bool with_along, Alignment* a) {
     StepOptions fine;
     fine.use_relief = true;
     fine.every = (observations_.size() + kEquationsMost - 1) / kEquationsMost;
     fine.rounds = 3;
-    fine.with_along = planes_hold(*a);
+    fine.with_along = with_along;
     work_.add(observations_.size() / fine.every, steps::kEquation);
     take_steps(scan_, fine, &s_.steps, a);
   }
@@ -146,7 +146,8 @@ class Placing {
     const double start_m =
         road_.course.frames == 0 ? limit_of<gate::REACH>() * road_.settings.speed_max_m_s * frame_.dt_s : 0.0;
     double reach = road_.course.slipped.m() + start_m;
-    reach = reach < kReachLeast_m ? kReachLeast_m : reach > kReachMost_m ? kReachMost_m : reach;
+    const double most = planes_hold(a) ? kReachOfPlanes_m : kReachMost_m;
+    reach = reach < kReachLeast_m ? kReachLeast_m : reach > most ? most : reach;
     const std::uint32_t shifts = 2 * static_cast<std::uint32_t>(reach / kCurveStep_m + 0.5) + 1;
     work_.add(steps::of_curve(observations_.size(), kRowsMost, shifts));
     return match_along(scan_, a, reach, shifts, &s_.curve);
@@ -213,7 +214,7 @@ Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, co
   out.state = way.state;
   out.reasons |= way.reasons;
   a.pose.t = way.t;
-  placing.fit_relief(&a);
+  placing.fit_relief(planes_hold(a) && !out.is(POSE_WALL_ALONG_UNOBSERVABLE), &a);
   if (!out.is(POSE_WALL_ALONG_UNOBSERVABLE)) {
     const FinePlace fine = placing.refine(a);
     const bool agree = passes<gate::HALVES>(fine.halves_m);  // or one half tells nothing by itself

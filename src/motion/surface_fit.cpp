@@ -78,8 +78,7 @@ std::uint32_t fit_shifted(const Scan& scan, const Fit& fit, const Shifts& shifts
                                 (has_relief ? zero : all_four(kRockSigma_m * kRockSigma_m));
     const FourFloats misfits = distance / root_of(variance);
     for (std::uint32_t lane = 0; lane < kFour && k + lane < shifts.count; ++lane) {
-      // Off the plane's layer there is nothing, and that tells as much.
-      bool is_known = has_relief[lane] != 0 || (by_plane && inside[lane] != 0);
+      bool is_known = has_relief[lane] != 0 || (by_plane && on[lane] != 0);
       float found = misfits[lane];
       if (inside[lane] == 0) {
         is_known = fit_beyond(scan, fit.p + shift[lane] * shifts.axis, by_plane, &beyond, &found);

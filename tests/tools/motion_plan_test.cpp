@@ -91,8 +91,18 @@ TEST(MotionClasses, MoveAsTheyAreCalled) {
   }
 }
 
+TEST(MotionClasses, AHallIsClosedBeyondWhereTheMachineGets) {
+  for (const char* name : {"hall", "hall_2hz", "hall_people"}) {
+    const double seconds = find_motion_class(name)->seconds_max;
+    for_draws(name, [&](const auto& s) {
+      EXPECT_GE(s.road.face_distance_m, s.machine.speed_mps * seconds + 2.0) << name;
+      EXPECT_GE(s.road.width_m, 14.0) << name;
+    });
+  }
+}
+
 TEST(MotionClasses, WhoGoesAlongGoesAsFastAsTheMachine) {
-  for (const char* name : {"people", "smooth_people"}) {
+  for (const char* name : {"people", "smooth_people", "hall_people"}) {
     for_draws(name, [](const auto& s) {
       EXPECT_EQ(s.objects.people_speed_mps, s.machine.speed_mps);
       EXPECT_GE(s.objects.people_side, 1.0);

@@ -103,9 +103,34 @@ Values sets() {
       {"steel_pitch_m", "0.8", 0.5, 1.2}, {"steel_depth_m", "0.12", 0.08, 0.18}, {"steel_width_m", "0.12", 0.08, 0.15}};
 }
 
+// Wider and higher than a road and closed at both ends, beyond where the machine gets. Its walls are nearly smooth.
+Values hall() {
+  return {{"width_m", "22", 14.0, 32.0},         {"height_m", "6", 4.0, 9.0},
+          {"face_distance_m", "32", 28.0, 44.0}, {"rear_distance_m", "10", 6.0, 25.0},
+          {"roughness_m", "0.004", 0.002, 0.01}, {"floor_roughness_m", "0.004", 0.002, 0.01},
+          {"lateral_m", "0", -4.0, 4.0},         {"rock_repeats", "no", 0.0, 0.0}};
+}
+
+// Pillars, a vehicle, boulders: what stands free is no witness, and hides what is.
+Values furniture() {
+  return {{"prop_side", "both", 0.0, 3.0},      {"prop_pitch_m", "6", 4.0, 9.0},
+          {"prop_radius_m", "0.25", 0.15, 0.4}, {"prop_standoff_m", "3", 2.0, 5.0},
+          {"vehicle_side", "left", 0.0, 2.0},   {"vehicle_at_m", "6", -4.0, 14.0},
+          {"clutter_count", "8", 0.0, 20.0},    {"vehicle_standoff_m", "1", 0.5, 3.0}};
+}
+
+// Half a metre and up to 30 degrees from one frame to the next.
+Values carried() {
+  return {{"rate_hz", "2", 2.0, 2.0},
+          {"turn_rate_dps", "20", 5.0, 60.0, true},
+          {"sway_roll_deg", "6", 0.0, 8.0},
+          {"sway_pitch_deg", "4", 0.0, 6.0},
+          {"sway_period_s", "4", 3.0, 8.0}};
+}
+
 const std::vector<MotionLink> kPeopleWalkAlong = {{"people_speed_mps", "speed_mps", 1.0}};
 
-constexpr double kLong_s = 600.0, kCut_s = 120.0, kTurn_s = 36.0;
+constexpr double kLong_s = 600.0, kCut_s = 120.0, kTurn_s = 36.0, kHall_s = 24.0;
 
 std::vector<MotionClass> driven_classes() {  // NOLINT(readability-function-size): a table
   return {
@@ -280,6 +305,70 @@ std::vector<MotionClass> driven_classes() {  // NOLINT(readability-function-size
   };
 }
 
+std::vector<MotionClass> open_classes() {
+  return {
+      {"hall",
+       "clean",
+       "drives through a hall",
+       "measured by its planes; 0.5 % of the way",
+       MotionLength::kTime,
+       kHall_s,
+       false,
+       measured_within(0.005, 0.01),
+       at_speed(0.3, 1.0) + hall() + furniture(),
+       {}},
+      {"hall_2hz",
+       "clean",
+       "is carried through a hall; two frames a second, turns of up to 30 degrees",
+       "measured by its planes; 0.5 % of the way",
+       MotionLength::kTime,
+       kHall_s,
+       false,
+       measured_within(0.005, 0.01),
+       at_speed(0.5, 1.0) + hall() + furniture() + carried(),
+       {}},
+      {"hall_people", "clean", "people walk along beside the machine in a hall",
+       "measured by its walls; 0.5 % of the way", MotionLength::kTime, kHall_s, false, measured_within(0.005, 0.01),
+       at_speed(0.5, 1.0) + people() + hall(), kPeopleWalkAlong},
+      {"junction",
+       "crossing",
+       "drives along smooth walls to where roads cross",
+       "measured while the crossing is in sight, else unobservable",
+       MotionLength::kTime,
+       kHall_s,
+       false,
+       honest(),
+       at_speed(0.3, 0.8) + Values{{"roughness_m", "0.004", 0.0, 0.01}, {"crosscut_at_m", "8", 6.0, 14.0}},
+       {}},
+      {"street",
+       "clean",
+       "drives between two walls under the sky, past niches and what stands there",
+       "measured or unobservable; the level holds",
+       MotionLength::kTime,
+       kHall_s,
+       false,
+       honest(),
+       at_speed(0.3, 1.2) + furniture() +
+           Values{{"roof", "no", 0.0, 0.0},
+                  {"width_m", "16", 10.0, 24.0},
+                  {"niche_side", "both", 1.0, 3.0},
+                  {"niche_pitch_m", "7", 5.0, 9.0},
+                  {"niche_width_m", "1.5", 1.0, 3.0},
+                  {"niche_depth_m", "0.3", 0.2, 0.8}},
+       {}},
+      {"mine",
+       "mine_blasted",
+       "drives along rock as it was measured",
+       "measured; 1 % of the way",
+       MotionLength::kWay,
+       0.0,
+       false,
+       measured_mostly(0.8, 0.01),
+       driving(),
+       {}},
+  };
+}
+
 std::vector<MotionClass> resting_classes() {
   return {
       {"creeping",
@@ -402,7 +491,8 @@ std::vector<MotionClass> smooth_classes() {
 const std::vector<MotionClass>& motion_classes() {
   static const std::vector<MotionClass> table = [] {
     std::vector<MotionClass> all = driven_classes();
-    for (const auto& part : {resting_classes(), smooth_classes()}) all.insert(all.end(), part.begin(), part.end());
+    for (const auto& part : {open_classes(), resting_classes(), smooth_classes()})
+      all.insert(all.end(), part.begin(), part.end());
     for (MotionClass& one : all) {
       if (std::string_view(one.scene) == "rough") one.values = plain_rock() + one.values;
     }
