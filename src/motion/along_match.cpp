@@ -90,6 +90,7 @@ class CurveBuilder {
   // Misfits at every shift, and how each goes with the rest, of at most so many observations.
   void measure(std::uint32_t rows_most) {
     rows_ = 0;
+    rows_most_ = rows_most;
     const std::uint32_t count = scan_.observation.size();
     const std::uint32_t stride = count / rows_most + 1;
     const Eigen::Vector3f axis[3] = {alignment_.axes.along.cast<float>(), alignment_.axes.left.cast<float>(),
@@ -151,6 +152,18 @@ class CurveBuilder {
     }
     return level;
   }
+
+  // Whether enough rows are known at both shifts to compare them.
+  bool tells(std::uint32_t best, std::uint32_t other) const {
+    std::uint32_t both = 0;
+    for (std::uint32_t row = 0; row < rows_; ++row) {
+      both += is_known(s_->misfit[best * kRowsMost + row]) && is_known(s_->misfit[other * kRowsMost + row]) ? 1U : 0U;
+    }
+    return suffices(both);
+  }
+
+  // Of this curve's rows.
+  bool suffices(std::uint32_t rows) const { return passes_of<gate::ROWS>(rows * kRowsMost, rows_most_); }
 
   // By how much each tile's rows fit better at one shift than at another, or than at all others (kElsewhere): the sum
   // over its standard error. Under no evidence it is a standard normal number, however uneven the tiles are (self-
@@ -306,7 +319,7 @@ class CurveBuilder {
   std::uint32_t shifts_;
   double step_m_;
   CurveScratch* s_;
-  std::uint32_t rows_ = 0, patches_ = 0;
+  std::uint32_t rows_ = 0, rows_most_ = kRowsMost, patches_ = 0;
 };
 
 std::uint32_t least_of(const double (&f)[kShiftsMost], std::uint32_t shifts) {
@@ -372,6 +385,8 @@ void find_rivals(CurveBuilder* builder, std::uint32_t best, std::uint32_t shifts
     bool apart = false;
     for (std::int32_t k = static_cast<std::int32_t>(best) + side; k >= 0 && k < static_cast<std::int32_t>(shifts);
          k += side) {
+      // Planes end with their layer: where hardly a row is left, the search has ended.
+      if (!builder->tells(best, static_cast<std::uint32_t>(k))) continue;
       if (passes<gate::EXCLUDED>(builder->agreement(best, static_cast<std::uint32_t>(k)))) {
         apart = true;
         continue;
@@ -391,7 +406,7 @@ Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, 
   Curve out;
   CurveBuilder builder(scan, alignment, reach_m, shifts, scratch);
   builder.measure(rows_most);
-  if (!passes_of<gate::ROWS>(builder.rows() * kRowsMost, rows_most)) return out;
+  if (!builder.suffices(builder.rows())) return out;
   builder.fit_the_rest();
   builder.square();
   double f[kShiftsMost];

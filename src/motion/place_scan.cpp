@@ -25,8 +25,6 @@ constexpr int kPassesMost = 4;
 // Of the curve, however little the machine can have slipped. With 0.1 the sweep measured 326 frames and not 348. With
 // 0.4 rock further off is taken for this one: the 95th percentile of step errors is 48 mm and not 17.
 constexpr double kReachLeast_m = 0.2;
-// A plane's points are looked for in its layer, to both sides of where they lie: a cell less than that.
-constexpr double kReachOfPlanes_m = 0.3;
 
 // Planes that face along give the way by themselves.
 bool planes_hold(const Alignment& a) {
@@ -146,8 +144,7 @@ class Placing {
     const double start_m =
         road_.course.frames == 0 ? limit_of<gate::REACH>() * road_.settings.speed_max_m_s * frame_.dt_s : 0.0;
     double reach = road_.course.slipped.m() + start_m;
-    const double most = planes_hold(a) ? kReachOfPlanes_m : kReachMost_m;
-    reach = reach < kReachLeast_m ? kReachLeast_m : reach > most ? most : reach;
+    reach = reach < kReachLeast_m ? kReachLeast_m : reach > kReachMost_m ? kReachMost_m : reach;
     const std::uint32_t shifts = 2 * static_cast<std::uint32_t>(reach / kCurveStep_m + 0.5) + 1;
     work_.add(steps::of_curve(observations_.size(), kRowsMost, shifts));
     return match_along(scan_, a, reach, shifts, &s_.curve);
