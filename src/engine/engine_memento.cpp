@@ -13,7 +13,7 @@ namespace pose_wall {
 namespace {
 
 // 'pose-m' in ASCII and a count: raise it with each change of visit().
-constexpr std::uint64_t kVersion = 0x706F73652D6D0009ULL;
+constexpr std::uint64_t kVersion = 0x706F73652D6D000AULL;
 constexpr std::uint64_t kHeadWords = 2;  // version and checksum stand first
 
 // Every member is one word of eight bytes.
@@ -134,7 +134,7 @@ void visit(Way* way, OdometryMemory* m) {
   for (double& level : m->place_level) visit(way, &level);
   for (double& variance : m->drift_variance) visit(way, &variance);
   for (double& drift : m->drift) visit(way, &drift);
-  visit_all(way, &m->floor, &m->wall[0], &m->wall[1]);
+  visit_all(way, &m->floor, &m->wall[0], &m->wall[1], &m->has_up, &m->up);
 }
 
 template <typename Way>
@@ -152,6 +152,10 @@ void visit(Way* way, Track* t) {
   visit_all(way, &t->has_value, &t->value, &t->rate, &t->smoothed_frames, &t->raw, &t->raw_protection, &t->sigma,
             &t->protection, &t->grown, &t->age_s, &t->expired, &t->to_confirm, &t->doubted_frames);
   LastGood& good = t->good;
+  RoadMemory& r = t->road;
+  visit_all(way, &r.exists, &r.is_here, &r.value, &r.variance, &r.place_variance, &r.way_sigma, &r.with_rock, &r.bound,
+            &r.last_share, &r.weight, &r.weight_here, &r.looks_here, &r.usual_variance, &r.usual_dof, &r.looks,
+            &r.frames, &r.noise, &r.last_look, &r.new_rock, &r.contradicted, &r.stretch);
   visit_all(way, &good.exists, &good.raw, &good.raw_protection, &good.value, &good.protection, &good.grown,
             &good.age_s);
 }

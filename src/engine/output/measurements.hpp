@@ -18,6 +18,7 @@ struct Measurement {
   bool stale = false;  // of a cloud that came before: never better than degraded
   double raw = 0.0;
   double sigma = 0.0;
+  double dof = 1.0;  // behind the random part of protection
   ProtectionParts protection;
   // How far off motion within a scan may have put it that nobody took out, as far as it shows. Widens the value's
   // level, and the last good one's, but explains no jump of this frame: it follows from the same change.

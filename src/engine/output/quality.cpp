@@ -41,6 +41,7 @@ Measurement measurement(double raw, double sigma, const ProtectionParts& bound, 
   Measurement m;
   m.raw = raw;
   m.sigma = predictive(sigma, dof);
+  m.dof = dof;
   m.protection = bound;
   m.protection[POSE_WALL_PART_RANDOM] += protection_factor(s.protection_sigmas, dof) * sigma;
   // A measurement without a finite bound is none.

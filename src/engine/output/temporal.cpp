@@ -135,7 +135,7 @@ void report_protection(const ProtectionParts& protection, pose_wall_value* out) 
   }
 }
 
-void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Settings& s, Track* t,
+void set_measured(Measurement m, std::uint32_t quantity, const Change& change, bool afresh, const Settings& s, Track* t,
                   pose_wall_value* out) {
   const bool in_doubt = t->doubted_frames > 0;
   keep_doubts(s, t, &m);
@@ -146,8 +146,11 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   } else {
     m.protection[POSE_WALL_PART_AGE] += m.shown_motion;
   }
-  if (afresh) {
-    t->value = m.raw;
+  const bool by_road = change.by_odometry && !afresh && !m.stale;
+  if (afresh || m.stale) t->road.is_here = false;
+  const Recalled recalled = look_again(m, quantity, s, &t->road);
+  if (afresh || by_road) {
+    t->value = recalled.value;
     t->rate = 0.0;
     t->smoothed_frames = 0;
   } else if (follow(m, quantity, s, t)) {
@@ -161,14 +164,18 @@ void set_measured(Measurement m, std::uint32_t quantity, bool afresh, const Sett
   t->age_s = 0.0;
   t->grown = Unknown{};
   // The truth is within the measurement's level of raw, so this covers the lag of smoothing too.
-  t->protection = m.protection;
-  t->protection[POSE_WALL_PART_LAG] += std::fabs(t->value - m.raw);
+  t->protection = recalled.protection;
+  if (!by_road) t->protection[POSE_WALL_PART_LAG] += std::fabs(t->value - m.raw);
   const bool within = passes<gate::PROTECTION_SMOOTHED>(t->protection.sum(), alert_limit(quantity, s));
-  if (!within) m.reasons |= POSE_WALL_R_ALERT_LIMIT;
+  // The road may tell more than this look, whose own level passed the limit.
+  constexpr std::uint32_t kBeyond = POSE_WALL_R_ALERT_LIMIT;
+  m.reasons = within ? m.reasons & ~kBeyond : m.reasons | kBeyond;
   const bool valid = within && !m.stale && t->to_confirm == 0;
   if (valid) keep_good(m, t);
   if (!valid && in_doubt) m.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
-  out->state = out->raw_state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
+  out->state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
+  const bool valid_alone = valid && m.protection.sum() <= alert_limit(quantity, s);
+  out->raw_state = valid_alone ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
   out->reasons = valid ? m.reasons & ~kDoubts : m.reasons;
   out->raw = m.raw;
   out->value = t->value;
@@ -319,8 +326,9 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
     // Turned so far, the old side walls are none any more, and the new ones were not seen.
     const bool is_sideways = q >= POSE_WALL_YAW && std::fabs(carried_yaw_rad) > radians(settings.yaw_max_deg);
     if (is_sideways && !m.measured) t.expired = true;
+    carry_on(change, q, settings, &t.road);
     if (m.measured) {
-      set_measured(m, q, !t.has_value || t.expired || timing.leap, settings, &t, &out);
+      set_measured(m, q, change, !t.has_value || t.expired || timing.leap, settings, &t, &out);
     } else {
       set_held(m, q, settings, &t, &out);
     }

@@ -7,6 +7,7 @@
 
 #include "engine/config.hpp"
 #include "engine/output/measurements.hpp"
+#include "engine/output/road_memory.hpp"
 #include "engine/output/temporal_motion.hpp"
 #include "engine/types.hpp"
 #include "pose_wall.h"
@@ -43,6 +44,7 @@ struct Track {
   std::uint32_t to_confirm = 0;
   // Number of frames for which a rival wall that was seen stays in the level.
   std::uint32_t doubted_frames = 0;
+  RoadMemory road;
 };
 
 struct TemporalState {

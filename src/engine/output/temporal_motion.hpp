@@ -26,6 +26,11 @@ struct Change {
   double place_level_before[POSE_WALL_QUANTITIES] = {};
   double place_level[POSE_WALL_QUANTITIES] = {};
   double drift2[POSE_WALL_QUANTITIES] = {};  // variance times protection_sigmas^2
+  // Of growth, what comes of the way along a surface whose direction is not quite known.
+  double by_way[POSE_WALL_QUANTITIES] = {};
+  // Share of the rock behind a quantity that this way has brought into view.
+  double new_rock[POSE_WALL_QUANTITIES] = {};
+  bool by_odometry = false;  // both frames have places, whatever was seen from them
 };
 
 // The unknown change of a quantity since the frame that measured it.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
 #include "engine/output/standing_surfaces.hpp"
 
@@ -69,7 +70,7 @@ double beyond_floor_m(const SeenSurface& floor, const Eigen::Vector3d& at_m, dou
 
 // Yaw refers to the walls as last seen: of two, to the longer one.
 const SeenSurface* surface_of(std::uint32_t quantity, const OdometryMemory& seen) {
-  if (!seen.floor.exists) return nullptr;
+  if (!seen.has_up) return nullptr;
   if (quantity < POSE_WALL_YAW) return &seen.floor;
   if (quantity != POSE_WALL_YAW) return &seen.wall[side_of(quantity)];
   const SeenSurface &left = seen.wall[0], &right = seen.wall[1];
@@ -148,6 +149,11 @@ double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& f
   return surface.slope_level * std::fabs(surface.along.dot(to_m - from_m));
 }
 
+// Half of what is seen of a surface along the road. Its waves err alike in looks that are less apart.
+double half_length_m(std::uint32_t quantity, const SeenSurface& surface) {
+  return quantity < POSE_WALL_YAW ? surface.radius_m : 0.5 * (surface.to_m - surface.from_m);
+}
+
 void see_floor(const FloorResult& floor, const Place& at, const Settings& s, SeenSurface* seen) {
   seen->exists = true;
   seen->normal = at.R * floor.fit.plane.n;
@@ -197,6 +203,8 @@ bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
     variance[k] = o.drift_variance[k] - memory.drift_variance[k];
     if (!(drift[k] >= 0.0 && variance[k] >= 0.0)) return false;
   }
+  change->by_odometry = true;
+  const double way_m = std::sqrt((to.position_m - from.position_m).squaredNorm());
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     const SeenSurface* const surface = surface_of(q, memory);
     if (surface == nullptr || !surface->exists) continue;
@@ -204,8 +212,10 @@ bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
     if (!(level < kNobodyKnows && memory.place_level[q] < kNobodyKnows)) continue;
     const Response response = view.response(q);
     const Eigen::Vector3d& wall_normal = memory.wall[side_of(q)].normal;
-    change->carry[q] = change_between(q, from, to, memory.floor.normal, wall_normal, s, axes);
-    change->growth[q] = response.level(drift) + by_way(q, *surface, from, to, view.point_m(q), s, axes);
+    change->carry[q] = change_between(q, from, to, memory.up, wall_normal, s, axes);
+    change->by_way[q] = by_way(q, *surface, from, to, view.point_m(q), s, axes);
+    change->growth[q] = response.level(drift) + change->by_way[q];
+    change->new_rock[q] = 1.0 - exponential(-way_m / half_length_m(q, *surface));
     change->by_places[q] = true;
     change->place_level_before[q] = memory.place_level[q];
     change->place_level[q] = level;
@@ -217,7 +227,9 @@ bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
 void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const Levelling& levelling,
                     const JudgedWall (&walls)[2], const Measurements& measured, const Settings& s, const Axes& axes,
                     OdometryMemory* memory) {
-  if (o.run != memory->run) memory->floor.exists = memory->wall[0].exists = memory->wall[1].exists = false;
+  if (o.run != memory->run) {
+    memory->has_up = memory->floor.exists = memory->wall[0].exists = memory->wall[1].exists = false;
+  }
   const Place at = place_of(o);
   memory->run = o.run;
   memory->position_m = at.position_m;
@@ -226,6 +238,11 @@ void remember_place(const pose_wall_odometry& o, const FloorResult& floor, const
     const Measurement& m = measured.quantity[quantity];
     return m.measured && !m.stale && (m.reasons & kDoubts) == 0;  // whatever the width of its level
   };
+  const Measurement& roll = measured.quantity[POSE_WALL_ROLL];
+  if (roll.measured && !roll.stale) {
+    memory->has_up = true;
+    memory->up = at.R * floor.fit.plane.n;
+  }
   if (is_good(POSE_WALL_ROLL)) see_floor(floor, at, s, &memory->floor);
   for (int side = 0; side < 2; ++side) {
     const std::uint32_t front = side == 0 ? POSE_WALL_D_LF : POSE_WALL_D_RF;

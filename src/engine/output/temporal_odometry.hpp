@@ -42,6 +42,9 @@ struct OdometryMemory {
   double drift_variance[POSE_WALL_ODOMETRY_DIRECTIONS] = {};
   double drift[POSE_WALL_ODOMETRY_DIRECTIONS] = {};
   SeenSurface floor, wall[2];
+  // Of the floor, which levels the walls, even where another reading of it forbids to remember it.
+  bool has_up = false;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 };
 
 // True if all its numbers are within their ranges.
