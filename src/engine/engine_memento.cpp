@@ -4,6 +4,7 @@
 #include "engine/engine_memento.hpp"
 
 #include <cstring>
+#include <type_traits>
 
 #include "base/math/elementary.hpp"
 #include "base/math/fnv1a.hpp"
@@ -122,9 +123,67 @@ void visit(Way* way, Eigen::Vector3d* v) {
   visit_all(way, &v->x(), &v->y(), &v->z());
 }
 
+// Two of less digits in a word: what round_off() leaves.
 template <typename Way>
-void visit(Way* way, SeenSurface* s) {
-  visit_all(way, &s->exists, &s->normal, &s->along, &s->from_m, &s->to_m, &s->centre_m, &s->radius_m, &s->slope_level);
+void visit_floats(Way* way, double* low, double* high) {
+  const float halves[2] = {static_cast<float>(*low), static_cast<float>(*high)};
+  std::uint32_t bits[2];
+  std::memcpy(bits, halves, sizeof(bits));
+  visit_pair(way, &bits[0], &bits[1]);
+  float read[2];
+  std::memcpy(read, bits, sizeof(read));
+  *low = static_cast<double>(read[0]);
+  *high = static_cast<double>(read[1]);
+}
+
+// Small numbers in a word, each of so many bits.
+template <typename Way, typename... Numbers>
+void visit_bits(Way* way, Numbers... numbers) {
+  std::uint64_t word = 0;
+  std::uint32_t at = 0;
+  const auto pack = [&](auto number) {
+    word |= static_cast<std::uint64_t>(*number.of) << at;
+    at += number.bits;
+  };
+  (pack(numbers), ...);
+  way->word(&word);
+  const auto unpack = [&](auto number) {
+    using Of = std::remove_pointer_t<decltype(number.of)>;
+    *number.of = static_cast<Of>(word & ((std::uint64_t{1} << number.bits) - 1));
+    word >>= number.bits;
+  };
+  (unpack(numbers), ...);
+  if (word != 0) way->failed();
+}
+template <typename Of>
+struct Bits {
+  Of* of;
+  std::uint32_t bits;
+};
+inline Bits<bool> flag(bool* of) {
+  return {of, 1};
+}
+// Up to 65535.
+inline Bits<std::uint32_t> small(std::uint32_t* of) {
+  return {of, 16};
+}
+
+template <typename Way>
+void visit(Way* way, RoadMemory* r) {
+  ProtectionParts& b = r->bound;
+  visit_floats(way, &r->value, &r->variance);
+  visit_floats(way, &r->way_sigma, &r->with_rock);
+  visit_floats(way, &b[POSE_WALL_PART_RANGE_BIAS], &b[POSE_WALL_PART_BEND]);
+  visit_floats(way, &b[POSE_WALL_PART_RIVAL], &b[POSE_WALL_PART_EXTRAPOLATION]);
+  visit_floats(way, &b[POSE_WALL_PART_AGE], &r->last_share);
+  visit_floats(way, &r->stretch, &r->noise);
+  visit_floats(way, &r->weight, &r->weight_here);
+  visit_floats(way, &r->looks_here, &r->usual_variance);
+}
+
+template <typename Way>
+void visit_wall(Way* way, SeenSurface* wall) {
+  visit_all(way, &wall->normal, &wall->along, &wall->from_m, &wall->to_m, &wall->slope_level);
 }
 
 template <typename Way>
@@ -134,7 +193,10 @@ void visit(Way* way, OdometryMemory* m) {
   for (double& level : m->place_level) visit(way, &level);
   for (double& variance : m->drift_variance) visit(way, &variance);
   for (double& drift : m->drift) visit(way, &drift);
-  visit_all(way, &m->floor, &m->wall[0], &m->wall[1], &m->has_up, &m->up);
+  visit_bits(way, flag(&m->floor.exists), flag(&m->wall[0].exists), flag(&m->wall[1].exists), flag(&m->has_up));
+  visit_all(way, &m->up, &m->floor.normal, &m->floor.centre_m, &m->floor.radius_m, &m->floor.slope_level);
+  visit_wall(way, &m->wall[0]);
+  visit_wall(way, &m->wall[1]);
 }
 
 template <typename Way>
@@ -149,15 +211,15 @@ void visit(Way* way, OwnChanges* own) {
 
 template <typename Way>
 void visit(Way* way, Track* t) {
-  visit_all(way, &t->has_value, &t->value, &t->rate, &t->smoothed_frames, &t->raw, &t->raw_protection, &t->sigma,
-            &t->protection, &t->grown, &t->age_s, &t->expired, &t->to_confirm, &t->doubted_frames);
   LastGood& good = t->good;
-  RoadMemory& r = t->road;
-  visit_all(way, &r.exists, &r.is_here, &r.value, &r.variance, &r.place_variance, &r.way_sigma, &r.with_rock, &r.bound,
-            &r.last_share, &r.weight, &r.weight_here, &r.looks_here, &r.usual_variance, &r.usual_dof, &r.looks,
-            &r.frames, &r.noise, &r.last_look, &r.new_rock, &r.contradicted, &r.stretch);
-  visit_all(way, &good.exists, &good.raw, &good.raw_protection, &good.value, &good.protection, &good.grown,
-            &good.age_s);
+  RoadMemory& road = t->road;
+  visit_bits(way, flag(&t->has_value), flag(&t->expired), flag(&good.exists), flag(&road.exists),
+             small(&t->smoothed_frames), Bits<std::uint32_t>{&t->to_confirm, 8},
+             Bits<std::uint32_t>{&t->doubted_frames, 8}, Bits<std::uint32_t>{&road.contradicted, 8},
+             Bits<std::uint32_t>{&road.frames, 8});
+  visit_all(way, &t->value, &t->rate, &t->raw, &t->raw_protection, &t->sigma, &t->protection, &t->grown, &t->age_s);
+  visit_all(way, &good.raw, &good.raw_protection, &good.value, &good.protection, &good.grown, &good.age_s);
+  visit(way, &road);
 }
 
 template <typename Way>

@@ -20,9 +20,8 @@ constexpr std::uint32_t kContradictionsMost = 3;
 constexpr double kPerFrame = 1.0 / 16.0;
 // A scatter of 16 frames is known to a fifth; so all of it is never noise, and no look without rock.
 constexpr double kNoiseMost = 0.5;
-// Variances of looks are averaged over so many frames, 13 m at 1 m/s and 10 Hz, and over so many looks at other rock.
+// Variances of looks are averaged over so many frames: 13 m at 1 m/s and 10 Hz, and two or three looks at other rock.
 constexpr std::uint32_t kFramesMost = 128;
-constexpr double kLooksMost = 8.0;  // a VLP-16 shows 7 m to either side: in 13 m there are four
 // Variances with eight degrees of freedom each differ by more than this in 5 % of cases: F-distribution.
 constexpr double kUnlike = 4.0;
 
@@ -63,31 +62,27 @@ struct Mixture {
   }
 };
 
-// How well looks of this road are known. One that is unlike those before begins anew.
+// The variance of looks of this road. One that is unlike those before begins anew.
 void learn_from(const Look& look, RoadMemory* m) {
   const bool alike = look.variance <= kUnlike * m->usual_variance && m->usual_variance <= kUnlike * look.variance;
   if (!alike) m->frames = 0;
-  const double looks = m->looks + m->new_rock * (2.0 - m->new_rock);  // of variances
-  m->looks = m->frames == 0 ? 1.0 : looks < kLooksMost ? looks : kLooksMost;
   if (m->frames < kFramesMost) ++m->frames;
-  const double share = 1.0 / m->frames;
-  m->usual_variance += share * (look.variance - m->usual_variance);
-  m->usual_dof += share * (look.dof - m->usual_dof);
+  m->usual_variance += (look.variance - m->usual_variance) / m->frames;
 }
 
 // Of a look, stretched by the degrees of freedom of all that are alike. Of this look and the mean of all the rougher
-// counts.
+// counts. A first one of its kind is alone.
 double stretched_variance(const Look& look, const RoadMemory& m, const Settings& s) {
-  const double k = s.protection_sigmas, by = protection_factor(k, m.looks * m.usual_dof) / k;
-  return larger(look.variance, m.usual_variance) * square(by);
+  const double k = s.protection_sigmas, looks = m.frames > 1 ? larger(1.0, m.weight) : 1.0;
+  return larger(look.variance, m.usual_variance) * square(protection_factor(k, looks * look.dof) / k);
 }
 
 void begin_with(const Look& look, const Settings& s, RoadMemory* m) {
   m->exists = true;
-  m->value = m->last_look = look.value;
+  m->value = look.value;
   m->bound = look.bound;
   m->last_share = m->weight = m->weight_here = m->looks_here = 1.0;
-  m->way_sigma = m->new_rock = 0.0;
+  m->way_sigma = 0.0;
   m->frames = 0;
   m->noise = 0.0;
   m->contradicted = 0;
@@ -106,12 +101,10 @@ bool agrees(const Look& look, double variance, RoadMemory* m) {
   return apart <= kApartInSigmas;
 }
 
-// The deviation that the rock in view gives to a look. The rest is noise: half of what two looks differ by, but for the
-// new rock and the places.
-double rock_sigma(const Look& look, double variance, RoadMemory* m) {
-  const double shown = 0.5 * square(look.value - m->last_look) - m->place_variance - m->new_rock * variance;
-  m->noise += kPerFrame * (shown - m->noise);
-  m->last_look = look.value;
+// The deviation that the rock in view gives to a look. The rest is noise: half of what two looks differ by, but for
+// what places and new rock explain. A look that was contradicted tells none.
+double rock_sigma(double difference, double explained, double variance, RoadMemory* m) {
+  if (m->contradicted == 0) m->noise += kPerFrame * (0.5 * square(difference) - explained - m->noise);
   const double most = kNoiseMost * variance;
   return std::sqrt(variance - (m->noise < most ? larger(0.0, m->noise) : most));
 }
@@ -139,12 +132,12 @@ ProtectionParts mixed(const ProtectionParts& memory, const ProtectionParts& look
 // that lies behind and will be worth more once this rock is behind, too. In the best mean over a way each look counts
 // by the rock that it shows for the first time, and the first one whole (Gauss and Markov, errors that fade as
 // exponentials do). Looks at the same rock share that evenly. A look in doubt counts less.
-double lasting_share(double in_doubt, double k, RoadMemory* m) {
-  m->weight += m->new_rock;
-  m->weight_here += m->new_rock;
+double lasting_share(double in_doubt, double new_rock, double k, RoadMemory* m) {
+  m->weight += new_rock;
+  m->weight_here += new_rock;
   m->looks_here += 1.0;
   const double here = m->weight_here < m->weight ? m->weight_here : m->weight;
-  const double share = larger(m->new_rock, here / m->looks_here) / m->weight;
+  const double share = larger(new_rock, here / m->looks_here) / m->weight;
   const double trust = 1.0 - in_doubt / (k * std::sqrt(m->variance));
   return trust < 1.0 ? share * larger(0.0, trust) : share;
 }
@@ -161,19 +154,15 @@ void take_in(const Look& look, double share, double variance, double rock, RoadM
 }  // namespace
 
 void carry_on(const Change& change, std::uint32_t q, const Settings& s, RoadMemory* m) {
-  m->is_here = m->exists && change.by_places[q];
-  m->exists = m->is_here;
+  m->exists = m->exists && change.by_places[q];
   if (!m->exists) return;
   const double per_level = 1.0 / s.protection_sigmas, same = 1.0 - change.new_rock[q];
   const double of_last_place = m->last_share * per_level * change.place_level_before[q];
   const double more = square(per_level) * change.drift2[q] + square(of_last_place);
   m->value += change.carry[q];
-  m->last_look += change.carry[q];
   m->variance += more;
-  m->place_variance = square(per_level * change.place_level[q]);
   m->way_sigma += per_level * change.by_way[q];
   m->bound[POSE_WALL_PART_AGE] += change.growth[q] - change.by_way[q];
-  m->new_rock = change.new_rock[q];
   m->with_rock *= same;
   m->weight /= 1.0 + m->weight * more / m->usual_variance;  // information that is lost
   m->weight_here *= same;
@@ -181,33 +170,45 @@ void carry_on(const Change& change, std::uint32_t q, const Settings& s, RoadMemo
   m->last_share = 0.0;
 }
 
-Recalled look_again(const Measurement& measured, std::uint32_t quantity, const Settings& s, RoadMemory* m) {
+Recalled look_again(const Measurement& measured, double last_raw, const Change& change, std::uint32_t q,
+                    const Settings& s, RoadMemory* m) {
   const Look look(measured, s);
   const Recalled alone = {measured.raw, measured.protection};
-  if (!m->is_here || !(look.variance > 0.0)) {
+  if (!m->exists || !(look.variance > 0.0)) {
     begin_with(look, s, m);
     m->stretch = 1.0;
     m->exists = look.variance > 0.0 && !measured.stale;
     return alone;
   }
-  const double here = m->variance + m->place_variance + square(m->way_sigma);
+  const double k = s.protection_sigmas, of_place = square(change.place_level[q] / k);
+  const double here = m->variance + of_place + square(m->way_sigma);
   if (!agrees(look, here, m)) {
     if (++m->contradicted >= kContradictionsMost) begin_with(look, s, m);
     return alone;
   }
-  m->contradicted = 0;
   learn_from(look, m);
-  const double k = s.protection_sigmas, variance = stretched_variance(look, *m, s);
-  const double rock = rock_sigma(look, variance, m);
+  const double variance = stretched_variance(look, *m, s);
+  const double rock = rock_sigma(look.value - last_raw, of_place + change.new_rock[q] * variance, variance, m);
+  m->contradicted = 0;
   const Mixture mixture = {here, variance, rock * m->with_rock};
-  const ProtectionParts remembered = with_what_is_new(m->bound, look.bound, quantity);
+  const ProtectionParts remembered = with_what_is_new(m->bound, look.bound, q);
   const double of_look = look.bound.sum(), of_memory = remembered.sum();
   const double best = mixture.best_share(k, of_look - of_memory);
   Recalled now = {m->value + best * (look.value - m->value), mixed(remembered, look.bound, best)};
   now.protection[POSE_WALL_PART_RANDOM] = k * m->stretch * std::sqrt(mixture.variance(best));
   const bool helps = k * m->stretch * std::sqrt(here) + of_memory < measured.protection.sum();
-  take_in(look, helps ? lasting_share(of_look - m->bound.sum(), k, m) : best, variance, rock, m);
+  const double doubt = of_look - m->bound.sum();
+  take_in(look, helps ? lasting_share(doubt, change.new_rock[q], k, m) : best, variance, rock, m);
   return now.protection.sum() < measured.protection.sum() ? now : alone;
+}
+
+void round_off(RoadMemory* m) {
+  const auto round = [](double* number) { *number = static_cast<double>(static_cast<float>(*number)); };
+  for (double* number : {&m->value, &m->variance, &m->way_sigma, &m->with_rock, &m->last_share, &m->stretch, &m->noise,
+                         &m->weight, &m->weight_here, &m->looks_here, &m->usual_variance}) {
+    round(number);
+  }
+  for (double& part : m->bound.of) round(&part);
 }
 
 }  // namespace pose_wall

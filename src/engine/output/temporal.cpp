@@ -147,8 +147,8 @@ void set_measured(Measurement m, std::uint32_t quantity, const Change& change, b
     m.protection[POSE_WALL_PART_AGE] += m.shown_motion;
   }
   const bool by_road = change.by_odometry && !afresh && !m.stale;
-  if (afresh || m.stale) t->road.is_here = false;
-  const Recalled recalled = look_again(m, quantity, s, &t->road);
+  if (afresh || m.stale) t->road.exists = false;
+  const Recalled recalled = look_again(m, t->raw, change, quantity, s, &t->road);
   if (afresh || by_road) {
     t->value = recalled.value;
     t->rate = 0.0;
@@ -333,6 +333,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
       set_held(m, q, settings, &t, &out);
     }
     set_confidence(t, q, settings, &out);
+    round_off(&t.road);
   }
 }
 

@@ -47,14 +47,16 @@ Change step(double way_m) {
 class Remembering {
  public:
   explicit Remembering(std::uint32_t quantity = kOf) : of(quantity) {}
-  Recalled first(const Measurement& m) { return look_again(m, of, settings, &memory); }
+  Recalled first(const Measurement& m) { return next(Change{}, m); }
   Recalled next(const Change& change, const Measurement& m) {
     carry_on(change, of, settings, &memory);
-    return look_again(m, of, settings, &memory);
+    const Recalled now = look_again(m, last_raw + change.carry[of], change, of, settings, &memory);
+    last_raw = m.raw;
+    return now;
   }
 
   std::uint32_t of;
-
+  double last_raw = 0.0;
   Settings settings = test::settings_with();
   RoadMemory memory;
 };
