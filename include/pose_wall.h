@@ -331,8 +331,9 @@ typedef struct pose_wall_odometry {
  * rate| and their sigmas, where that is less than hold_rate_distance. The direction of that motion is not used.
  * SPEED alone: no effect.
  * ODOMETRY: used instead of the others where the last frame had one of the same run. Held values then move with the
- * machine relative to the last measured floor and walls. Smoothing starts from the moved values, and a jump that the
- * motion explains does not count as one. Levels grow by the odometry's errors, and with the distance travelled by the
+ * machine relative to the last measured floor and walls. Measured values are weighed with those of the way until then,
+ * so their levels are no wider than that of the frame by itself, and often narrower. A jump that the motion explains
+ * does not count as one. Held levels grow by the odometry's errors, and with the distance travelled by the
  * uncertainty of the wall's own direction. Beyond the measured stretch of a wall a distance may change by as much as
  * the machine travelled there; angles then grow as without odometry. Time through which an odometry carried a value
  * does not count for hold_max. A value whose level meanwhile passed the alert limit may come back. The scan's motion is
@@ -483,7 +484,8 @@ const char* pose_wall_part_name(uint32_t part);
 typedef struct pose_wall_value {
   /* The value for a controller to act on, if `state` allows: smoothed, or held; NaN if never measured. Smoothing is of
    * second order over temporal_smoothing_tau: it follows a steady turn without lag. It departs from raw by at most a
-   * quarter of raw's level. */
+   * quarter of raw's level. With an odometry it is the mean of the looks of the way, without lag, that has the
+   * narrowest level. */
   double value;
   double raw;   /* this frame's own measurement before smoothing; NaN if none */
   double sigma; /* standard deviation of raw: its random part, on rough rock too (held: of the last raw). Biases that
@@ -497,7 +499,7 @@ typedef struct pose_wall_value {
                         POSE_WALL_R_STAMP_STILL; under one that went back it does not grow); 0 when measured
                         in this one, or never */
   double part[POSE_WALL_PARTS]; /* of protection_level: they add up to it. Where the quantity was measured they add up
-                                   to raw_protection_level without lag */
+                                   to raw_protection_level without lag; with an odometry to no more than that */
   uint32_t state;               /* pose_wall_state */
   uint32_t reasons;             /* pose_wall_reason bits */
   uint32_t raw_state;           /* of raw by itself: valid, degraded, or invalid where nothing was measured */

@@ -220,10 +220,10 @@ POSE_WALL_CHECKED int32_t pose_wall_motion_process(pose_wall_motion* motion, con
 POSE_WALL_CHECKED int32_t pose_wall_motion_give(const pose_wall_motion* motion, pose_wall_inputs* inputs);
 
 /* Both libraries for one frame. Calls pose_wall_motion_process, then pose_wall_process with the frame's inputs. This
- * pose replaces an odometry of the caller's. So the engine's held values move with the machine, its smoothing does not
- * lag, and the scan's motion is removed from a cloud with times. Give every frame to both. Fails as either does. If the
- * motion refuses a frame, the engine does not see it. A damaged or busy engine refuses after the motion has taken the
- * frame: then continue with the next one. */
+ * pose replaces an odometry of the caller's. So the engine's held values move with the machine, its measured ones know
+ * the road behind, and the scan's motion is removed from a cloud with times. Give every frame to both. Fails as either
+ * does. If the motion refuses a frame, the engine does not see it. A damaged or busy engine refuses after the motion
+ * has taken the frame: then continue with the next one. */
 POSE_WALL_CHECKED int32_t pose_wall_motion_process_both(pose_wall_motion* motion, pose_wall_engine* engine,
                                                         const pose_wall_cloud* cloud,
                                                         pose_wall_motion_result* motion_result,

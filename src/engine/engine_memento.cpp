@@ -179,6 +179,7 @@ void visit(Way* way, RoadMemory* r) {
   visit_floats(way, &r->stretch, &r->noise);
   visit_floats(way, &r->weight, &r->weight_here);
   visit_floats(way, &r->looks_here, &r->usual_variance);
+  visit_floats(way, &r->usual_dof, &r->looks);
 }
 
 template <typename Way>

@@ -20,8 +20,9 @@ constexpr std::uint32_t kContradictionsMost = 3;
 constexpr double kPerFrame = 1.0 / 16.0;
 // A scatter of 16 frames is known to a fifth; so all of it is never noise, and no look without rock.
 constexpr double kNoiseMost = 0.5;
-// Variances of looks are averaged over so many frames: 13 m at 1 m/s and 10 Hz, and two or three looks at other rock.
+// Variances of looks are averaged over so many frames, 13 m at 1 m/s and 10 Hz, and over so many looks at other rock.
 constexpr std::uint32_t kFramesMost = 128;
+constexpr double kLooksMost = 5.0;  // variances fade twice as fast as errors: in 13 m over 5 m
 // Variances with eight degrees of freedom each differ by more than this in 5 % of cases: F-distribution.
 constexpr double kUnlike = 4.0;
 
@@ -62,19 +63,23 @@ struct Mixture {
   }
 };
 
-// The variance of looks of this road. One that is unlike those before begins anew.
-void learn_from(const Look& look, RoadMemory* m) {
+// How well looks of this road are known. One that is unlike those before begins anew.
+void learn_from(const Look& look, double new_rock, RoadMemory* m) {
   const bool alike = look.variance <= kUnlike * m->usual_variance && m->usual_variance <= kUnlike * look.variance;
   if (!alike) m->frames = 0;
+  const double looks = m->looks + new_rock * (2.0 - new_rock);  // of variances
+  m->looks = m->frames == 0 ? 1.0 : looks < kLooksMost ? looks : kLooksMost;
   if (m->frames < kFramesMost) ++m->frames;
-  m->usual_variance += (look.variance - m->usual_variance) / m->frames;
+  const double share = 1.0 / m->frames;
+  m->usual_variance += share * (look.variance - m->usual_variance);
+  m->usual_dof += share * (look.dof - m->usual_dof);
 }
 
 // Of a look, stretched by the degrees of freedom of all that are alike. Of this look and the mean of all the rougher
-// counts. A first one of its kind is alone.
+// counts.
 double stretched_variance(const Look& look, const RoadMemory& m, const Settings& s) {
-  const double k = s.protection_sigmas, looks = m.frames > 1 ? larger(1.0, m.weight) : 1.0;
-  return larger(look.variance, m.usual_variance) * square(protection_factor(k, looks * look.dof) / k);
+  const double k = s.protection_sigmas, by = protection_factor(k, m.looks * m.usual_dof) / k;
+  return larger(look.variance, m.usual_variance) * square(by);
 }
 
 void begin_with(const Look& look, const Settings& s, RoadMemory* m) {
@@ -86,7 +91,7 @@ void begin_with(const Look& look, const Settings& s, RoadMemory* m) {
   m->frames = 0;
   m->noise = 0.0;
   m->contradicted = 0;
-  learn_from(look, m);
+  learn_from(look, 0.0, m);
   m->variance = stretched_variance(look, *m, s);
   m->with_rock = std::sqrt(m->variance);
 }
@@ -186,7 +191,7 @@ Recalled look_again(const Measurement& measured, double last_raw, const Change& 
     if (++m->contradicted >= kContradictionsMost) begin_with(look, s, m);
     return alone;
   }
-  learn_from(look, m);
+  learn_from(look, change.new_rock[q], m);
   const double variance = stretched_variance(look, *m, s);
   const double rock = rock_sigma(look.value - last_raw, of_place + change.new_rock[q] * variance, variance, m);
   m->contradicted = 0;
@@ -205,7 +210,7 @@ Recalled look_again(const Measurement& measured, double last_raw, const Change& 
 void round_off(RoadMemory* m) {
   const auto round = [](double* number) { *number = static_cast<double>(static_cast<float>(*number)); };
   for (double* number : {&m->value, &m->variance, &m->way_sigma, &m->with_rock, &m->last_share, &m->stretch, &m->noise,
-                         &m->weight, &m->weight_here, &m->looks_here, &m->usual_variance}) {
+                         &m->weight, &m->weight_here, &m->looks_here, &m->usual_variance, &m->usual_dof, &m->looks}) {
     round(number);
   }
   for (double& part : m->bound.of) round(&part);

@@ -32,7 +32,8 @@ struct RoadMemory {
   // By which a look enters: a look at other rock weighs 1.
   double weight = 1.0, weight_here = 1.0;  // of all looks, and of those at the rock in view
   double looks_here = 1.0;                 // number of these
-  double usual_variance = 0.0;             // of looks that are alike
+  // Of looks that are alike, and their number at other rock:
+  double usual_variance = 0.0, usual_dof = 1.0, looks = 0.0;
 };
 
 // What a value and its level are after this frame.

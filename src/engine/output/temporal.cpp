@@ -135,6 +135,23 @@ void report_protection(const ProtectionParts& protection, pose_wall_value* out) 
   }
 }
 
+// By the road where an odometry knows the way, else smoothed. The truth is within the measurement's level of raw, so
+// that covers the lag of smoothing too.
+void set_value(std::uint32_t quantity, const Change& change, bool afresh, const Settings& s, Track* t, Measurement* m) {
+  const bool by_road = change.by_odometry && !afresh && !m->stale;
+  if (afresh || m->stale) t->road.exists = false;
+  const Recalled recalled = look_again(*m, t->raw, change, quantity, s, &t->road);
+  if (afresh || by_road) {
+    t->value = recalled.value;
+    t->rate = 0.0;
+    t->smoothed_frames = 0;
+  } else if (follow(*m, quantity, s, t)) {
+    m->reasons |= POSE_WALL_R_RATE_LIMITED;
+  }
+  t->protection = recalled.protection;
+  if (!by_road) t->protection[POSE_WALL_PART_LAG] += std::fabs(t->value - m->raw);
+}
+
 void set_measured(Measurement m, std::uint32_t quantity, const Change& change, bool afresh, const Settings& s, Track* t,
                   pose_wall_value* out) {
   const bool in_doubt = t->doubted_frames > 0;
@@ -146,16 +163,7 @@ void set_measured(Measurement m, std::uint32_t quantity, const Change& change, b
   } else {
     m.protection[POSE_WALL_PART_AGE] += m.shown_motion;
   }
-  const bool by_road = change.by_odometry && !afresh && !m.stale;
-  if (afresh || m.stale) t->road.exists = false;
-  const Recalled recalled = look_again(m, t->raw, change, quantity, s, &t->road);
-  if (afresh || by_road) {
-    t->value = recalled.value;
-    t->rate = 0.0;
-    t->smoothed_frames = 0;
-  } else if (follow(m, quantity, s, t)) {
-    m.reasons |= POSE_WALL_R_RATE_LIMITED;
-  }
+  set_value(quantity, change, afresh, s, t, &m);
   t->has_value = true;
   t->expired = false;
   t->raw = m.raw;
@@ -163,10 +171,8 @@ void set_measured(Measurement m, std::uint32_t quantity, const Change& change, b
   t->raw_protection = seen_protection;
   t->age_s = 0.0;
   t->grown = Unknown{};
-  // The truth is within the measurement's level of raw, so this covers the lag of smoothing too.
-  t->protection = recalled.protection;
-  if (!by_road) t->protection[POSE_WALL_PART_LAG] += std::fabs(t->value - m.raw);
-  const bool within = passes<gate::PROTECTION_SMOOTHED>(t->protection.sum(), alert_limit(quantity, s));
+  const double alert = alert_limit(quantity, s), alone = m.protection.sum();
+  const bool within = passes<gate::PROTECTION_SMOOTHED>(t->protection.sum(), alert);
   // The road may tell more than this look, whose own level passed the limit.
   constexpr std::uint32_t kBeyond = POSE_WALL_R_ALERT_LIMIT;
   m.reasons = within ? m.reasons & ~kBeyond : m.reasons | kBeyond;
@@ -174,12 +180,11 @@ void set_measured(Measurement m, std::uint32_t quantity, const Change& change, b
   if (valid) keep_good(m, t);
   if (!valid && in_doubt) m.reasons |= POSE_WALL_R_WALL_AMBIGUOUS;
   out->state = valid ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
-  const bool valid_alone = valid && m.protection.sum() <= alert_limit(quantity, s);
-  out->raw_state = valid_alone ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
+  out->raw_state = valid && alone <= alert ? POSE_WALL_VALID : POSE_WALL_DEGRADED;
   out->reasons = valid ? m.reasons & ~kDoubts : m.reasons;
   out->raw = m.raw;
   out->value = t->value;
-  out->raw_protection_level = m.protection.sum();
+  out->raw_protection_level = alone;
   report_protection(t->protection, out);
 }
 
@@ -312,8 +317,7 @@ void smooth_and_hold(const Measurements& measured, const FrameTiming& timing, st
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Track& t = state->track[q];
     const Measurement& m = measured.quantity[q];
-    pose_wall_value& out = (*values)[q];
-    out = blank();
+    pose_wall_value& out = (*values)[q] = blank();
     pass_time(elapsed_s, m.measured ? change : narrower(change, by_config, elapsed_s, q, settings, t), q, &t);
     POSE_WALL_NOTE(trace::subject(POSE_WALL_TRACE_QUANTITY + q));
     // A leap starts afresh: a doubt from before it is of another place, and so are the looks that were refused.
