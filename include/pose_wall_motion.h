@@ -40,7 +40,7 @@
  * METHOD    the stages of Shan and Englot, LeGO-LOAM, IROS 2018: range image, ground, clusters, features, and two
  *           steps of Levenberg-Marquardt. The first step finds roll, pitch and height, the second yaw and the position
  *           across. These tell nothing about the way along the road. There, heights of the rock above its own planes
- *           are matched with a map of them.
+ *           are matched with a map of them, and planes that face along where there are some.
  */
 /* clang-format on */
 

@@ -90,7 +90,6 @@ class CurveBuilder {
   // Misfits at every shift, and how each goes with the rest, of at most so many observations.
   void measure(std::uint32_t rows_most) {
     rows_ = 0;
-    rows_most_ = rows_most;
     const std::uint32_t count = scan_.observation.size();
     const std::uint32_t stride = count / rows_most + 1;
     const Eigen::Vector3f axis[3] = {alignment_.axes.along.cast<float>(), alignment_.axes.left.cast<float>(),
@@ -159,16 +158,14 @@ class CurveBuilder {
     for (std::uint32_t row = 0; row < rows_; ++row) {
       both += is_known(s_->misfit[best * kRowsMost + row]) && is_known(s_->misfit[other * kRowsMost + row]) ? 1U : 0U;
     }
-    return suffices(both);
+    return both >= static_cast<std::uint32_t>(limit_of<gate::ROWS>());
   }
-
-  // Of this curve's rows.
-  bool suffices(std::uint32_t rows) const { return passes_of<gate::ROWS>(rows * kRowsMost, rows_most_); }
 
   // By how much each tile's rows fit better at one shift than at another, or than at all others (kElsewhere): the sum
   // over its standard error. Under no evidence it is a standard normal number, however uneven the tiles are (self-
   // normalised sums: de la Pena, Lai and Shao 2009). Tiles that face along are asked apart as well: in a hall they are
-  // few, and all others only add their noise. Where both kinds tell, their sum does (Stouffer).
+  // few, and all others only add their noise, but must not contradict. Where both kinds tell, their sum does
+  // (Stouffer). The largest of three such numbers is more than a limit three times as often.
   static constexpr std::uint32_t kElsewhere = 0xFFFF;
   double agreement(std::uint32_t best, std::uint32_t other) {
     s_->gain.first(patches_).fill(0.0F);
@@ -186,9 +183,11 @@ class CurveBuilder {
       sum[s_->faces[p]] += g > 0.0 ? std::sqrt(size) : -std::sqrt(size);
       squares[s_->faces[p]] += size;
     }
-    const double of_faces = sum[1] / std::sqrt(squares[1]), of_rest = sum[0] / std::sqrt(squares[0]);
     const double of_all = (sum[0] + sum[1]) / std::sqrt(squares[0] + squares[1]);
-    return larger(of_all, larger(of_faces, (of_faces + of_rest) / std::sqrt(2.0)));
+    const double of_rest = sum[0] / std::sqrt(squares[0]), of_faces = sum[1] / std::sqrt(squares[1]);
+    if (of_faces == 0.0 || of_rest == 0.0) return of_all;  // there is one kind
+    const double of_both = larger(of_all, (of_faces + of_rest) / std::sqrt(2.0));
+    return of_rest < -limit_of<gate::EXCLUDED>() ? of_both : larger(of_both, of_faces);
   }
 
  private:
@@ -319,7 +318,7 @@ class CurveBuilder {
   std::uint32_t shifts_;
   double step_m_;
   CurveScratch* s_;
-  std::uint32_t rows_ = 0, rows_most_ = kRowsMost, patches_ = 0;
+  std::uint32_t rows_ = 0, patches_ = 0;
 };
 
 std::uint32_t least_of(const double (&f)[kShiftsMost], std::uint32_t shifts) {
@@ -385,7 +384,7 @@ void find_rivals(CurveBuilder* builder, std::uint32_t best, std::uint32_t shifts
     bool apart = false;
     for (std::int32_t k = static_cast<std::int32_t>(best) + side; k >= 0 && k < static_cast<std::int32_t>(shifts);
          k += side) {
-      // Planes end with their layer: where hardly a row is left, the search has ended.
+      // Planes end with their layer: where hardly a row is left, nothing is told.
       if (!builder->tells(best, static_cast<std::uint32_t>(k))) continue;
       if (passes<gate::EXCLUDED>(builder->agreement(best, static_cast<std::uint32_t>(k)))) {
         apart = true;
@@ -406,7 +405,7 @@ Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, 
   Curve out;
   CurveBuilder builder(scan, alignment, reach_m, shifts, scratch);
   builder.measure(rows_most);
-  if (!builder.suffices(builder.rows())) return out;
+  if (!passes<gate::ROWS>(builder.rows())) return out;
   builder.fit_the_rest();
   builder.square();
   double f[kShiftsMost];
@@ -433,13 +432,15 @@ FinePlace refine_along(const Scan& scan, const Alignment& alignment, CurveScratc
   const double bend = p.bend[0] + p.bend[1];
   if (!(bend > 0.0)) return out;
   out.best_m = -(p.slope[0] + p.slope[1]) / bend;
-  out.told = std::fabs(out.best_m) < kFineReach_m && p.bend[0] > 0.0 && p.bend[1] > 0.0;
+  out.told = std::fabs(out.best_m) < kFineReach_m;
   if (!out.told) return out;
-  out.halves_m = std::fabs(p.slope[0] / p.bend[0] - p.slope[1] / p.bend[1]);
   // Two estimates of one variance: by all patches as if they were many, and by two halves however few they are. Either
   // has heavy tails, so half as much again (frames beyond five sigma: 2 of 150 in an arch without).
   constexpr double kTails = 1.5;
-  const double of_halves = 0.5 * out.halves_m;
+  const bool both = p.bend[0] > 0.0 && p.bend[1] > 0.0;
+  if (both) out.halves_m = std::fabs(p.slope[0] / p.bend[0] - p.slope[1] / p.bend[1]);
+  // One half that tells nothing by itself contradicts nothing: the place is known to within a step of the curve.
+  const double of_halves = both ? 0.5 * out.halves_m : kCurveStep_m;
   out.sigma_m = std::sqrt(kTails * 0.5 * (p.slope_squares / (bend * bend) + of_halves * of_halves));
   return out;
 }

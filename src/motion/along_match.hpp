@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// The way along the road, by the relief of the rock: the fit of the scan to the map at each shift, and the significance
-// of that curve. The other five directions are fitted anew at every shift, so that a bend or a slope of a smooth road
-// is no evidence.
+// The way along the road, by the relief of the rock and by planes that face along: the fit of the scan to the map at
+// each shift, and the significance of that curve. The other five directions are fitted anew at every shift, so that a
+// bend or a slope of a smooth road is no evidence.
 
 #pragma once
 

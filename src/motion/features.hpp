@@ -60,7 +60,8 @@ struct ObservationScratch {
   Span<std::uint8_t> taken;  // of each cubic metre
 };
 
-// At most a few a cubic metre, so that near rock does not outweigh far rock. Gives how many.
+// At most a few a cubic metre, so that near rock does not outweigh far rock; and half on ground and roof, unless walls
+// have no more to give. Gives how many.
 std::uint32_t choose_observations(const RangeImage& image, const Pose& expected, ObservationScratch* scratch,
                                   Span<Observation> out);
 

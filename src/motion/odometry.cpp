@@ -126,6 +126,9 @@ Odometry::AlongVerdict Odometry::begin(const Frame& frame, const Expected& expec
 
 // The machine may be as far as it can have moved. The map starts anew there.
 void Odometry::begin_anew(const Frame& frame, const Seen& seen) {
+  course_.travel.slip(course_.slipped, 0.0);  // what the new map cannot undo
+  course_.slipped = course_.since_known = Pieces{};
+  course_.guesses = false;
   course_.travel.lose(settings_.speed_max_m_s * frame.dt_s, settings_.turn_max_rad_s * frame.dt_s);
   course_.lost_s += frame.dt_s;
   model_.forget_twist();
@@ -139,6 +142,7 @@ void Odometry::begin_map(const Frame& frame, const Seen& seen, const Pose& at) {
   course_.axes.left = Eigen::Vector3d::UnitZ().cross(course_.axes.along).normalized();
   course_.axes.up = course_.axes.along.cross(course_.axes.left);
   course_.axes.hold = 0.0;
+  course_.travel.go(Eigen::Vector3d::Zero(), course_.axes.in_road());
   course_.covariance.setZero();
   course_.of_rock.setZero();
   course_.frames = 0;

@@ -12,7 +12,7 @@
 namespace pose_wall::motion {
 namespace {
 
-constexpr std::uint32_t kAskedOfGuess = 400;  // or some more: a share is then known to within 0.025
+constexpr std::uint32_t kAskedOfGuess = 400;  // of these the ones on walls: a share is then known to within 0.05
 // A wide start looks as far as the machine comes in so long. This binds slow machines alone: from 1.4 m/s and 0.17
 // rad/s on the grid ends before (kStartsMost).
 constexpr double kSearchMost_s = 5.0;
@@ -89,7 +89,7 @@ class Placing {
 
   // The place along the road and its uncertainty.
   Way match_way(const Alignment& a) {
-    // Where planes face along, the wide start has placed the scan; along a road nothing has yet.
+    // Along a road a wide start has placed the scan beside it alone.
     const bool far = !passes<gate::IN_TIME>(frame_.dt_s) && !planes_hold(a);
     const FarPlace place = far ? match_far(scan_, road_.settings.speed_max_m_s * frame_.dt_s, a, &s_.curve, &work_)
                                : FarPlace{match_near(a), a.pose.t};
@@ -175,6 +175,13 @@ double variance_along(const Road& road, const Curve& curve, double rock_variance
   return variance_m2 + of_map_m * of_map_m / 12.0;
 }
 
+// Of its own: what the steps say of along beside across and yaw is not of this estimate.
+void set_along(double variance_m2, SixBySix* covariance) {
+  covariance->row(POSE_WALL_MOTION_ALONG).setZero();
+  covariance->col(POSE_WALL_MOTION_ALONG).setZero();
+  (*covariance)(POSE_WALL_MOTION_ALONG, POSE_WALL_MOTION_ALONG) = variance_m2;
+}
+
 std::uint32_t bit(bool is_set, std::uint32_t reason) {
   return is_set ? reason : 0U;
 }
@@ -214,15 +221,12 @@ Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, co
   placing.fit_relief(planes_hold(a) && !out.is(POSE_WALL_ALONG_UNOBSERVABLE), &a);
   if (!out.is(POSE_WALL_ALONG_UNOBSERVABLE)) {
     const FinePlace fine = placing.refine(a);
-    const bool agree = passes<gate::HALVES>(fine.halves_m);  // or one half tells nothing by itself
-    if (fine.told && agree) {
+    if (fine.told && passes<gate::HALVES>(fine.halves_m)) {
       a.pose.t += fine.best_m * a.axes.along;
       out.rock_variance_m2 = pooled(fine.sigma_m * fine.sigma_m, out.rock_variance_m2);
+      set_along(variance_along(road, out.curve, out.rock_variance_m2), &a.covariance);
       out.halves_m = fine.halves_m;
-    }
-    a.covariance(0, 0) =
-        variance_along(road, out.curve, fine.told ? out.rock_variance_m2 : kCurveStep_m * kCurveStep_m);
-    if (!agree) {
+    } else {
       out.reasons |= POSE_WALL_MOTION_R_HALVES_DIFFER;
       out.state = POSE_WALL_ALONG_UNOBSERVABLE;
     }

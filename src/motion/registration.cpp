@@ -92,7 +92,10 @@ class Equations {
         // the part of it that its own line meets, and the difference is the lines', not the rock's.
         const bool by_plane = part == kOfGround;
         if (part_of(o) != part || !fit_observation(scan, local, o, &fit, by_plane)) continue;
-        if (faces_along(fit.normal, axis[0]) && (!with_along || fit.surface.tile->stands_free != 0)) continue;
+        // Not what faces along more than across: in a hall whose axis lies askew, the walls are both.
+        const bool faces =
+            faces_along(fit.normal, axis[0]) && std::fabs(axis[0].dot(fit.normal)) > std::fabs(axis[1].dot(fit.normal));
+        if (faces && (!with_along || fit.surface.tile->stands_free != 0)) continue;
         add(fit, fit.p - local.t, axis, scan.map->index_of(fit.surface.tile));
       }
       fill_up();

@@ -33,7 +33,7 @@ struct StepScratch {
 };
 
 // From surfaces nearby, or with use_relief from those within a few deviations of the rock. with_along: the step across
-// takes the way along, too.
+// takes the way along, too, by rock that faces along; else that is left out.
 struct StepOptions {
   bool use_relief = false;
   bool with_along = false;

@@ -109,10 +109,9 @@ void Travel::drift_by(const SixBySix& covariance) {
 }
 
 void Travel::slip(const Pieces& slip, double unevenness) {
-  const double along_m = slip.m();
   slip_.add(slip);
-  drift_[POSE_WALL_MOTION_ALONG] += along_m;
-  const double turn2 = unevenness * unevenness, place2 = turn2 * along_m * along_m;
+  for (int k = 0; k < POSE_WALL_MOTION_ROLL; ++k) drift_[k] += part_of(slip, k);
+  const double turn2 = unevenness * unevenness, place2 = turn2 * slip.m() * slip.m();
   Six variance = Six::Constant(place2);
   variance[POSE_WALL_MOTION_ALONG] = 0.0;
   for (int k = POSE_WALL_MOTION_ROLL; k < POSE_WALL_MOTION_DIRECTIONS; ++k) variance[k] = turn2;
@@ -137,11 +136,11 @@ Six Travel::level_of(const SixBySix& of_alignment, const Pieces& slipping, doubl
   return level;
 }
 
-Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, const Pieces& of_way, double factor) const {
+Bounds Travel::of_step(const SixBySix& before, const SixBySix& now, const Pieces& slipped, double factor) const {
   const Six variance = variance_of_step(before, now);
   Bounds out;
   for (int k = 0; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
-    const double slip = part_of(of_way, k);
+    const double slip = part_of(slipped, k);
     out.sigma[k] = std::sqrt(variance[k] + slip * slip / 3.0);
     out.level[k] = factor * std::sqrt(variance[k]) + slip;
   }

@@ -64,7 +64,7 @@ class Travel {
   // The part that comes and goes with this alignment.
   Six level_of(const SixBySix& of_alignment, const Pieces& slipping, double factor) const;
   // Of the way from one frame to the next, each against the same map.
-  Bounds of_step(const SixBySix& before, const SixBySix& now, const Pieces& of_way, double factor) const;
+  Bounds of_step(const SixBySix& before, const SixBySix& now, const Pieces& slipped, double factor) const;
 
   // Variances of a step by the patches of rock alone.
   static Six variance_of_step(const SixBySix& before, const SixBySix& now);
@@ -75,7 +75,6 @@ class Travel {
   const Six& drift() const { return drift_; }
 
   double along_m() const { return along_m_; }
-  double way_m() const { return way_.m(); }
 
  private:
   void drift_by(const SixBySix& covariance);

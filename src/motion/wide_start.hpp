@@ -25,7 +25,7 @@ struct WideReach {
 bool search_wide(const ReliefMap& map, Span<Observation> observations, const WideReach& reach, StartScratch* scratch,
                  Work* work, Pose* pose);
 
-// Which share of the observations lies on the map's surfaces, weighed by how near.
+// Which share of the observations on walls lies on the map's surfaces, weighed by how near.
 double share_on_map(const ReliefMap& map, Span<const Observation> observations, const Pose& pose, std::uint32_t stride);
 
 }  // namespace pose_wall::motion

@@ -156,6 +156,23 @@ TEST_F(Steps, AHallHoldsAlsoWhereTheWayIsNotKnownYet) {
   EXPECT_GT(a.axes.hold, 0.1);
 }
 
+// In a square hall any axis is as good. Where it lies askew, the walls hold across and yaw all the same.
+TEST_F(Steps, WallsThatLieAskewToTheAxisCount) {
+  room_ = {5.0, 5.0, 1.4, 1.8, {}};
+  map_room();
+  const Pose truth = pose_of(0.0, 0.0, 0.0, 0.0, 0.0, 0.01);
+  pipeline_.see(scan_of(room_, truth), Pose{});
+  Alignment a;
+  const double s = std::sqrt(0.5);
+  a.axes.along = {s, s, 0.0};
+  a.axes.left = {-s, s, 0.0};
+  StepOptions fine;
+  fine.use_relief = true;
+  for (int pass = 0; pass < 4; ++pass) take_steps(pipeline_.scan(), fine, pipeline_.steps.get(), &a);
+  EXPECT_GT(a.matched, 80U);
+  EXPECT_LT(turn_between_rad(a.pose, truth), 0.1 * kDegree_rad);
+}
+
 TEST_F(Steps, AnEmptyMapMovesNothing) {
   const Pose from = pose_of(0.1, 0.2, 0.3, 0.0, 0.0, 0.1);
   pipeline_.see(scan_of(room_, Pose{}), from);

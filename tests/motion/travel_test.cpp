@@ -46,10 +46,8 @@ TEST(Travel, CountsTheWayAndTheWayBack) {
   travel.go({3.0, 0.0, 0.0}, kStraight);
   travel.go({-1.0, 0.0, 0.0}, kStraight);
   EXPECT_DOUBLE_EQ(travel.along_m(), 2.0);
-  EXPECT_DOUBLE_EQ(travel.way_m(), 4.0);
   travel.reset();
   EXPECT_EQ(travel.along_m(), 0.0);
-  EXPECT_EQ(travel.way_m(), 0.0);
 }
 
 // Across by yaw, up by pitch: L times the angle.
@@ -149,6 +147,25 @@ TEST(Travel, WhatSlippedStaysWhereItSlippedWhenTheRoadTurns) {
   EXPECT_NEAR(now.level[POSE_WALL_MOTION_ACROSS], before.level[POSE_WALL_MOTION_ALONG] + 0.3, 1e-12);
   EXPECT_NEAR(now.level[POSE_WALL_MOTION_ALONG], before.level[POSE_WALL_MOTION_ACROSS], 1e-12);
   EXPECT_NEAR(bounds_of(travel, 0.1).level[POSE_WALL_MOTION_ACROSS], now.level[POSE_WALL_MOTION_ACROSS] + 0.1, 1e-12);
+}
+
+// Whatever errors have in common, no axis has a negative variance of them.
+TEST(Travel, ACovarianceTurnsWithTheAxes) {
+  constexpr double kAlong = 4e-4, kAcross = 1e-4, kOfBoth = 1.9e-4;
+  SixBySix C = SixBySix::Zero();
+  C(POSE_WALL_MOTION_ALONG, POSE_WALL_MOTION_ALONG) = kAlong;
+  C(POSE_WALL_MOTION_ACROSS, POSE_WALL_MOTION_ACROSS) = kAcross;
+  C(POSE_WALL_MOTION_ALONG, POSE_WALL_MOTION_ACROSS) = C(POSE_WALL_MOTION_ACROSS, POSE_WALL_MOTION_ALONG) = kOfBoth;
+  for (int k = 0; k <= 36; ++k) {
+    const Eigen::Matrix3d now = turn_by(Eigen::Vector3d(0.0, 0.0, 0.1 * k)).transpose();
+    const SixBySix there = turned(C, kStraight, now);
+    EXPECT_NEAR(there.trace(), C.trace(), 1e-12);
+    EXPECT_GT((there.topLeftCorner<2, 2>().determinant()), 0.0);
+    EXPECT_LT((turned(there, now, kStraight) - C).norm(), 1e-12) << k;
+  }
+  Eigen::Matrix3d to_the_left;
+  to_the_left << 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0;
+  EXPECT_NEAR(turned(C, kStraight, to_the_left)(POSE_WALL_MOTION_ACROSS, POSE_WALL_MOTION_ACROSS), kAlong, 1e-12);
 }
 
 // Pieces in several directions: never less than the truth, which may add up all of them.
