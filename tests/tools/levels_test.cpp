@@ -211,7 +211,8 @@ void expect_split(const CsvTable& table, std::size_t row, const std::string& q) 
     EXPECT_EQ(cell("_raw_state"), "invalid");
     return;
   }
-  EXPECT_NEAR(number("_raw_pl"), number("_pl") - number("_pl_lag"), kRounding * (1.0 + sum)) << q << row;
+  // The road's memory may know it better than this look, and never less well.
+  EXPECT_LE(number("_pl") - number("_pl_lag"), number("_raw_pl") + kRounding * (1.0 + sum)) << q << row;
 }
 
 TEST(LevelColumns, PartsAddUpAndTheCauseIsTheLargest) {
@@ -273,7 +274,8 @@ TEST(ExplainVerb, OutcomesHaveTheirParts) {
     }
     EXPECT_NEAR(sum, value.at("protection_level").get<double>(), 1e-12 * sum) << value;
     EXPECT_EQ(value.at("parts").at(value.at("cause").get<std::string>()), largest) << value;
-    EXPECT_LE(value.at("raw_protection_level"), value.at("protection_level"));
+    EXPECT_LE(sum - value.at("parts").at("lag").get<double>(),
+              value.at("raw_protection_level").get<double>() * (1.0 + 1e-12));
     EXPECT_TRUE(contains(value.at("sentence").get<std::string>(), " Its level: ")) << value;
   }
 }
