@@ -67,6 +67,16 @@ void add_slip(const ReliefMap& map, double slip_m, SixBySix* covariance) {
   for (int k = POSE_WALL_MOTION_ROLL; k < POSE_WALL_MOTION_DIRECTIONS; ++k) (*covariance)(k, k) += bend_rad * bend_rad;
 }
 
+// The first way that is found makes up for all that slipped.
+void keep_slip(const Pieces& of_step, bool measured, Course* next) {
+  if (measured) {
+    next->slipped = next->since_known = Pieces{};
+    return;
+  }
+  next->slipped.add(of_step);
+  next->since_known.add(of_step);
+}
+
 }  // namespace
 
 Concluded conclude(const Road& road, const Frame& frame, const MachinePrior& prior, const Placed& placed) {
@@ -102,12 +112,7 @@ Concluded conclude(const Road& road, const Frame& frame, const MachinePrior& pri
   next.lost_s = 0.0;
   // A place found again in the map undoes the slip since, unless guesses went into the map.
   if (measured && last.guesses) next.travel.slip(last.slipped, 0.0);
-  if (measured) {
-    next.slipped = next.since_known = Pieces{};
-  } else {
-    next.slipped.add(of_step);
-    next.since_known.add(of_step);
-  }
+  keep_slip(of_step, measured, &next);
   next.guesses = !measured && (last.guesses || placed.is_guessed);
   ++next.frames;
   out.whole = next.bounds(settings.protection_sigmas);

@@ -158,20 +158,48 @@ void ObservationScratch::lay_out(Arena& arena) {
   taken = arena.take<std::uint8_t>(kCubes);
 }
 
+namespace {
+
+// Those on walls from the front; ground and roof beyond their half from the back, while there is room.
+class Chosen {
+ public:
+  explicit Chosen(Span<Observation> room) : room_(room) {}
+
+  bool is_full() const { return count_ == room_.size(); }
+  // False where it is one too many of its kind.
+  bool add(const Observation& o) {
+    const bool beyond = o.facing == kFacesZ && level_ >= kLevelMost, no_room = count_ + spare_ == room_.size();
+    if (beyond && no_room) return false;
+    if (no_room) --spare_;
+    room_[beyond ? room_.size() - ++spare_ : count_++] = o;
+    level_ += o.facing == kFacesZ && !beyond ? 1U : 0U;
+    return true;
+  }
+  // One behind the other; how many.
+  std::uint32_t close_up() {
+    for (std::uint32_t k = room_.size() - spare_; k < room_.size(); ++k) room_[count_++] = room_[k];
+    return count_;
+  }
+
+ private:
+  Span<Observation> room_;
+  std::uint32_t count_ = 0, spare_ = 0, level_ = 0;
+};
+
+}  // namespace
+
 std::uint32_t choose_observations(const RangeImage& image, const Pose& expected, ObservationScratch* scratch,
                                   Span<Observation> out) {
   scratch->taken.fill(0);
   const Eigen::Matrix3f R = expected.R.cast<float>();
   constexpr float kAway_m = 128.0F;  // no point is so far off
   const Eigen::Vector3f t = (expected.t - expected.t.array().floor().matrix()).cast<float>().array() + kAway_m;
-  // Those on walls from the front; ground and roof beyond their half from the back, while there is room.
-  std::uint32_t count = 0, spare = 0, level = 0;
-  const std::uint32_t most = out.size();
+  Chosen chosen(out);
   // In steps of the golden ratio, so that full cubes leave out points evenly.
   std::uint32_t step = static_cast<std::uint32_t>(0.618034 * image.count) | 1U;
   while (common_divisor(image.count, step) != 1) step += 2;
   std::uint32_t i = 0;
-  for (std::uint32_t k = 0; k < image.count && count < most; ++k) {
+  for (std::uint32_t k = 0; k < image.count && !chosen.is_full(); ++k) {
     i += step;
     if (i >= image.count) i -= image.count;
     if ((image.flags[i] & kPlane) == 0) continue;
@@ -180,18 +208,15 @@ std::uint32_t choose_observations(const RangeImage& image, const Pose& expected,
     Eigen::Vector3f normal;
     std::uint8_t facing;
     if (taken >= kPerCube || !normal_about(image, i, &normal) || !facing_of(R * normal, &facing)) continue;
-    const bool is_level = facing == kFacesZ, beyond = is_level && level >= kLevelMost;
-    if (beyond && count + spare == most) continue;
-    ++taken;
-    if (!beyond && count + spare == most) --spare;
-    out[beyond ? most - ++spare : count] = {p.x(),  p.y(),
-                                            p.z(),  {normal.x(), normal.y(), normal.z()},
-                                            facing, static_cast<std::uint8_t>(is_level ? image.flags[i] & kGround : 0)};
-    count += beyond ? 0U : 1U;
-    level += is_level && !beyond ? 1U : 0U;
+    const bool is_new = chosen.add({p.x(),
+                                    p.y(),
+                                    p.z(),
+                                    {normal.x(), normal.y(), normal.z()},
+                                    facing,
+                                    static_cast<std::uint8_t>(facing == kFacesZ ? image.flags[i] & kGround : 0)});
+    taken = static_cast<std::uint8_t>(taken + (is_new ? 1 : 0));
   }
-  for (std::uint32_t k = most - spare; k < most; ++k) out[count++] = out[k];
-  return count;
+  return chosen.close_up();
 }
 
 void face(const Eigen::Matrix3d& R_map_base, Span<Observation> observations) {
