@@ -13,11 +13,11 @@
 namespace pose_wall {
 namespace {
 
-// 'pose-m' in ASCII and a count: raise it with each change of visit().
+// Definition: 'pose-m' in ASCII and a count. Raise it with each change of visit().
 constexpr std::uint64_t kVersion = 0x706F73652D6D000AULL;
 constexpr std::uint64_t kHeadWords = 2;  // version and checksum stand first
 
-// Every member is one word of eight bytes.
+// A member is a word of eight bytes; small numbers and rounded ones share a word.
 class Counter {
  public:
   void word(std::uint64_t* /*word*/) { ++words_; }

@@ -152,28 +152,26 @@ class CurveBuilder {
     return level;
   }
 
-  // Whether enough rows are known at both shifts to compare them.
-  bool tells(std::uint32_t best, std::uint32_t other) const {
-    std::uint32_t both = 0;
-    for (std::uint32_t row = 0; row < rows_; ++row) {
-      both += is_known(s_->misfit[best * kRowsMost + row]) && is_known(s_->misfit[other * kRowsMost + row]) ? 1U : 0U;
-    }
-    return both >= static_cast<std::uint32_t>(limit_of<gate::ROWS>());
-  }
-
   // By how much each tile's rows fit better at one shift than at another, or than at all others (kElsewhere): the sum
   // over its standard error. Under no evidence it is a standard normal number, however uneven the tiles are (self-
   // normalised sums: de la Pena, Lai and Shao 2009). Tiles that face along are asked apart as well: in a hall they are
   // few, and all others only add their noise, but must not contradict. Where both kinds tell, their sum does
   // (Stouffer). The largest of three such numbers is more than a limit three times as often.
   static constexpr std::uint32_t kElsewhere = 0xFFFF;
-  double agreement(std::uint32_t best, std::uint32_t other) {
+  struct Vote {
+    std::uint32_t rows;  // known at both
+    double deviations;
+  };
+  Vote agreement(std::uint32_t best, std::uint32_t other) {
+    std::uint32_t rows = 0;
     s_->gain.first(patches_).fill(0.0F);
     for (std::uint32_t row = 0; row < rows_; ++row) {
       const float here = s_->misfit[best * kRowsMost + row];
       if (!is_known(here)) continue;
       const float there = other == kElsewhere ? mean_away_from(best, row) : s_->misfit[other * kRowsMost + row];
-      if (is_known(there)) s_->gain[s_->patch[row]] += there - here;
+      if (!is_known(there)) continue;
+      s_->gain[s_->patch[row]] += there - here;
+      ++rows;
     }
     double sum[2] = {}, squares[2] = {1e-9, 1e-9};  // of tiles along the road, and of those that face along
     for (std::uint32_t p = 0; p < patches_; ++p) {
@@ -183,6 +181,11 @@ class CurveBuilder {
       sum[s_->faces[p]] += g > 0.0 ? std::sqrt(size) : -std::sqrt(size);
       squares[s_->faces[p]] += size;
     }
+    return {rows, deviations_of(sum, squares)};
+  }
+
+ private:
+  static double deviations_of(const double (&sum)[2], const double (&squares)[2]) {
     const double of_all = (sum[0] + sum[1]) / std::sqrt(squares[0] + squares[1]);
     const double of_rest = sum[0] / std::sqrt(squares[0]), of_faces = sum[1] / std::sqrt(squares[1]);
     if (of_faces == 0.0 || of_rest == 0.0) return of_all;  // there is one kind
@@ -190,7 +193,6 @@ class CurveBuilder {
     return of_rest < -limit_of<gate::EXCLUDED>() ? of_both : larger(of_both, of_faces);
   }
 
- private:
   // From the expected rest at this shift.
   Rest fit_at(std::int32_t shift, const Rest& expected) {
     float* const misfits = &s_->misfit[static_cast<std::uint32_t>(shift) * kRowsMost];
@@ -295,10 +297,9 @@ class CurveBuilder {
   bool measure_row(const Observation& o, const LocalPose& local, const Eigen::Vector3f (&axis)[3]) {
     Fit fit;
     if (!fit_observation(scan_, local, o, &fit) || fit.surface.tile->stands_free != 0) return false;
-    // A surface facing along gives the way by its plane alone. Along a road there is none, and surfaces that look so
-    // are relief.
+    // A surface facing along gives the way by its plane alone.
     const bool faces = faces_along(fit.normal, axis[0]);
-    if (faces && passes<gate::ROAD>(alignment_.axes.hold)) return false;
+    if (faces && !alignment_.axes.tell_along()) return false;
     const float weight = 1.0F / std::sqrt(fit.variance_m2);
     const Eigen::Vector3f lever = (fit.p - local.t).cross(fit.normal);
     for (int k = 0; k < 3; ++k) jacobian(k)[rows_] = axis[k].dot(lever) * weight;
@@ -385,8 +386,9 @@ void find_rivals(CurveBuilder* builder, std::uint32_t best, std::uint32_t shifts
     for (std::int32_t k = static_cast<std::int32_t>(best) + side; k >= 0 && k < static_cast<std::int32_t>(shifts);
          k += side) {
       // Planes end with their layer: where hardly a row is left, nothing is told.
-      if (!builder->tells(best, static_cast<std::uint32_t>(k))) continue;
-      if (passes<gate::EXCLUDED>(builder->agreement(best, static_cast<std::uint32_t>(k)))) {
+      const CurveBuilder::Vote vote = builder->agreement(best, static_cast<std::uint32_t>(k));
+      if (vote.rows < static_cast<std::uint32_t>(limit_of<gate::ROWS>())) continue;
+      if (passes<gate::EXCLUDED>(vote.deviations)) {
         apart = true;
         continue;
       }
@@ -416,7 +418,7 @@ Curve match_along(const Scan& scan, const Alignment& alignment, double reach_m, 
   out.bottom = bottom;
   out.best_m = builder.shift_m(best) + builder.step_m() * vertex(f, best, shifts);
   out.contrast = bottom > 0.0 ? (median - f[best]) / bottom : 0.0;
-  out.patches = builder.agreement(best, CurveBuilder::kElsewhere);
+  out.patches = builder.agreement(best, CurveBuilder::kElsewhere).deviations;
   find_second(f, shifts, best, median, builder.step_m(), &out);
   find_rivals(&builder, best, shifts, &out);
   return out;

@@ -208,13 +208,14 @@ std::uint32_t choose_observations(const RangeImage& image, const Pose& expected,
     Eigen::Vector3f normal;
     std::uint8_t facing;
     if (taken >= kPerCube || !normal_about(image, i, &normal) || !facing_of(R * normal, &facing)) continue;
-    const bool is_new = chosen.add({p.x(),
-                                    p.y(),
-                                    p.z(),
-                                    {normal.x(), normal.y(), normal.z()},
-                                    facing,
-                                    static_cast<std::uint8_t>(facing == kFacesZ ? image.flags[i] & kGround : 0)});
-    taken = static_cast<std::uint8_t>(taken + (is_new ? 1 : 0));
+    if (chosen.add({p.x(),
+                    p.y(),
+                    p.z(),
+                    {normal.x(), normal.y(), normal.z()},
+                    facing,
+                    static_cast<std::uint8_t>(facing == kFacesZ ? image.flags[i] & kGround : 0)})) {
+      ++taken;
+    }
   }
   return chosen.close_up();
 }

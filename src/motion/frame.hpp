@@ -40,6 +40,13 @@ struct Course {
   bool is_bent = false;      // the map's scans, by unknown motion
   bool guesses = false;      // keyframes of unknown place since the way was last known
 
+  // What slipped can no longer be undone: the map's surfaces are those of another place.
+  void lose_slip(double unevenness) {
+    travel.slip(slipped, unevenness);
+    slipped = Pieces{};
+    guesses = false;
+  }
+
   Bounds bounds(double factor) const { return travel.bounds(covariance, slipped, factor); }
 };
 

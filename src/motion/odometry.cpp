@@ -126,9 +126,8 @@ Odometry::AlongVerdict Odometry::begin(const Frame& frame, const Expected& expec
 
 // The machine may be as far as it can have moved. The map starts anew there.
 void Odometry::begin_anew(const Frame& frame, const Seen& seen) {
-  course_.travel.slip(course_.slipped, 0.0);  // what the new map cannot undo
-  course_.slipped = course_.since_known = Pieces{};
-  course_.guesses = false;
+  course_.lose_slip(0.0);
+  course_.since_known = Pieces{};
   course_.travel.lose(settings_.speed_max_m_s * frame.dt_s, settings_.turn_max_rad_s * frame.dt_s);
   course_.lost_s += frame.dt_s;
   model_.forget_twist();
@@ -166,9 +165,7 @@ void Odometry::take(const Frame& frame, const Placed& placed, const Concluded& c
   if (!passes<gate::SLIP>(course_.slipped.m())) {  // the place of the relief is lost
     keyframes_.forget_relief();
     take_in_scan();
-    course_.travel.slip(course_.slipped, keyframes_.map().unevenness());
-    course_.slipped = Pieces{};
-    course_.guesses = false;
+    course_.lose_slip(keyframes_.map().unevenness());
   } else if (begins_unbent(frame, placed)) {
     begin_unbent(frame);
   } else if (is_keyframe(placed)) {

@@ -26,11 +26,6 @@ constexpr int kPassesMost = 4;
 // 0.4 rock further off is taken for this one: the 95th percentile of step errors is 48 mm and not 17.
 constexpr double kReachLeast_m = 0.2;
 
-// Planes that face along give the way by themselves.
-bool planes_hold(const Alignment& a) {
-  return !passes<gate::ROAD>(a.axes.hold);
-}
-
 // Where the search along the road begins, and whether the scan fits there at all.
 struct Entry {
   Pose pose;
@@ -90,7 +85,7 @@ class Placing {
   // The place along the road and its uncertainty.
   Way match_way(const Alignment& a) {
     // Along a road a wide start has placed the scan beside it alone.
-    const bool far = !passes<gate::IN_TIME>(frame_.dt_s) && !planes_hold(a);
+    const bool far = !passes<gate::IN_TIME>(frame_.dt_s) && !a.axes.tell_along();
     const FarPlace place = far ? match_far(scan_, road_.settings.speed_max_m_s * frame_.dt_s, a, &s_.curve, &work_)
                                : FarPlace{match_near(a), a.pose.t};
     Way out;
@@ -218,7 +213,7 @@ Placed place_scan(const Road& road, const Frame& frame, const Pose& expected, co
   out.state = way.state;
   out.reasons |= way.reasons;
   a.pose.t = way.t;
-  placing.fit_relief(planes_hold(a) && !out.is(POSE_WALL_ALONG_UNOBSERVABLE), &a);
+  placing.fit_relief(a.axes.tell_along() && !out.is(POSE_WALL_ALONG_UNOBSERVABLE), &a);
   if (!out.is(POSE_WALL_ALONG_UNOBSERVABLE)) {
     const FinePlace fine = placing.refine(a);
     if (fine.told && passes<gate::HALVES>(fine.halves_m)) {

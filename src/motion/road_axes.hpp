@@ -15,6 +15,8 @@ struct RoadAxes {
   Eigen::Vector3d along = Eigen::Vector3d::UnitX(), left = Eigen::Vector3d::UnitY(), up = Eigen::Vector3d::UnitZ();
   double hold = 0.0;  // information of the surfaces' normals along it, over that across; 1: a hall, 0: a smooth road
 
+  // Planes that face along give the way by themselves. Along a road there are none: surfaces that look so are relief.
+  bool tell_along() const { return !passes<gate::ROAD>(hold); }
   // Turns from the map into the road.
   Eigen::Matrix3d in_road() const {
     Eigen::Matrix3d rows;

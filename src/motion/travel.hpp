@@ -27,8 +27,8 @@ class Pieces {
  public:
   void add(double m, const Eigen::Vector3d& direction);
   void add(const Pieces& other);
-  // At most so far in a direction. Of pieces s along a, the sum of s |a d| is no more than the root of the sum of s
-  // times that of s (a d)² (Cauchy and Schwarz); along one straight road it is the sum itself.
+  // At most so far in a direction. The sum of s |a d| over pieces s along a is no more than the root of two
+  // sums' product: of s, and of s (a d)² (Cauchy and Schwarz). Along one straight road it is that.
   double towards(const Eigen::Vector3d& direction) const;
   double m() const { return m_; }
 

@@ -152,9 +152,9 @@ double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& f
 // Over which rock that was in view is replaced by other rock: half of what is seen of the surface along the road. Of
 // long ones the rock nearby counts most.
 double rock_length_m(std::uint32_t quantity, const SeenSurface& surface) {
-  // Errors of raw values 1, 2, 3 and 5 m apart were correlated by 0.4 to 0.8, 0.35 to 0.6, 0.2 to 0.45 and at most 0.35
-  // (nominal, steel_sets, humps and mine_cut by its survey, five sensors, 2026-11-29). This length tells 0.8, 0.67,
-  // 0.55 and 0.37.
+  // Raw values 1, 2, 3 and 5 m apart have errors in common: correlations of 0.4 to 0.8, 0.35 to 0.6, 0.2 to 0.45 and at
+  // most 0.35. Scenes were nominal, steel_sets, humps and mine_cut by its survey, with five sensors (2026-11-29). This
+  // length tells 0.8, 0.67, 0.55 and 0.37.
   constexpr double kMost_m = 5.0;
   const double half_m = quantity < POSE_WALL_YAW ? surface.radius_m : 0.5 * (surface.to_m - surface.from_m);
   return half_m < kMost_m ? half_m : kMost_m;

@@ -2,9 +2,9 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // Proves, on drawn looks whose errors are known: a level with memory is never wider than the look's own and holds the
-// error; where the machine stands noise averages and rock does not; where it drives the rock averages as well; drift,
-// places and ways widen it; a look that contradicts the memory stands alone, and three of them end it. Does not prove
-// how quickly real rock is new: the scenarios do.
+// error. Where the machine stands noise averages and rock does not. Where it drives the rock averages as well. Drift,
+// places and ways widen the level. A look that contradicts the memory stands alone, and three of them end it. Does not
+// prove how quickly real rock is new: the scenarios do.
 
 #include "engine/output/road_memory.hpp"
 
@@ -20,9 +20,9 @@ namespace pose_wall {
 namespace {
 
 constexpr std::uint32_t kOf = POSE_WALL_ROLL;
-constexpr double kDof = 1e9;  // so many that no level is stretched
-constexpr double kDofRounding = 1e-9;
-constexpr double kRock_m = 3.0;  // after which rock is new
+constexpr double kDof = 1e9;           // so many that no level is stretched
+constexpr double kDofRounding = 1e-9;  // what is left of the stretch by 1e9 degrees of freedom
+constexpr double kRock_m = 3.0;        // after which rock is new
 
 Measurement look(double value, double sigma, double bias = 0.0, double dof = kDof) {
   Measurement m;
@@ -69,7 +69,7 @@ struct Judged {
 };
 
 Judged judged(int steps, double way_m, double noise, double rock_length_m) {
-  constexpr int kRoads = 1500;
+  constexpr int kRoads = 1500;  // z² of so many is known to within 4 %: a normal's has a variance of 2
   std::mt19937 random(17);
   std::normal_distribution<double> normal;
   const double stays = std::exp(-way_m / rock_length_m), sigma = 0.01;
@@ -147,7 +147,7 @@ TEST(RoadMemory, WhatAllLooksShareStays) {
 }
 
 TEST(RoadMemory, FewPiecesAreMoreOnceTheRockIsNew) {
-  constexpr double kFew = 8.0;
+  constexpr double kFew = 8.0;  // degrees of freedom: so few that Student's t stretches a level
   Remembering r;
   const double alone = r.first(look(2.0, 0.01, 0.0, kFew)).protection.sum();
   double standing = alone, driving = alone;
