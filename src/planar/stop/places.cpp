@@ -339,16 +339,18 @@ void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uin
   if (may_go && sight.passed_high(x, y)) place->thing_high_ms = 0;
 }
 
-// Whether what came into sight here within settle_s is smaller than a person: a tip of rock beside others.
-bool Places::is_small_and_new(const Place& place, std::uint32_t now_ms) const {
+// Whether what came into sight with it is smaller than a person: a tip of rock beside others.
+bool Places::came_alone(const Place& place) const {
   constexpr std::int32_t kAround = 2;       // a person is 0.3 m wide
   constexpr std::uint32_t kPlacesMost = 3;  // of which a person fills more
-  if (now_ms - place.first_ms >= settle_ms_) return false;
   std::uint32_t count = 0;
   for (std::int32_t dy = -kAround; dy <= kAround; ++dy) {
     for (std::int32_t dx = -kAround; dx <= kAround; ++dx) {
       const Place* const near = known_at(place.ix + dx, place.iy + dy);
-      if (near != nullptr && near->thing_high_ms != 0 && now_ms - near->first_ms < settle_ms_) ++count;
+      if (near == nullptr || near->thing_high_ms == 0) continue;
+      const std::uint32_t apart_ms =
+          near->first_ms > place.first_ms ? near->first_ms - place.first_ms : place.first_ms - near->first_ms;
+      if (apart_ms < settle_ms_) ++count;
     }
   }
   return count <= kPlacesMost;
@@ -362,11 +364,11 @@ bool Places::is_wall(Place* place, const Way& way, const Eigen::Vector2d& away, 
   const bool is_fresh = place->long_ms != 0 && 2 * (now_ms - place->long_ms) < settle_ms_;
   if (!is_fresh && is_settled(*place, way) && is_long(*place, way)) place->long_ms = now_ms;
   if (is_known(*place)) return true;
-  const bool is_small = is_small_and_new(*place, now_ms);
+  const bool is_tip = came_alone(*place);
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
       const Place* const near = known_at(place->ix + dx, place->iy + dy);
-      const bool is_beside = is_small || dx * away.x() + dy * away.y() < 0.0;
+      const bool is_beside = is_tip || dx * away.x() + dy * away.y() < 0.0;
       if (is_beside && was_there_with(near, *place, way) && is_known(*near)) return true;
     }
   }

@@ -110,7 +110,7 @@ class Places {
   template <typename Visit>
   void each_around(const Way& way, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
   void let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const;
-  bool is_small_and_new(const Place& place, std::uint32_t now_ms) const;
+  bool came_alone(const Place& place) const;
   bool is_wall(Place* place, const Way& way, const Eigen::Vector2d& away, std::uint32_t now_ms) const;
   // What find_hazards looks from.
   struct HazardScene {
