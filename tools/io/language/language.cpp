@@ -7,6 +7,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "io/language/both_languages.hpp"
 #include "io/language/language_name.hpp"
 #include "io/language/po_catalogue.hpp"
 
@@ -90,7 +91,11 @@ std::string unknown_language_in_environment() {
 }
 
 const char* tr(const char* english) {
-  if (language() == Language::kEnglish) return english;
+  return tr(language(), english);
+}
+
+const char* tr(Language language, const char* english) {
+  if (language == Language::kEnglish) return english;
   const auto found = chinese().find(english);
   return found == chinese().end() ? english : found->second;
 }
