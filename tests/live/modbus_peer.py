@@ -3,7 +3,7 @@
 # Copyright (c) 2026 the pose_wall authors
 """Modbus TCP of pose_walld, read by a client that others wrote (pymodbus). Of 10,000 images under load none is torn.
 The structured text of the project decodes what was read, and decides on the obstacle stop. Writes and wrong ranges get
-exceptions. A client that sends garbage, half a request or nothing holds up nobody.
+exceptions; one controller writes commands. A client that sends garbage, half a request or nothing holds up nobody.
 
 usage: modbus_peer.py ROOT POSE_WALL POSE_WALLD"""
 
@@ -167,6 +167,45 @@ class Modbus(unittest.TestCase):
         with live_peer.running(*live_peer.replay_words(POSE_WALLD, road, "--modbus", f"127.0.0.1:{self.port}")) as two:
             self.assertEqual(two.process.wait(live_peer.PATIENCE_S), 1)
             self.assertTrue(two.says(f"modbus: cannot listen at 127.0.0.1:{self.port}: Address already in use"))
+
+
+class Commands(unittest.TestCase):
+    """What the drive is told, as a controller writes it."""
+
+    def test_the_stop_reckons_with_what_is_written(self):
+        port, road = live_peer.free_port(), live_peer.simulated_road(POSE_WALL)
+        daemon = live_peer.Program(*live_peer.replay_words(
+            POSE_WALLD, road, "--set", "planar=map", "--set", "planar_motion=commanded",
+            "--set", "planar_floor_z=-1.35", "--set", "planar_command_modbus=127.0.0.1", "--set", "status_every_s=1",
+            "--modbus", f"127.0.0.1:{port}"))
+        self.addCleanup(daemon.kill)
+        self.assertTrue(daemon.says("127.0.0.1 alone can write commands of the drive"), daemon.log())
+        client = ModbusTcpClient("127.0.0.1", port=port)
+        self.assertTrue(client.connect())
+        self.addCleanup(client.close)
+        missing, counter = 1 << 4, 0
+
+        def reasons():
+            first, count = PLACE[4]
+            return description.unpack_image(bytes_of(client.read_input_registers(first, count, slave=1).registers),
+                                            4)["reasons"]
+
+        def is_known():
+            nonlocal counter
+            counter += 1
+            answer = client.write_registers(4000, [200, 2**16 - 50, counter], slave=1)
+            self.assertFalse(answer.isError(), answer)
+            return not reasons() & missing
+
+        self.assertTrue(live_peer.becomes_true(lambda: reasons() & missing), daemon.log())
+        self.assertTrue(live_peer.becomes_true(is_known), daemon.log())
+        told = "command m/s 0.200; command rad/s -0.050"
+        self.assertTrue(live_peer.becomes_true(lambda: is_known() and any(told in line for line in daemon.lines[-20:])))
+        self.assertFalse(client.write_register(4000, 150, slave=1).isError())
+        answer = client.write_registers(4000, [4000, 0, counter + 1], slave=1)
+        self.assertEqual((answer.isError(), answer.exception_code), (True, 3))
+        self.assertTrue(daemon.says("the newest command was refused"), daemon.log())
+        self.assertTrue(live_peer.becomes_true(lambda: reasons() & missing), "from then on every motion is assumed")
 
 
 class ObstacleStop(unittest.TestCase):

@@ -3,8 +3,9 @@
 
 // Proves, byte for byte: registers are the words of the image of that moment, low word of a number first. Each wrong
 // request has its exception. Requests that come in parts, in rows or beside garbage get the answers they would have got
-// alone. A client that is turned away makes room. The port is free after a stop.
-// Does not prove: what clients of others make of it, modbus_peer.py.
+// alone. A client that is turned away makes room. The port is free after a stop. One address alone may write commands
+// of the drive, and nobody without its key. A command counts when its counter changes, and is never half of two. Does
+// not prove: what clients of others make of it, modbus_peer.py.
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -13,14 +14,17 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <random>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/live/clocks.hpp"
 #include "apps/live/edges.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/loopback.hpp"
@@ -58,7 +62,13 @@ class CountingImages final : public Images {
 
 class Client {
  public:
-  explicit Client(std::uint16_t port) : file_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  // from: 127.0.0.2 is another machine to who looks at addresses.
+  explicit Client(std::uint16_t port, const char* from = "127.0.0.1")
+      : file_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in own{};
+    own.sin_family = AF_INET;
+    inet_pton(AF_INET, from, &own.sin_addr);
+    EXPECT_EQ(bind(file_, reinterpret_cast<const sockaddr*>(&own), sizeof own), 0);
     const timeval patience{kPatience.count(), 0};
     setsockopt(file_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     sockaddr_in to{};
@@ -116,6 +126,7 @@ constexpr std::size_t answer_bytes(std::size_t registers) {
 
 class ModbusServerTest : public ::testing::Test {
  protected:
+  explicit ModbusServerTest(std::vector<std::string> settings = {}) : settings_(std::move(settings)) {}
   void SetUp() override {
     try {
       server_ = make(port_);
@@ -128,13 +139,17 @@ class ModbusServerTest : public ::testing::Test {
     if (server_) server_->stop();
   }
   std::unique_ptr<Sink> make(std::uint16_t port) const {
-    return make_modbus_sink(load_config("", {"modbus=127.0.0.1:" + std::to_string(port)}), images_, &stop_);
+    std::vector<std::string> settings = settings_;
+    settings.push_back("modbus=127.0.0.1:" + std::to_string(port));
+    return make_modbus_sink(load_config("", settings), images_, &stop_, &commands_);
   }
   Text alone(const Text& request, std::size_t bytes) const { return Client(port_).ask(request, bytes); }
 
+  const std::vector<std::string> settings_;
   const std::uint16_t port_ = pose_wall::test::free_tcp_port();
   CountingImages images_;
   SaidStop stop_;
+  mutable CommandBoard commands_{"modbus", 10.0};
   std::unique_ptr<Sink> server_;
 };
 
@@ -195,10 +210,21 @@ TEST_F(ModbusServerTest, TheStopIsAnImageOfItsNewestAnswer) {
   }
 }
 
+TEST_F(ModbusServerTest, TheAgeOfAnAnswerWhenItIsReadIsTold) {
+  EXPECT_EQ(fact(server_->health(), "stop's age when read, worst ms"), "0.0");
+  StopNews news = opened_news();
+  news.answered_ns = monotonic_ns() - 5'000'000'000;
+  stop_.say(news);
+  EXPECT_EQ(alone(read_request(1, 3000, 26), answer_bytes(26)).size(), answer_bytes(26));
+  EXPECT_GE(std::stod(fact(server_->health(), "stop's age when read, worst ms")), 5000.0);
+  EXPECT_GE(std::stod(fact(server_->health(), "stop's age when read, mean ms")), 5000.0);
+}
+
 TEST_F(ModbusServerTest, WithoutAnAnswerOrAStopAllRegistersAreZero) {
   EXPECT_EQ(alone(read_request(1, 3000, 26), answer_bytes(26)), adu(1, Text("\x04\x34") + Text(52, '\0')));
   const std::uint16_t port = pose_wall::test::free_tcp_port();
-  const auto server = make_modbus_sink(load_config("", {"modbus=127.0.0.1:" + std::to_string(port)}), images_, nullptr);
+  const auto server =
+      make_modbus_sink(load_config("", {"modbus=127.0.0.1:" + std::to_string(port)}), images_, nullptr, nullptr);
   server->start();
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(Client(port).ask(read_request(1, 3000, 26), answer_bytes(26)), adu(1, Text("\x04\x34") + Text(52, '\0')));
@@ -236,6 +262,81 @@ TEST_F(ModbusServerTest, EachWrongRequestHasItsException) {
   }
   EXPECT_EQ(alone(adu(5, Text("\x04")), kExceptionBytes), exception(5, 4, kValue)) << "no address";
   EXPECT_EQ(alone(adu(5, Text("\x04") + word(0) + word(1) + "x"), kExceptionBytes), exception(5, 4, kValue)) << "more";
+}
+
+// Function 6 or 16 with so many registers.
+Text write_request(unsigned transaction, unsigned first, const std::vector<unsigned>& values) {
+  Text pdu =
+      Text("\x10") + word(first) + word(static_cast<unsigned>(values.size())) + static_cast<char>(2 * values.size());
+  for (const unsigned value : values) pdu += word(value);
+  return adu(transaction, pdu);
+}
+Text write_one(unsigned transaction, unsigned at, unsigned value) {
+  return adu(transaction, Text("\x06") + word(at) + word(value));
+}
+
+class ModbusWriterTest : public ModbusServerTest {
+ protected:
+  ModbusWriterTest() : ModbusServerTest({"planar=map", "planar_command_modbus=127.0.0.2"}) {}
+
+  Text by_writer(const Text& request, std::size_t bytes) const {
+    return Client(port_, "127.0.0.2").ask(request, bytes);
+  }
+  // The command under way, in mm/s and mrad/s; nothing: none is known.
+  std::optional<std::pair<long, long>> command() const {
+    const std::optional<DriveMotion> known = commands_.newest(monotonic_ns());
+    if (!known) return std::nullopt;
+    return std::pair(std::lround(known->speed_m_s * 1e3), std::lround(known->turn_rad_s * 1e3));
+  }
+  static constexpr std::size_t kWritten = 12;  // bytes of an answer to a write
+};
+
+TEST_F(ModbusWriterTest, TheCounterMakesOneCommandOfWhatWasWritten) {
+  using Command = std::pair<long, long>;
+  const Text all = write_request(7, 4000, {400, 0xFF38, 1});
+  EXPECT_EQ(by_writer(all, kWritten), adu(7, Text("\x10") + word(4000) + word(3)));
+  EXPECT_EQ(command(), Command(400, -200));
+  EXPECT_EQ(by_writer(write_one(8, 4000, 0xFE70), kWritten), write_one(8, 4000, 0xFE70)) << "an echo";
+  EXPECT_EQ(by_writer(write_request(9, 4000, {0xFE70, 100}), kWritten).size(), kWritten);
+  EXPECT_EQ(command(), Command(400, -200)) << "the counter has not changed";
+  EXPECT_EQ(by_writer(write_one(8, 4002, 0xFFFF), kWritten).size(), kWritten);
+  EXPECT_EQ(command(), Command(-400, 100));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(by_writer(all, kWritten).size(), kWritten);
+  EXPECT_EQ(fact(commands_.health(monotonic_ns()), "commands"), "3") << "a gateway that repeats itself commands once";
+}
+
+TEST_F(ModbusWriterTest, WrongWritesHaveTheirExceptionsAndChangeNothing) {
+  constexpr char kAddress = 2, kValue = 3;
+  for (const auto& [first, count] : {std::pair(3999U, 3U), {4000U, 4U}, {4003U, 1U}, {0U, 3U}, {65535U, 2U}}) {
+    EXPECT_EQ(by_writer(write_request(1, first, std::vector<unsigned>(count, 9)), kExceptionBytes),
+              exception(1, 16, kAddress))
+        << first;
+  }
+  EXPECT_EQ(by_writer(write_one(2, 4003, 1), kExceptionBytes), exception(2, 6, kAddress));
+  EXPECT_EQ(by_writer(write_request(3, 4000, {}), kExceptionBytes), exception(3, 16, kValue));
+  const Text three = Text("\x10") + word(4000) + word(3);
+  for (const Text& pdu :
+       {three, three + "\x06" + word(1) + word(2), three + "\x04" + word(1) + word(2) + word(3),
+        three + "\x06" + word(1) + word(2) + word(3) + "x", Text("\x10"), Text("\x10") + word(4000)}) {
+    EXPECT_EQ(by_writer(adu(4, pdu), kExceptionBytes), exception(4, 16, kValue));
+  }
+  EXPECT_EQ(by_writer(adu(4, Text("\x06") + word(4000)), kExceptionBytes), exception(4, 6, kValue));
+  EXPECT_FALSE(command());
+  EXPECT_EQ(by_writer(write_request(5, 4000, {3001, 0, 1}), kExceptionBytes), exception(5, 16, kValue)) << "absurd";
+  EXPECT_EQ(fact(commands_.health(monotonic_ns()), "refused"), "1");
+  EXPECT_EQ(by_writer(write_one(6, 4002, 1), kWritten).size(), kWritten);
+  EXPECT_EQ(command(), std::pair(0L, 0L)) << "nothing of what was refused is left";
+}
+
+TEST_F(ModbusWriterTest, NobodyElseWrites) {
+  constexpr char kFunction = 1;
+  for (const Text& request : {write_request(1, 4000, {400, 0, 1}), write_one(1, 4002, 1)}) {
+    const unsigned function = static_cast<unsigned char>(request[7]);
+    EXPECT_EQ(alone(request, kExceptionBytes), exception(1, function, kFunction));
+  }
+  EXPECT_FALSE(command());
+  EXPECT_EQ(by_writer(adu(2, Text("\x03") + word(4000) + word(3)), kExceptionBytes), exception(2, 3, kFunction));
+  EXPECT_EQ(alone(read_request(7, 0, 2), answer_bytes(2)).size(), answer_bytes(2)) << "all may read";
 }
 
 TEST_F(ModbusServerTest, RequestsByTheByteAndInARowAreAnsweredAsAlone) {

@@ -11,6 +11,7 @@ import http.client
 import json
 import os
 import pathlib
+import re
 import shutil
 import socket
 import sys
@@ -206,13 +207,16 @@ class InABrowser(unittest.TestCase):
         told.request("GET", "/planar.json")
         planar = json.loads(told.getresponse().read())
         self.assertEqual(planar["stop"]["state"], "stop")
+        why = planar["stop"]["why"]
+        self.assertRegex(why["en"], r", for [0-9.]+ s\. [A-Z].*\.$")
+        self.assertRegex(why["zh"], "，已 [0-9.]+ 秒。.*。$")
         self.assertEqual(len(planar["roadway"]["pose"]), 3)
         browser = self.browser()
         self.assertTrue(live_peer.becomes_true(lambda: "Place: known" in self.text(browser, "place-line")))
         self.assertFalse(browser.run("return document.getElementById('roadway-panel').hidden"))
         self.assertTrue(live_peer.becomes_true(lambda: browser.run("return roadway.map !== null")), "the picture came")
         self.assertTrue(self.is_drawn(browser, "roadway"))
-        self.assertIn("Obstacle stop: STOP. ", self.text(browser, "stop-line"))
+        self.assertRegex(self.text(browser, "stop-line"), r"^Obstacle stop: STOP\. [A-Z].* s\. [A-Z].*\.$")
         browser.run("document.getElementById('roadway-zoom').click()")
         self.assertEqual(self.text(browser, "roadway-zoom"), "Whole map")
         if PICTURES:
@@ -220,8 +224,9 @@ class InABrowser(unittest.TestCase):
             browser.run("document.getElementById('roadway-panel').scrollIntoView()")
             browser.screenshot(f"{PICTURES}_roadway_en.png")
         browser.run("document.getElementById('language').click(); document.documentElement.dataset.theme = 'dark'")
-        self.assertTrue(live_peer.becomes_true(lambda: "障碍停车：停车" in self.text(browser, "stop-line")))
-        self.assertIn("位置：已知", self.text(browser, "place-line"))
+        self.assertTrue(live_peer.becomes_true(lambda: re.search("障碍停车：停车。 .*，已 [0-9.]+ 秒。.*。$",
+                                                                 self.text(browser, "stop-line"))))
+        self.assertTrue(live_peer.becomes_true(lambda: "位置：已知" in self.text(browser, "place-line")))
         for bad in ("undefined", "NaN", "[object"):
             self.assertNotIn(bad, browser.run("return document.body.innerText"))
         if PICTURES:

@@ -50,6 +50,34 @@ TEST(PlanarSettings, RulesOverSeveralKeysNameThem) {
   EXPECT_EQ(planar_fault_of({"planar=map", "planar_map=trail.pwt"}), "");
 }
 
+TEST(PlanarSettings, CommandsComeFromOnePlaceThatThereIs) {
+  EXPECT_EQ(
+      planar_fault_of({"planar=map", "planar_motion=commanded"}),
+      "planar_motion: commanded needs planar_command_modbus, planar_command_ros or planar_command_can: where commands "
+      "come from");
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_motion=both", "planar_command_modbus=10.0.0.2"}),
+            "planar_command_modbus needs modbus, the address of the server");
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_motion=both", "planar_command_ros=cmd_vel"}),
+            "planar_command_ros needs a node: ros1: 1, ros2: 1, or source: ros1 or ros2");
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_command_modbus=10.0.0.2", "planar_command_ros=cmd_vel", "ros1=1",
+                             "modbus=10.0.0.1:502"}),
+            "planar_command_modbus, planar_command_ros and planar_command_can: commands come from one place alone");
+  EXPECT_EQ(
+      planar_fault_of({"planar_command_modbus=10.0.0"}),
+      "--set: planar_command_modbus: '10.0.0' is refused; allowed: an IPv4 address, as 192.168.1.201, or nothing");
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_motion=both", "planar_command_can=2048"}),
+            "planar_command_can needs can, the interface");
+  EXPECT_EQ(planar_fault_of({"planar=map", "planar_command_can=2048", "can=can0"}),
+            "planar_command_can: 2048 is more than 11 bits hold; allowed with can_frames: 11bit: up to 2047");
+  EXPECT_EQ(
+      planar_fault_of({"planar=map", "planar_motion=both", "planar_command_can=2048", "can=can0", "can_frames=j1939"}),
+      "");
+  for (const char* node : {"ros1=1", "ros2=1", "source=ros1", "source=ros2"}) {
+    EXPECT_EQ(planar_fault_of({"planar=map", "planar_motion=both", "planar_command_ros=cmd_vel", node}), "") << node;
+  }
+  EXPECT_EQ(planar_fault_of({"planar_motion=both"}), "") << "no stop that runs";
+}
+
 // What pose_wall_planar_stop.h asks of delay_s and slack_s, for slow brakes and for a sensor of five frames a second.
 TEST(PlanarSettings, TheStopsTimesFollowFromLatencyAndPeriod) {
   const auto stop_of = [](const std::vector<std::string>& settings) {

@@ -39,7 +39,7 @@ live_peer.need("python3-rospy python3-rosbag python3-rosmaster python3-rostopic 
 import genpy.dynamic  # noqa: E402
 import rosbag  # noqa: E402
 import rospy  # noqa: E402
-from geometry_msgs.msg import TransformStamped, Vector3Stamped  # noqa: E402
+from geometry_msgs.msg import TransformStamped, Twist, TwistStamped, Vector3Stamped  # noqa: E402
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField  # noqa: E402
 from std_msgs.msg import Float32MultiArray  # noqa: E402
 from tf2_msgs.msg import TFMessage  # noqa: E402
@@ -307,6 +307,26 @@ class PeersByRospy(WithMaster):
             time.sleep(0.1)
         self.assertTrue(live_peer.becomes_true(lambda: peer.left_m() is not None), program.log())
         self.assertAlmostEqual(peer.left_m(), 2.5, delta=0.03)
+
+    def test_commands_of_the_drive_are_read_in_both_kinds(self):
+        Peer()
+        for kind, topic, speed in ((Twist, "/cmd_vel", "0.250"), (TwistStamped, "/cmd_vel_stamped", "-0.125")):
+            program = daemon("--set", "planar=map", "--set", "planar_motion=commanded", "--set", "planar_command_age=1",
+                             "--set", f"planar_command_ros={topic}", "--set", "status_every_s=1")
+            self.addCleanup(program.kill)
+            publisher = rospy.Publisher(topic, kind, queue_size=1)
+            self.addCleanup(publisher.unregister)
+            message = kind()
+            twist = message.twist if kind is TwistStamped else message
+            twist.linear.x, twist.angular.z = float(speed), -0.1
+            told = f"command m/s {speed}; command rad/s -0.100"
+
+            def is_told(publisher=publisher, message=message, told=told, program=program):
+                publisher.publish(message)
+                return any(told in line for line in program.lines[-20:])
+
+            self.assertTrue(live_peer.becomes_true(is_told), program.log())
+            self.assertTrue(program.stops_by_itself(), program.log())
 
     def test_late_then_changed_then_a_master_started_anew(self):
         peer = Peer()

@@ -222,6 +222,28 @@ class Planar(Ros2):
         self.assertEqual(writers["rt/map"], "nav_msgs::msg::dds_::OccupancyGrid_")
 
 
+class Commands(Ros2):
+    """What the drive is told, as Twist and as TwistStamped."""
+
+    def test_both_kinds_are_read_and_what_is_none_is_named(self):
+        program = self.daemon("planar=map", "planar_motion=commanded", "planar_command_ros=cmd_vel",
+                              "planar_command_age=1")
+        self.assertTrue(program.says("nobody publishes cmd_vel"), program.log())
+        for stamped, speed in ((0, "0.250"), (1, "-0.125")):
+            peer = self.peer("twist=rt/cmd_vel", f"stamped={stamped}")
+
+            def is_told(peer=peer, speed=speed):
+                peer.command(f"drive {speed}")
+                return any(f"command m/s {speed}; command rad/s -0.100" in line for line in program.lines[-20:])
+
+            self.comes_true(is_told, program)
+            if stamped:
+                peer.command("aside 0.5")
+                self.assertTrue(program.says("the newest command was refused"), program.log())
+                self.assertTrue(program.says("last refusal linear.y is 0.5; 0 is allowed"), program.log())
+            peer.command("quit")
+
+
 class Transforms(Ros2):
     def left_is(self, peer, wanted_m):
         left_m = peer.report()["left_m"]

@@ -5,7 +5,8 @@
 // newest frame is older than planar_stale. So do refused frames, stamps that go back, frames that come slower than
 // planar_period, a thing, an end in order, and a guard whose thread is gone: the heartbeat stands then. Nothing is
 // permitted before the first frame. The heartbeat goes on often enough for a controller, and not so often that it seems
-// to fall. A look counts while frames come. Measured motion of a machine that may stand is straight ahead. The
+// to fall. A look counts while frames come. Measured motion of a machine that may stand is straight ahead. Commands
+// count where they are asked for; with one of two motions unknown every motion is assumed. The
 // sensor's stamps are placed on the daemon's clock: late frames count as old, also after a long silence.
 
 #include "apps/live/planar/stop_guard.hpp"
@@ -125,6 +126,25 @@ TEST_F(StopGuardTest, AThingInTheWayStopsWithItsPlace) {
   }));
   EXPECT_NEAR(guard_->stop_now().result.nearest_m[0], 1.0, 0.25);
   EXPECT_EQ(guard_->stop_now().allowed_mm_s(), 0);
+  // 0.4 m before a machine of 0.6 m, with all motions assumed.
+  const std::string why =
+      StopLine(stop_settings_of(loaded_.planar), "+X").text(Language::kEnglish, guard_->stop_now().result, 0.0);
+  EXPECT_NE(why.find(" ahead, in the track, for "), std::string::npos) << why;
+}
+
+TEST_F(StopGuardTest, WhyItStandsIsToldWithTheTimeSinceThen) {
+  EXPECT_EQ(guard_->stop_now().cause_for_s(), 0.0) << "before the first answer";
+  EXPECT_EQ(fact(guard_->health(), "why").find("No frame of the sensor has come yet, for 0.0 s. "), 0U);
+  guard_->start();
+  ASSERT_TRUE(becomes_true([&] { return guard_->stop_now().rounds >= 3; }));
+  const StopNews before = guard_->stop_now();
+  ASSERT_TRUE(becomes_true([&] { return guard_->stop_now().rounds >= before.rounds + 3; }));
+  EXPECT_GT(guard_->stop_now().cause_for_s(), before.cause_for_s()) << "the same cause";
+  ASSERT_TRUE(is_brought_to_drive());
+  ASSERT_TRUE(becomes_true([&] { return !drives(); }));
+  const StopNews stale = guard_->stop_now();
+  EXPECT_GT(stale.cause_since_ns, before.cause_since_ns);
+  EXPECT_EQ(fact(guard_->health(), "why").find("The newest frame of the sensor is "), 0U);
 }
 
 TEST_F(StopGuardTest, ARefusedFrameAndStampsThatGoBackStop) {
@@ -380,6 +400,42 @@ TEST(StopGuardOf, MeasuredMotionIsUsedOnlyWhereAskedFor) {
     const bool is_measured = mode == "measured";
     EXPECT_NEAR(news.result.rim_speed_m_s, is_measured ? 0.2 : loaded.planar.stop.speed_max_m_s, 0.1) << mode;
     EXPECT_EQ(std::isfinite(news.result.speed_m_s), is_measured);
+  }
+}
+
+struct GivenMotion {
+  const char* mode;
+  bool is_commanded, is_measured;
+  bool is_known;
+  double rim_m_s;
+};
+
+// A command of 0.25 m/s, and 0.2 m/s measured. rim_speed_m_s is that of the faster one that is given.
+TEST(StopGuardOf, CommandsCountWhereAskedForAndOneOfTwoUnknownMotionsLeavesAll) {
+  constexpr GivenMotion kCases[] = {{"assumed", true, true, false, 0.3},    {"measured", true, true, true, 0.2},
+                                    {"commanded", true, true, true, 0.25},  {"commanded", true, false, true, 0.25},
+                                    {"commanded", false, true, false, 0.3}, {"both", true, true, true, 0.25},
+                                    {"both", false, true, false, 0.3},      {"both", true, false, false, 0.3}};
+  for (const GivenMotion& given : kCases) {
+    std::vector<std::string> settings = hall_settings();
+    for (const char* more : {"planar_command_modbus=127.0.0.1", "modbus=127.0.0.1:1502"}) settings.emplace_back(more);
+    settings.push_back(std::string("planar_motion=") + given.mode);
+    const LoadedConfig loaded = load_config("", settings);
+    CommandBoard commands("test", 10.0);
+    StopGuard guard(loaded, nullptr, &commands);
+    if (given.is_commanded) commands.take({0.25, 0.0}, monotonic_ns());
+    if (given.is_measured) guard.note_motion(measured_motion(loaded, 0.2, 0.0));
+    guard.start();
+    guard.take(hall_frame(kSecond_ns, 1), *loaded.config.get());
+    ASSERT_TRUE(becomes_true([&] { return fact(guard.health(), "frames answered") == "1"; }));
+    const StopNews news = guard.stop_now();
+    const std::string what =
+        std::string(given.mode) + (given.is_commanded ? " commanded" : "") + (given.is_measured ? " measured" : "");
+    EXPECT_EQ((news.result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING) == 0, given.is_known) << what;
+    EXPECT_NEAR(news.result.rim_speed_m_s, given.rim_m_s, 1e-6) << what;
+    if (given.is_commanded && given.is_measured) {
+      EXPECT_EQ(fact(commands.health(monotonic_ns()), "command less measured m/s"), "0.050") << what;
+    }
   }
 }
 

@@ -11,11 +11,12 @@
 //   results=1               reads what pose_walld publishes; durability=transient_local|volatile asks so of attitudes
 //   labelled=1              reads the labelled points
 //   planar=1                with results=1: reads scan, map, place and stop
+//   twist=TOPIC             the commands drive and turn publish there; stamped=1: as TwistStamped
 //   static_latched=0        /tf_static as no broadcaster of ROS sends it
 //   range=loopback          talks on 127.0.0.1 alone (default)
 //   range=localhost         as rmw_fastrtps does from Iron on, for ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST
-// commands: static Y | moving Y (transform base_link -> lidar, by /tf_static or /tf), junk (what is no cloud), report,
-// quit
+// commands: static Y | moving Y (transform base_link -> lidar, by /tf_static or /tf), drive SPEED | aside SPEED
+// (commands of a drive, the second one of none), junk (what is no cloud), report, quit
 
 #include <fastcdr/Cdr.h>
 
@@ -308,6 +309,13 @@ RawMessage transform(double y_m) {
   return message.written();
 }
 
+RawMessage twist(double ahead_m_s, double aside_m_s, bool is_stamped) {
+  Message message;
+  if (is_stamped) message.header(now_ns(), "base_link");
+  message.cdr << ahead_m_s << aside_m_s << 0.0 << 0.0 << 0.0 << -0.1;
+  return message.written();
+}
+
 // Counts of the results and how old the attitudes were when they came.
 class Results {
  public:
@@ -378,6 +386,7 @@ class Peer {
  public:
   Peer(int domain, const Words& words)
       : words_(words),
+        is_stamped_(words.number("stamped", 0) != 0),
         attitude_([this](const RawMessage& bytes) { results_.attitude(bytes); }),
         distances_([this](const RawMessage& bytes) { results_.distances(bytes); }),
         graph_([](const RawMessage& bytes) {
@@ -392,6 +401,11 @@ class Peer {
     static_ =
         node_.writer("rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", true, words.number("static_latched", 1) != 0);
     moving_ = node_.writer("rt/tf", "tf2_msgs::msg::dds_::TFMessage_", true, false);
+    if (const std::string topic = words.text("twist", ""); !topic.empty()) {
+      twists_ = node_.writer(
+          topic, is_stamped_ ? "geometry_msgs::msg::dds_::TwistStamped_" : "geometry_msgs::msg::dds_::Twist_", true,
+          false);
+    }
     if (words.number("results", 0) != 0) read_results();
     if (words.number("points", 0) > 0) {
       clouds_ = node_.writer(words.text("topic", "rt/lidar/points"),
@@ -417,6 +431,8 @@ class Peer {
       if (command == "static") static_->write(&message);
       if (command == "moving") moving_->write(&message);
       if (command == "junk") send_junk();
+      message = twist(command == "drive" ? y_m : 0.0, command == "aside" ? y_m : 0.0, is_stamped_);
+      if (command == "drive" || command == "aside") twists_->write(&message);
     }
   }
 
@@ -532,11 +548,12 @@ class Peer {
   }
 
   const Words& words_;
+  const bool is_stamped_;
   Results results_;
   Taking attitude_, distances_, graph_;
   std::vector<std::unique_ptr<Taking>> others_;
   Node node_;  // ends before who listens to it
-  fast::DataWriter *static_ = nullptr, *moving_ = nullptr, *clouds_ = nullptr;
+  fast::DataWriter *static_ = nullptr, *moving_ = nullptr, *clouds_ = nullptr, *twists_ = nullptr;
   std::thread publishing_;
   std::atomic<bool> ending_{false};
   std::atomic<int> sent_{0};

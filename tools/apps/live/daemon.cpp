@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "apps/live/clocks.hpp"
 #include "apps/live/planar/roadway_sink.hpp"
 #include "io/config_file/key_table.hpp"
 #include "io/config_file/resolved_frames.hpp"
@@ -52,9 +53,12 @@ Daemon::Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& repl
 // The stop stands beside the runtime, not behind it.
 void Daemon::make_planar() {
   if (!loaded_.planar.is_on()) return;
-  guard_ = std::make_unique<StopGuard>(loaded_, [this](const std::shared_ptr<const StopNews>& news) {
+  const std::string place = command_place(loaded_.planar);
+  if (!place.empty()) commands_ = std::make_unique<CommandBoard>(place, loaded_.planar.command_age_s);
+  const StopGuard::Tell tell = [this](const std::shared_ptr<const StopNews>& news) {
     for (const auto& sink : sinks_) sink->post(news);
-  });
+  };
+  guard_ = std::make_unique<StopGuard>(loaded_, tell, commands_.get());
   runtime_.watch_frames([this](const std::shared_ptr<const LiveFrame>& frame, const pose_wall_config& config) {
     guard_->take(frame, config);
   });
@@ -72,10 +76,11 @@ void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
     source_ = make_udp_source(loaded_);
   }
   const bool reads_ros1 = !replay && live.source == "ros1", reads_ros2 = !replay && live.source == "ros2";
-  if (live.ros1 || reads_ros1) add(make_ros1_edge(loaded_, *this, reads_ros1, live.ros1));
-  if (live.ros2 || reads_ros2) add(make_ros2_edge(loaded_, *this, reads_ros2, live.ros2));
-  if (!live.modbus.empty()) add(make_modbus_sink(loaded_, runtime_, guard_.get()));
+  if (live.ros1 || reads_ros1) add(make_ros1_edge(loaded_, *this, reads_ros1, live.ros1, commands_.get()));
+  if (live.ros2 || reads_ros2) add(make_ros2_edge(loaded_, *this, reads_ros2, live.ros2, commands_.get()));
+  if (!live.modbus.empty()) add(make_modbus_sink(loaded_, runtime_, guard_.get(), commands_.get()));
   if (!live.can.empty()) add(make_can_sink(loaded_, runtime_, guard_.get()));
+  if (commands_ && loaded_.planar.command_can != 0.0) add(make_can_commands(loaded_, *commands_));
   if (!live.mqtt.empty()) add(make_mqtt_sink(loaded_, *this));
   if (!live.http.empty()) add(make_page_sink(loaded_, *this, guard_.get()));
   if (!live.recording.empty()) add(make_recorder(loaded_, *this));
@@ -88,6 +93,7 @@ void Daemon::add(std::unique_ptr<Sink> sink) {
 void Daemon::add(RosEdge edge) {
   if (edge.source) source_ = std::move(edge.source);
   if (edge.sink) add(std::move(edge.sink));
+  if (edge.commands) add(std::move(edge.commands));
 }
 
 void Daemon::post(const std::shared_ptr<const LiveResult>& result) {
@@ -143,6 +149,7 @@ void Daemon::stop() {
 std::vector<PartHealth> Daemon::all() const {
   std::vector<PartHealth> parts = {runtime_.health(), source_->health()};
   if (guard_) parts.push_back(guard_->health());
+  if (commands_) parts.push_back(commands_->health(monotonic_ns()));
   if (roadway_) parts.push_back(roadway_->health());
   for (const auto& sink : sinks_) parts.push_back(sink->health());
   return parts;

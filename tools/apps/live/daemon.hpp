@@ -49,6 +49,7 @@ class Daemon final : public HealthBoard {
 
   LoadedConfig loaded_;
   LiveRuntime runtime_;
+  std::unique_ptr<CommandBoard> commands_;  // where a key names a place that they come from
   std::unique_ptr<Source> source_;
   std::unique_ptr<StopGuard> guard_;  // where the key `planar` is on
   std::unique_ptr<SinkThread> roadway_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/live/images.hpp"
+#include "apps/live/planar/command_board.hpp"
 #include "apps/live/planar/planar_news.hpp"
 #include "apps/live/sink.hpp"
 #include "apps/live/source.hpp"
@@ -28,6 +29,7 @@ class EdgeMissing : public std::runtime_error {
 struct RosEdge {
   std::unique_ptr<Source> source;  // none unless it subscribes
   std::unique_ptr<Sink> sink;      // none unless it publishes
+  std::unique_ptr<Sink> commands;  // a part of its own that reads commands; none where the node does it by itself
 };
 
 struct ReplayPlan {
@@ -41,13 +43,19 @@ struct ReplayPlan {
 std::unique_ptr<Source> make_udp_source(const LoadedConfig& loaded);
 std::unique_ptr<Source> make_replay_source(const ReplayPlan& plan);
 
-RosEdge make_ros1_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes);
-RosEdge make_ros2_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes);
+// commands: where commands of the drive go, by planar_command_ros; none: none are read.
+RosEdge make_ros1_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes,
+                       CommandBoard* commands);
+RosEdge make_ros2_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes,
+                       CommandBoard* commands);
 
-// stop: none where the planar part is off; its registers are then 0.
-std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop);
+// stop: none where the planar part is off; its registers are then 0. commands: likewise, by planar_command_modbus.
+std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop,
+                                       CommandBoard* commands);
 // stop: none where the planar part is off; it then has no frames.
 std::unique_ptr<Sink> make_can_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop);
+// Reads commands of the drive from planar_command_can.
+std::unique_ptr<Sink> make_can_commands(const LoadedConfig& loaded, CommandBoard& commands);
 std::unique_ptr<Sink> make_mqtt_sink(const LoadedConfig& loaded, const HealthBoard& health);
 // stop: as above.
 std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop);

@@ -21,6 +21,17 @@ Signal = collections.namedtuple("Signal", "path how bits start word member")
 Bus = collections.namedtuple("Bus", "file is_long id_of format_number")
 
 PGN, ADDRESS, ID = 0xFF00, 128, 0x680  # as can_frames.h has them
+# What the daemon reads (can_frames.h): the identifier is the user's, and this is one that is free.
+COMMAND_NUMBER, COMMAND_PRIORITY, ANY_ADDRESS = 7, 3, 254
+COMMAND = """BO_ {id} PoseWallCommand: 8 Vector__XXX
+ SG_ crc8 : 0|8@1+ (1,0) [0|255] "" pose_wall
+ SG_ counter : 8|8@1+ (1,0) [0|255] "" pose_wall
+ SG_ command_speed : 16|16@1- (0.001,0) [-32.768|32.767] "m/s" pose_wall
+ SG_ command_turn : 32|16@1- (0.001,0) [-32.768|32.767] "rad/s" pose_wall
+ SG_ kept : 48|16@1+ (1,0) [0|0] "" pose_wall
+"""
+COMMAND_COMMENT = ('CM_ BO_ {id} "What the drive is told, read by key planar_command_can. The identifier is yours to '
+                   'choose. Number 7.";')
 BUSES = [Bus("pose_wall_11bit.dbc", False, lambda frame: ID + frame.number, 0),
          Bus("pose_wall_j1939.dbc", True,
              lambda frame: frame.priority << 26 | (PGN + frame.number) << 8 | ADDRESS, 3)]
@@ -196,16 +207,20 @@ def dbc(images, bus, headers):
                   ' SG_ crc8 : 0|8@1+ (1,0) [0|255] "" Vector__XXX',
                   ' SG_ counter : 8|8@1+ (1,0) [0|255] "" Vector__XXX',
                   *(dbc_signal(signal) for signal in frame.signals), ""]
+    command_id = (COMMAND_PRIORITY << 26 | (PGN + COMMAND_NUMBER) << 8 | ANY_ADDRESS | 1 << 31 if bus.is_long
+                  else ID + COMMAND_NUMBER)
+    lines += [COMMAND.format(id=command_id)]
     for frame in frames:
         at = ids[frame.number]
         lines.append(f'CM_ BO_ {at} "{frame.comment} Number {frame.number}.";')
         lines += [f'CM_ SG_ {at} {dbc_name(signal.path)} "{dbc_comment(signal)}";'
                   for signal in frame.signals if signal.member.comment]
+    lines.append(COMMAND_COMMENT.format(id=command_id))
     lines += ['BA_DEF_ BO_ "GenMsgCycleTime" INT 0 65535;',
               'BA_DEF_ BO_ "VFrameFormat" ENUM "StandardCAN","ExtendedCAN","reserved","J1939PG";',
               f'BA_DEF_DEF_ "GenMsgCycleTime" {CYCLE_MS};', 'BA_DEF_DEF_ "VFrameFormat" "StandardCAN";']
     if bus.format_number:
-        lines += [f'BA_ "VFrameFormat" BO_ {ids[frame.number]} {bus.format_number};' for frame in frames]
+        lines += [f'BA_ "VFrameFormat" BO_ {at} {bus.format_number};' for at in (*ids.values(), command_id)]
     for frame in frames:
         for signal in frame.signals:
             names = numbers_of(signal, headers)

@@ -87,7 +87,8 @@ const std::vector<Row>& rows() {
        &LiveSettings::http},
       {{"modbus", kSinks, Type::kHostPort, "", 0, 0, "",
         translatable(
-            "address of the Modbus TCP server, HOST:PORT; empty: none. It serves reads of input registers only")},
+            "address of the Modbus TCP server, HOST:PORT; empty: none. It serves reads of input registers, and writes "
+            "as planar_command_modbus allows")},
        &LiveSettings::modbus},
       {{"can", kSinks, Type::kText, "", 0, 0, "",
         translatable("interface of SocketCAN on which the process images are sent, as can0; empty: none")},

@@ -78,10 +78,26 @@ const std::vector<PlanarKeyRow>& planar_key_rows() {
       {{"planar_odom_frame", kRoadwayGroup, OutsideKey::Type::kText, "", 0, 0, "",
         translatable("name of the frame in which motion counts, for planar_tf: odom")},
        &PlanarSettings::odom_frame},
-      {{"planar_motion", kStopGroup, OutsideKey::Type::kChoice, "", 0, 0, "assumed, measured",
+      {{"planar_motion", kStopGroup, OutsideKey::Type::kChoice, "", 0, 0, "assumed, measured, commanded, both",
         translatable("motion that the stop reckons with. assumed: every motion within planar_speed_max and "
-                     "planar_turn_max_deg. measured: that of the last frame, straight ahead while the machine stands")},
+                     "planar_turn_max_deg. measured: that of the last frame, straight ahead while the machine stands. "
+                     "commanded: what the drive is told (planar_command keys). both: all between these two. Where one "
+                     "of them is not known, every motion is assumed")},
        &PlanarSettings::motion},
+      {{"planar_command_modbus", kStopGroup, OutsideKey::Type::kIpv4OrNone, "", 0, 0, "",
+        translatable("IPv4 address of the controller that may write the commanded motion by Modbus; empty: nobody")},
+       &PlanarSettings::command_modbus},
+      {{"planar_command_ros", kStopGroup, OutsideKey::Type::kText, "", 0, 0, "",
+        translatable("topic of geometry_msgs/Twist or TwistStamped with the commanded motion, as cmd_vel; empty: "
+                     "none")},
+       &PlanarSettings::command_ros},
+      {{"planar_command_can", kStopGroup, OutsideKey::Type::kInteger, "1", 0, 536870911, "",
+        translatable("identifier of the CAN frame with the commanded motion, of 29 bits with can_frames: j1939; 0: "
+                     "none")},
+       &PlanarSettings::command_can},
+      {{"planar_command_age", kStopGroup, OutsideKey::Type::kNumber, "s", 0.05, 1, "",
+        translatable("age at which a command of the drive counts as none")},
+       &PlanarSettings::command_age_s},
       {{"planar_x_min", kStopGroup, OutsideKey::Type::kNumber, "m", -5, -0.05, "",
         translatable("rectangle about all parts of the machine that can touch anything, in base: least x")},
        &PlanarSettings::x_min_m},
@@ -136,7 +152,8 @@ const PlanarKeyRow* find_planar_row(const std::string& name) {
   return nullptr;
 }
 
-bool is_planar_choice(const OutsideKey& key, const std::string& value) {
+bool is_planar_text_allowed(const OutsideKey& key, const std::string& value) {
+  if (key.type == OutsideKey::Type::kIpv4OrNone) return value.empty() || parse_ipv4(value);
   if (key.type != OutsideKey::Type::kChoice) return true;
   const std::vector<std::string> choices = choices_of(key);
   return std::find(choices.begin(), choices.end(), value) != choices.end();
@@ -210,7 +227,7 @@ std::string planar_value_text(const PlanarSettings& settings, const OutsideKey& 
 bool set_planar_value(PlanarSettings* settings, const OutsideKey& key, const std::string& value) {
   const PlanarMember member = find_planar_row(key.name)->member;
   if (const auto text = std::get_if<std::string PlanarSettings::*>(&member)) {
-    if (!is_planar_choice(key, value)) return false;
+    if (!is_planar_text_allowed(key, value)) return false;
     settings->** text = value;
     return true;
   }
@@ -260,6 +277,31 @@ std::string broken_planar_rule(const PlanarSettings& settings) {
   if (pose_wall_planar_scanner_settings_check(&scanner, &fault) == POSE_WALL_OK) return "";
   return say("planar_height {:g} m, planar_clearance {:g} m are refused: {}", settings.height_m, settings.clearance_m,
              fault.rule);
+}
+
+std::string broken_command_rule(const PlanarSettings& settings, const LiveSettings& live) {
+  if (!settings.is_on()) return "";
+  const bool by_modbus = !settings.command_modbus.empty(), by_ros = !settings.command_ros.empty();
+  const bool by_can = settings.command_can != 0.0;
+  if (settings.takes_command() && !by_modbus && !by_ros && !by_can) {
+    return say(
+        "planar_motion: {} needs planar_command_modbus, planar_command_ros or planar_command_can: where commands "
+        "come from",
+        settings.motion);
+  }
+  if (int{by_modbus} + int{by_ros} + int{by_can} > 1) {
+    return tr("planar_command_modbus, planar_command_ros and planar_command_can: commands come from one place alone");
+  }
+  if (by_modbus && live.modbus.empty()) return tr("planar_command_modbus needs modbus, the address of the server");
+  const bool has_node = live.ros1 || live.ros2 || live.source == "ros1" || live.source == "ros2";
+  if (by_ros && !has_node) return tr("planar_command_ros needs a node: ros1: 1, ros2: 1, or source: ros1 or ros2");
+  if (by_can && live.can.empty()) return tr("planar_command_can needs can, the interface");
+  constexpr double kShortMost = 2047.0;  // of 11 bits
+  if (by_can && live.can_frames == "11bit" && settings.command_can > kShortMost) {
+    return say("planar_command_can: {:.0f} is more than 11 bits hold; allowed with can_frames: 11bit: up to 2047",
+               settings.command_can);
+  }
+  return "";
 }
 
 }  // namespace pose_wall::tools

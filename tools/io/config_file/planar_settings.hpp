@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/config_file/live_settings.hpp"
 #include "io/config_file/outside_key.hpp"
 #include "pose_wall_planar_scan.h"
 #include "pose_wall_planar_stop.h"
@@ -23,6 +24,9 @@ struct PlanarSettings {
   std::string motion = "assumed";
   std::string tf = "off";
   std::string map_frame = "map", odom_frame = "odom";
+  std::string command_modbus, command_ros;  // where the commanded motion comes from; empty: not from there
+  double command_can = 0.0;                 // likewise; 0: not from there
+  double command_age_s = 0.25;
   double cell_m = 0.05, map_every_s = 2.0;
   // The machine, in base and above its floor.
   double x_min_m = -2.25, x_max_m = 2.25, y_min_m = -0.6, y_max_m = 0.6;
@@ -33,6 +37,8 @@ struct PlanarSettings {
 
   bool is_on() const { return mode != "off"; }
   bool maps() const { return mode == "map"; }
+  bool takes_measured() const { return motion == "measured" || motion == "both"; }
+  bool takes_command() const { return motion == "commanded" || motion == "both"; }
 };
 
 // All rows, in the table's order.
@@ -51,5 +57,7 @@ pose_wall_planar_scanner_settings scanner_settings_of(const PlanarSettings& sett
 
 // The rule over several keys that the settings break; empty: none. Each begins with the keys.
 std::string broken_planar_rule(const PlanarSettings& settings);
+// Likewise over these and the keys of the edges by which commands come.
+std::string broken_command_rule(const PlanarSettings& settings, const LiveSettings& live);
 
 }  // namespace pose_wall::tools

@@ -7,8 +7,18 @@
 
 namespace pose_wall::tools::live {
 
+namespace {
+
+constexpr const char* kMissing = "this build has no CAN: install linux-libc-dev, configure and build again";
+
+}  // namespace
+
 std::unique_ptr<Sink> make_can_sink(const LoadedConfig&, const Images&, const StopBoard*) {
-  throw EdgeMissing("this build has no CAN: install linux-libc-dev, configure and build again");
+  throw EdgeMissing(kMissing);
+}
+
+std::unique_ptr<Sink> make_can_commands(const LoadedConfig&, CommandBoard&) {
+  throw EdgeMissing(kMissing);
 }
 
 }  // namespace pose_wall::tools::live

@@ -7,7 +7,7 @@
 
 namespace pose_wall::tools::live {
 
-std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig&, const Images&, const StopBoard*) {
+std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig&, const Images&, const StopBoard*, CommandBoard*) {
   throw EdgeMissing("this build has no Modbus: install libmodbus-dev, configure and build again");
 }
 

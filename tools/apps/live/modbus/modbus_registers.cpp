@@ -6,15 +6,15 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "apps/live/clocks.hpp"
+
 namespace pose_wall::tools::live {
 namespace {
 
-// Of a request (Modbus Messaging on TCP/IP V1.0b, 3.1.3; Modbus Application Protocol V1.1b3, 6.4).
-constexpr std::size_t kHeaderBytes = 7, kFunctionAt = 7, kAddressAt = 8, kCountAt = 10;
-constexpr int kReadInputRegisters = 0x04;
+constexpr std::size_t kHeaderBytes = 7;  // Modbus Messaging on TCP/IP V1.0b, 3.1.3
 
-unsigned big_endian_at(const std::uint8_t* bytes, std::size_t at) {
-  return static_cast<unsigned>(bytes[at] << 8U) | bytes[at + 1];
+bool is_write(const std::uint8_t* request) {
+  return request[kFunctionAt] == kWriteSingleRegister || request[kFunctionAt] == kWriteMultipleRegisters;
 }
 
 // modbus_reply would refuse it, too, but sleeps first and throws away the requests that wait behind it.
@@ -42,22 +42,28 @@ int request_bytes(const std::uint8_t* bytes, std::size_t count) {
   return count >= whole ? static_cast<int>(whole) : 0;
 }
 
-ModbusRegisters::ModbusRegisters(const Images& images, const StopBoard* stop)
+ModbusRegisters::ModbusRegisters(const Images& images, const StopBoard* stop, const CommandRegisters& commands)
     : images_(images),
       stop_(stop),
+      commands_(commands),
       context_(modbus_new_tcp("127.0.0.1", 0)),
       image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kImageRegister, kImageRegisters)),
       image2_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kImage2Register, kImage2Registers)),
       motion_image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kMotionImageRegister, kMotionImageRegisters)),
-      stop_image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kStopImageRegister, kStopImageRegisters)) {
-  if (!context_ || !image_ || !image2_ || !motion_image_ || !stop_image_) throw std::runtime_error("Modbus: no memory");
+      stop_image_(modbus_mapping_new_start_address(0, 0, 0, 0, 0, 0, kStopImageRegister, kStopImageRegisters)),
+      written_(modbus_mapping_new_start_address(0, 0, 0, 0, kCommandRegister, kCommandRegisters, 0, 0)) {
+  if (!context_ || !image_ || !image2_ || !motion_image_ || !stop_image_ || !written_)
+    throw std::runtime_error("Modbus: no memory");
 }
 
-bool ModbusRegisters::answer(int socket, const std::uint8_t* request, int bytes, bool* was_refused) {
+bool ModbusRegisters::answer(int socket, std::optional<std::uint32_t> client, const std::uint8_t* request, int bytes,
+                             bool* was_refused) {
   modbus_set_socket(context_.get(), socket);
   constexpr int kReadBytes = 12;  // header, function, address, count
   int sent = -1;
-  if (request[kFunctionAt] != kReadInputRegisters) {
+  if (is_write(request) && commands_.may_write(client)) {
+    sent = answer_write(request, bytes);
+  } else if (request[kFunctionAt] != kReadInputRegisters) {
     sent = modbus_reply_exception(context_.get(), request, MODBUS_EXCEPTION_ILLEGAL_FUNCTION);
   } else if (bytes != kReadBytes || !is_count(big_endian_at(request, kCountAt))) {
     sent = modbus_reply_exception(context_.get(), request, MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE);
@@ -70,12 +76,21 @@ bool ModbusRegisters::answer(int socket, const std::uint8_t* request, int bytes,
   return sent > 0;
 }
 
+int ModbusRegisters::answer_write(const std::uint8_t* request, int bytes) {
+  const int fault = commands_.write(request, static_cast<std::size_t>(bytes));
+  if (fault != 0) return modbus_reply_exception(context_.get(), request, static_cast<unsigned>(fault));
+  // It makes the answer alone; what was written is kept elsewhere.
+  return modbus_reply(context_.get(), request, bytes, written_.get());
+}
+
 // The image in whose range the address lies, or the one before it: then the range's end is what is refused.
 int ModbusRegisters::answer_read(const std::uint8_t* request, int bytes) {
   const unsigned address = big_endian_at(request, kAddressAt);
   if (address >= kStopImageRegister) {
     // Without a stop all bytes are 0: that is no image, and permits nothing.
-    copy_words(stop_ != nullptr ? stop_->image_now() : pose_wall_planar_stop_image{}, stop_image_.get());
+    const StopNews news = stop_ != nullptr ? stop_->stop_now() : StopNews{};
+    if (news.answered_ns != 0) answer_ages_.note(monotonic_ns() - news.answered_ns);
+    copy_words(stop_ != nullptr ? image_of(news) : pose_wall_planar_stop_image{}, stop_image_.get());
     return modbus_reply(context_.get(), request, bytes, stop_image_.get());
   }
   if (address >= kMotionImageRegister) {

@@ -17,6 +17,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -81,21 +82,38 @@ Socket listen_at(const HostPort& place) {
   return server;
 }
 
+// Nothing for one that is no IPv4 address, mapped into IPv6 or not.
+std::optional<std::uint32_t> ipv4_of(const sockaddr_storage& address) {
+  if (address.ss_family == AF_INET) return ntohl(reinterpret_cast<const sockaddr_in&>(address).sin_addr.s_addr);
+  if (address.ss_family != AF_INET6) return std::nullopt;
+  const in6_addr& six = reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
+  if (!IN6_IS_ADDR_V4MAPPED(&six)) return std::nullopt;
+  constexpr std::size_t kMappedAt = 12;  // RFC 4291, 2.5.5.2
+  std::uint32_t four = 0;
+  std::memcpy(&four, six.s6_addr + kMappedAt, sizeof four);
+  return ntohl(four);
+}
+
 struct Client {
   Socket socket;
+  std::optional<std::uint32_t> address;
   Clock::time_point heard;
   std::vector<std::uint8_t> bytes;
 };
 
 class ModbusServer final : public Sink {
  public:
-  ModbusServer(std::string at, const Images& images, const StopBoard* stop)
-      : at_(std::move(at)), registers_(images, stop) {}
+  ModbusServer(const LoadedConfig& loaded, const Images& images, const StopBoard* stop, CommandBoard* commands)
+      : at_(loaded.live.modbus),
+        writer_(commands != nullptr ? loaded.planar.command_modbus : ""),
+        registers_(images, stop, CommandRegisters(commands, parse_ipv4(writer_))) {}
   ~ModbusServer() override { stop(); }
 
   void start() override {
     server_ = listen_at(*parse_host_port(at_));
-    log_line(Grade::kGood, part(), "listens; whoever reaches this address can read the images, nobody can write");
+    log_line(Grade::kGood, part(),
+             fmt::format("listens; whoever reaches this address can read the images, {}",
+                         writer_.empty() ? "nobody can write" : writer_ + " alone can write commands of the drive"));
     ending_ = false;
     thread_ = std::thread([this] { run(); });
   }
@@ -115,6 +133,8 @@ class ModbusServer final : public Sink {
     health.add("requests", requests_.load());
     health.add("refused", refused_.load());
     health.add("connections of no Modbus", no_modbus_.load());
+    health.add("stop's age when read, mean ms", registers_.answer_ages().mean_ms_text());
+    health.add("stop's age when read, worst ms", registers_.answer_ages().worst_ms_text());
     return health;
   }
 
@@ -143,9 +163,11 @@ class ModbusServer final : public Sink {
   // All that wait, but no more than there are places: then those that are there have their turn.
   void accept_clients() {
     for (std::size_t i = 0; i < kClientsMost; ++i) {
-      Socket socket(accept4(server_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+      sockaddr_storage from{};
+      socklen_t size = sizeof from;
+      Socket socket(accept4(server_.get(), reinterpret_cast<sockaddr*>(&from), &size, SOCK_CLOEXEC | SOCK_NONBLOCK));
       if (socket.get() >= 0) {
-        admit(std::move(socket));
+        admit(std::move(socket), ipv4_of(from));
         continue;
       }
       // Without descriptors the next one waits on, and poll would tell of it again and again.
@@ -154,12 +176,12 @@ class ModbusServer final : public Sink {
     }
   }
 
-  void admit(Socket socket) {
+  void admit(Socket socket, std::optional<std::uint32_t> address) {
     if (clients_.size() == kClientsMost) {
       clients_.erase(std::min_element(clients_.begin(), clients_.end(),
                                       [](const Client& a, const Client& b) { return a.heard < b.heard; }));
     }
-    clients_.push_back({std::move(socket), Clock::now(), {}});
+    clients_.push_back({std::move(socket), address, Clock::now(), {}});
   }
 
   // False when the connection is at its end.
@@ -176,13 +198,15 @@ class ModbusServer final : public Sink {
       if (whole <= 0) return whole == 0;
       bool was_refused = false;
       ++requests_;
-      if (!registers_.answer(client->socket.get(), client->bytes.data(), whole, &was_refused)) return false;
+      if (!registers_.answer(client->socket.get(), client->address, client->bytes.data(), whole, &was_refused)) {
+        return false;
+      }
       if (was_refused) ++refused_;
       client->bytes.erase(client->bytes.begin(), client->bytes.begin() + whole);
     }
   }
 
-  std::string at_;
+  std::string at_, writer_;
   ModbusRegisters registers_;
   Socket server_;
   std::vector<Client> clients_;
@@ -193,8 +217,9 @@ class ModbusServer final : public Sink {
 
 }  // namespace
 
-std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop) {
-  return std::make_unique<ModbusServer>(loaded.live.modbus, images, stop);
+std::unique_ptr<Sink> make_modbus_sink(const LoadedConfig& loaded, const Images& images, const StopBoard* stop,
+                                       CommandBoard* commands) {
+  return std::make_unique<ModbusServer>(loaded, images, stop, commands);
 }
 
 }  // namespace pose_wall::tools::live

@@ -23,6 +23,7 @@
 #include "apps/live/page/events.hpp"
 #include "apps/live/page/roadway_events.hpp"
 #include "apps/live/result_json.hpp"
+#include "io/config_file/key_table.hpp"
 #include "study/report/assets.hpp"
 
 namespace pose_wall::tools::live {
@@ -63,6 +64,7 @@ class PageServer final : public Sink {
       : loaded_(loaded),
         board_(board),
         stop_(stop),
+        line_(stop_settings_of(loaded.planar), config_text(*loaded.config.get(), "forward_axis")),
         place_(*parse_host_port(loaded.live.http)),
         assets_(report::live_assets()) {}
   ~PageServer() override { stop(); }
@@ -97,7 +99,7 @@ class PageServer final : public Sink {
 
   bool wants_planar() const override { return stop_ != nullptr; }
   void take_stop(const StopNews& news) override {
-    if (viewers_ > 0) broadcast_.post(Broadcast::kStop, stop_event(news));
+    if (viewers_ > 0) broadcast_.post(Broadcast::kStop, stop_event(news, line_));
   }
   void take_roadway(const RoadwayNews& news) override {
     {
@@ -268,7 +270,7 @@ class PageServer final : public Sink {
       return;
     }
     const std::shared_ptr<const RoadwayNews> roadway = newest_roadway();
-    answer->set_content(fmt::format("{{\"stop\": {}, \"roadway\": {}}}\n", stop_json(stop_->stop_now()),
+    answer->set_content(fmt::format("{{\"stop\": {}, \"roadway\": {}}}\n", stop_json(stop_->stop_now(), line_),
                                     roadway ? roadway_json(*roadway) : "null"),
                         "application/json");
   }
@@ -292,6 +294,7 @@ class PageServer final : public Sink {
   LoadedConfig loaded_;
   const HealthBoard& board_;
   const StopBoard* stop_;
+  const StopLine line_;
   HostPort place_;
   report::Assets assets_;
   httplib::Server server_;

@@ -50,7 +50,7 @@ ordered_json place(const pose_wall_planar_pose& pose) {
 
 }  // namespace
 
-std::string stop_json(const StopNews& news) {
+std::string stop_json(const StopNews& news, const StopLine& line) {
   const pose_wall_planar_stop_result& result = news.result;
   const bool has_frame = result.frames > 0;
   ordered_json json = {{"state", pose_wall_planar_stop_state_name(result.state)},
@@ -62,6 +62,8 @@ std::string stop_json(const StopNews& news) {
   json["nearest_m"] =
       has_place ? ordered_json{number(result.nearest_m[0]), number(result.nearest_m[1])} : ordered_json(nullptr);
   json["nearest_distance_m"] = has_place ? number(result.nearest_distance_m) : ordered_json(nullptr);
+  json["why"] = {{"en", line.text(Language::kEnglish, result, news.cause_for_s())},
+                 {"zh", line.text(Language::kChinese, result, news.cause_for_s())}};
   return json.dump();
 }
 
@@ -80,8 +82,8 @@ std::string roadway_json(const RoadwayNews& news) {
   return json.dump();
 }
 
-std::string stop_event(const StopNews& news) {
-  return event("stop", stop_json(news));
+std::string stop_event(const StopNews& news, const StopLine& line) {
+  return event("stop", stop_json(news, line));
 }
 
 std::string roadway_event(const RoadwayNews& news) {

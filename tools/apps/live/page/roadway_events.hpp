@@ -8,13 +8,14 @@
 #include <string>
 
 #include "apps/live/planar/planar_news.hpp"
+#include "study/planar/stop_line.hpp"
 
 namespace pose_wall::tools::live {
 
-// JSON, and the same as events.
-std::string stop_json(const StopNews& news);
+// JSON, and the same as events. line: tells why the stop stops, in both languages.
+std::string stop_json(const StopNews& news, const StopLine& line);
 std::string roadway_json(const RoadwayNews& news);
-std::string stop_event(const StopNews& news);
+std::string stop_event(const StopNews& news, const StopLine& line);
 std::string roadway_event(const RoadwayNews& news);
 // The map as a picture, with its place.
 std::string map_event(const RoadwayMap& map);

@@ -23,9 +23,17 @@ struct StopNews {
   std::uint64_t rounds = 0;          // answers since the start: the heartbeat
   std::int64_t answered_ns = 0;      // by the clock that nobody sets
   std::int64_t header_stamp_ns = 0;  // of the newest frame
+  std::int64_t cause_since_ns = 0;   // since when its cause is the same (stop_line.hpp), by the clock of answered_ns
 
+  // 0 before the first answer.
+  double cause_for_s() const {
+    return answered_ns > cause_since_ns ? static_cast<double>(answered_ns - cause_since_ns) * 1e-9 : 0.0;
+  }
   std::int64_t allowed_mm_s() const { return static_cast<std::int64_t>(result.allowed_speed_m_s * 1e3); }
 };
+
+// The same for controllers. Bytes of 0 where it cannot be filled: no image, which permits nothing.
+pose_wall_planar_stop_image image_of(const StopNews& news);
 
 // The answer of this very moment, from any thread.
 class StopBoard {
@@ -37,8 +45,7 @@ class StopBoard {
 
   // Whatever was answered before: where nobody has answered for a while, the state is stop and the heartbeat stands.
   virtual StopNews stop_now() const = 0;
-  // The same for controllers. Bytes of 0 where it cannot be filled: no image, which permits nothing.
-  pose_wall_planar_stop_image image_now() const;
+  pose_wall_planar_stop_image image_now() const { return image_of(stop_now()); }
 };
 
 // Cells as nav_msgs/OccupancyGrid has them.

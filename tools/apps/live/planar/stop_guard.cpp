@@ -24,6 +24,9 @@ constexpr std::int64_t kTellEvery_ns = 100'000'000;
 constexpr double kNsPerS = 1e9;
 // Longer than motion takes for a frame, and as many as the stop knows.
 constexpr std::size_t kFramesKept = 16;
+// Without a measurement the drive is trusted to follow its commands to a fifth, for tracks slip, and to turn by no more
+// than this beside them.
+constexpr double kSlip = 0.2, kTurnError_rad_s = 0.03;
 // A frame or two may be lost; what is slow for longer is the sensor, or this machine.
 constexpr int kSlowFrames = 5;
 
@@ -40,19 +43,25 @@ std::string stop_reasons_text(std::uint32_t reasons) {
   return fmt::format("{}", fmt::join(stop_reason_names(reasons), ", "));
 }
 
-pose_wall_planar_stop_image StopBoard::image_now() const {
-  const StopNews news = stop_now();
+pose_wall_planar_stop_image image_of(const StopNews& news) {
   pose_wall_planar_stop_image image{};
   image.struct_size = sizeof image;
   const bool is_filled = pose_wall_planar_stop_image_fill(&news.result, &image) == POSE_WALL_OK;
   return is_filled ? image : pose_wall_planar_stop_image{};
 }
 
-StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell)
+StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell, CommandBoard* commands)
     : settings_(stop_settings_of(loaded.planar)),
-      takes_motion_(loaded.planar.motion == "measured"),
+      takes_motion_(loaded.planar.takes_measured()),
+      takes_command_(loaded.planar.takes_command()),
+      commands_(commands),
+      line_(settings_, config_text(*loaded.config.get(), "forward_axis")),
       tell_(std::move(tell)),
       block_(POSE_WALL_PLANAR_STOP_BLOCK_MOST) {
+  if (takes_command_ && !takes_motion_) {
+    settings_.speed_error_ratio = kSlip;
+    settings_.turn_error_rad_s = kTurnError_rad_s;
+  }
   open(*loaded.config.get());
   if (stop_ == nullptr) throw std::runtime_error(refusal_of(settings_));
   begin_answers();
@@ -67,6 +76,8 @@ void StopGuard::begin_answers() {
   static_cast<void>(pose_wall_planar_stop_tick(stop_, monotonic_ns(), &newest_.result));
   newest_.result.heartbeat = first_beat_;
   refuse(&newest_, POSE_WALL_PLANAR_STOP_R_STALE);
+  cause_ = stop_cause(newest_.result);
+  newest_.cause_since_ns = monotonic_ns();
 }
 
 // Without a handle every answer is a stop.
@@ -133,6 +144,19 @@ void StopGuard::note_seen() {
   }
 }
 
+// The measured motion is that of the odometry. Where both are asked for, a command alone is not trusted.
+pose_wall_planar_stop_motion StopGuard::motion_now(bool is_measured) const {
+  pose_wall_planar_stop_motion motion{};
+  motion.struct_size = sizeof motion;
+  const bool is_asked = takes_command_ && commands_ != nullptr && (is_measured || !takes_motion_);
+  const std::optional<DriveMotion> command = is_asked ? commands_->newest(monotonic_ns()) : std::nullopt;
+  if (!command) return motion;
+  motion.given = POSE_WALL_PLANAR_STOP_COMMANDED;
+  motion.command_speed_m_s = command->speed_m_s;
+  motion.command_turn_rad_s = command->turn_rad_s;
+  return motion;
+}
+
 // Of three frames in which dust is told from things the last must come within delay_s.
 bool StopGuard::comes_too_slowly(std::int64_t stamp_ns) {
   const bool is_apart =
@@ -160,9 +184,14 @@ void StopGuard::answer_frame(const Job& job, StopNews* news) {
   note_seen();
   frames_.push_back({job.frame->frame.cloud.stamp_ns, placed.ns});
   if (frames_.size() > kFramesKept) frames_.pop_front();
+  const pose_wall_planar_stop_motion motion = motion_now(std::isfinite(news->result.speed_m_s));
   const std::int32_t status =
       stop_ == nullptr ? POSE_WALL_E_ENGINE
-                       : pose_wall_planar_stop_process(stop_, &cloud, nullptr, monotonic_ns(), &news->result);
+                       : pose_wall_planar_stop_process(stop_, &cloud, &motion, monotonic_ns(), &news->result);
+  const pose_wall_planar_stop_result& r = news->result;
+  if (status == POSE_WALL_OK && commands_ != nullptr && std::isfinite(r.speed_m_s)) {
+    commands_->note_measured({r.speed_m_s, r.turn_rad_s}, {r.speed_error_m_s, r.turn_error_rad_s}, monotonic_ns());
+  }
   frame_refused_ = status != POSE_WALL_OK || is_slow;
   if (!frame_refused_ && placed.is_later) return;
   refuse(news, POSE_WALL_PLANAR_STOP_R_INVALID);
@@ -201,9 +230,11 @@ void StopGuard::run() {
     news.result.heartbeat = first_beat_ + static_cast<std::uint32_t>(news.rounds);
     news.answered_ns = monotonic_ns();
     news.header_stamp_ns = header_stamp_ns_;
+    note_cause(&news);
     put(news, job ? &*job : nullptr);
   }
   refuse(&news, POSE_WALL_PLANAR_STOP_R_STALE);  // the last word of an end in order
+  note_cause(&news);
   put(news, nullptr);
 }
 
@@ -218,6 +249,12 @@ void StopGuard::heed_look(const StopNews& news) {
   }
 }
 
+void StopGuard::note_cause(StopNews* news) {
+  const StopCause cause = stop_cause(news->result);
+  if (cause != cause_) news->cause_since_ns = news->answered_ns;
+  cause_ = cause;
+}
+
 void StopGuard::put(const StopNews& news, const Job* job) {
   bool is_change = false;
   {
@@ -228,7 +265,7 @@ void StopGuard::put(const StopNews& news, const Job* job) {
       ++answered_;
       received_ns_ = job->received_ns;
       is_slow_ = slow_frames_ >= kSlowFrames;
-      latency_worst_ns_ = std::max(latency_worst_ns_, news.answered_ns - job->received_ns);
+      latency_.note(news.answered_ns - job->received_ns);
     }
     newest_ = news;
   }
@@ -244,7 +281,9 @@ StopNews StopGuard::newest() const {
 
 StopNews StopGuard::stop_now() const {
   StopNews news = newest();
-  if (monotonic_ns() - news.answered_ns > kHangs_ns) refuse(&news, POSE_WALL_PLANAR_STOP_R_STALE);
+  if (monotonic_ns() - news.answered_ns <= kHangs_ns) return news;
+  refuse(&news, POSE_WALL_PLANAR_STOP_R_STALE);
+  news.cause_since_ns = news.answered_ns;
   return news;
 }
 
@@ -262,6 +301,7 @@ PartHealth StopGuard::health() const {
   health.grade = !is_stop ? Grade::kGood : is_stale ? Grade::kBad : Grade::kWarning;
   health.add("state", pose_wall_planar_stop_state_name(news.result.state));
   health.add("reasons", stop_reasons_text(news.result.reasons));
+  health.add("why", line_.text(Language::kEnglish, news.result, news.cause_for_s()));
   health.add("allowed mm/s", fmt::format("{}", news.allowed_mm_s()));
   health.add("heartbeat", news.rounds);
   health.add("settings' CRC", fmt::format("16#{:08X}", news.result.settings_crc32));
@@ -281,7 +321,8 @@ PartHealth StopGuard::health() const {
   health.add("frames refused", refused_);
   health.add("stops", stops_);
   health.add("looks heeded", looks_);
-  health.add("latency worst ms", fmt::format("{:.1f}", static_cast<double>(latency_worst_ns_) * 1e-6));
+  health.add("latency mean ms", latency_.mean_ms_text());
+  health.add("latency worst ms", latency_.worst_ms_text());
   return health;
 }
 

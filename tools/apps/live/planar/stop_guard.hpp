@@ -15,13 +15,16 @@
 #include <string>
 #include <thread>
 
+#include "apps/live/delays.hpp"
 #include "apps/live/health.hpp"
 #include "apps/live/live_frame.hpp"
+#include "apps/live/planar/command_board.hpp"
 #include "apps/live/planar/planar_news.hpp"
 #include "apps/live/planar/stamp_clock.hpp"
 #include "apps/live/sink.hpp"
 #include "io/config_file/load_config.hpp"
 #include "study/planar/part_block.hpp"
+#include "study/planar/stop_line.hpp"
 
 namespace pose_wall::tools::live {
 
@@ -30,8 +33,9 @@ class StopGuard final : public StopBoard {
   // In the guard's thread: after each frame, at each change of the state, and ten times a second. It must not wait.
   using Tell = std::function<void(const std::shared_ptr<const StopNews>&)>;
 
+  // commands: what the drive is told; none where no key names a place that commands come from.
   // Throws std::runtime_error where the library refuses settings or config.
-  StopGuard(const LoadedConfig& loaded, Tell tell);
+  StopGuard(const LoadedConfig& loaded, Tell tell, CommandBoard* commands = nullptr);
   ~StopGuard() override { stop(); }
 
   void start();
@@ -80,12 +84,16 @@ class StopGuard final : public StopBoard {
   void heed_look(const StopNews& news);
   bool comes_too_slowly(std::int64_t stamp_ns);
   void refuse(StopNews* news, std::uint32_t reason) const;
+  void note_cause(StopNews* news);
   void put(const StopNews& news, const Job* job);
   StopNews newest() const;
   void note_seen();
+  pose_wall_planar_stop_motion motion_now(bool is_measured) const;
 
   pose_wall_planar_stop_settings settings_;
-  bool takes_motion_;
+  bool takes_motion_, takes_command_;
+  CommandBoard* commands_;
+  StopLine line_;
   Tell tell_;
   // Of the guard's thread.
   PartBlock block_;
@@ -96,8 +104,9 @@ class StopGuard final : public StopBoard {
   std::int64_t told_ns_ = 0, header_stamp_ns_ = 0;
   std::uint32_t first_beat_ = 0;  // the heartbeat of a controller is so far ahead of the rounds
   std::int64_t stamp_ns_ = 0;     // of the newest frame, by its sensor
-  int slow_frames_ = 0;           // so many in turn came too long after the one before
-  bool frame_refused_ = false;    // the newest one
+  StopCause cause_ = StopCause::kNothing;
+  int slow_frames_ = 0;         // so many in turn came too long after the one before
+  bool frame_refused_ = false;  // the newest one
 
   mutable std::mutex lock_;
   std::condition_variable changed_;
@@ -108,7 +117,7 @@ class StopGuard final : public StopBoard {
   bool is_slow_ = false;          // the sensor
   std::int64_t received_ns_ = 0;  // when the newest frame came
   std::uint64_t answered_ = 0, lost_ = 0, refused_ = 0, stops_ = 0, looks_ = 0;
-  std::int64_t latency_worst_ns_ = 0;
+  Delays latency_;  // from a frame's reception to its answer
 
   std::thread thread_;
 };

@@ -7,7 +7,7 @@
 
 namespace pose_wall::tools::live {
 
-RosEdge make_ros1_edge(const LoadedConfig&, const HealthBoard&, bool, bool) {
+RosEdge make_ros1_edge(const LoadedConfig&, const HealthBoard&, bool, bool, CommandBoard*) {
   throw EdgeMissing(
       "this build has no ROS 1: install libroscpp-dev libsensor-msgs-dev libdiagnostic-msgs-dev libtf2-msgs-dev, "
       "configure and build again");

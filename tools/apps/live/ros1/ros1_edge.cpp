@@ -10,6 +10,7 @@
 
 #include "apps/live/edges.hpp"
 #include "apps/live/ros1/ros1_node.hpp"
+#include "apps/live/ros_messages/command_reader.hpp"
 #include "apps/live/ros_messages/ros_publisher.hpp"
 #include "apps/live/ros_messages/ros_reader.hpp"
 
@@ -17,8 +18,8 @@ namespace pose_wall::tools::live {
 namespace {
 
 constexpr const char* kNodeName = "pose_walld";
-// The newest cloud counts; of transforms none may be lost.
-constexpr std::uint32_t kCloudQueue = 2, kTransformQueue = 100;
+// The newest cloud and the newest command count; of transforms none may be lost.
+constexpr std::uint32_t kCloudQueue = 2, kTransformQueue = 100, kCommandQueue = 1;
 
 // Why nobody new can find the node; empty when all is well.
 std::string trouble_of(const Ros1Node& node) {
@@ -85,8 +86,14 @@ class Ros1Out final : public RosOut {
 
 }  // namespace
 
-RosEdge make_ros1_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes) {
+RosEdge make_ros1_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes,
+                       CommandBoard* commands) {
   const auto node = std::make_shared<Ros1Node>(kNodeName);
+  if (commands != nullptr && !loaded.planar.command_ros.empty()) {
+    const auto reader = std::make_shared<CommandReader>(*commands, MessageEncoding::kRos1);
+    node->subscribe(loaded.planar.command_ros, kCommandQueue,
+                    [reader](const std::string& type, ByteView message) { reader->take(type, message); });
+  }
   RosEdge edge;
   if (subscribes) edge.source = std::make_unique<Ros1Source>(loaded, node);
   if (publishes) {

@@ -7,7 +7,7 @@
 
 namespace pose_wall::tools::live {
 
-RosEdge make_ros2_edge(const LoadedConfig&, const HealthBoard&, bool, bool) {
+RosEdge make_ros2_edge(const LoadedConfig&, const HealthBoard&, bool, bool, CommandBoard*) {
   throw EdgeMissing("this build has no ROS 2: install cyclonedds-dev, configure and build again");
 }
 

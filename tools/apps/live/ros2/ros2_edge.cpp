@@ -13,6 +13,7 @@
 #include "apps/live/clocks.hpp"
 #include "apps/live/edges.hpp"
 #include "apps/live/ros2/endpoint_watch.hpp"
+#include "apps/live/ros2/ros2_commands.hpp"
 #include "apps/live/ros2/ros2_node.hpp"
 #include "apps/live/ros2/ros2_source.hpp"
 #include "apps/live/ros_messages/ros_publisher.hpp"
@@ -115,11 +116,15 @@ CycloneLimits limits_of(const LoadedConfig& loaded) {
 
 }  // namespace
 
-RosEdge make_ros2_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes) {
+RosEdge make_ros2_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes,
+                       CommandBoard* commands) {
   const RosEnvironment environment = read_ros_environment(ros_distro_of(loaded.live.ros_distro), get_variable);
   const auto node = std::make_shared<Ros2Node>(kNodeName, environment, limits_of(loaded));
   RosEdge edge;
   if (subscribes) edge.source = make_ros2_source(loaded, node);
+  if (commands != nullptr && !loaded.planar.command_ros.empty()) {
+    edge.commands = make_ros2_commands(loaded.planar.command_ros, *commands, node);
+  }
   if (publishes) {
     edge.sink = make_ros_publisher("sink ros2", loaded, health, MessageEncoding::kCdr, std::make_unique<Ros2Out>(node));
   }

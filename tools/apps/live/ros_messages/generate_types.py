@@ -37,10 +37,15 @@ TYPES = {"kPointCloud2Type": "sensor_msgs/PointCloud2", "kVector3StampedType": "
          "kCovariantPoseType": "geometry_msgs/PoseWithCovarianceStamped", "kBoolType": "std_msgs/Bool",
          "kStopType": f"{OURS}/Stop"}
 GRAPH, LIVOX = "rmw_dds_common", "livox_ros_driver2"
-# Known by name and hash alone: the graph of ROS 2, whose gids had 24 bytes before there were hashes; Livox's driver.
-ROS2_TYPES = {"kParticipantEntitiesType": f"{GRAPH}/ParticipantEntitiesInfo", "kLivoxCustomType": f"{LIVOX}/CustomMsg"}
+# Known by name and hash alone: the graph of ROS 2, whose gids had 24 bytes before there were hashes; Livox's driver;
+# what is read and never written.
+ROS2_TYPES = {"kParticipantEntitiesType": f"{GRAPH}/ParticipantEntitiesInfo", "kLivoxCustomType": f"{LIVOX}/CustomMsg",
+              "kTwistType": "geometry_msgs/Twist", "kTwistStampedType": "geometry_msgs/TwistStamped"}
 ROS2_FIELDS = {"std_msgs/Header": [("builtin_interfaces/Time", "stamp"), ("string", "frame_id")],
                "builtin_interfaces/Time": [("int32", "sec"), ("uint32", "nanosec")],
+               "geometry_msgs/Vector3": [("float64", "x"), ("float64", "y"), ("float64", "z")],
+               "geometry_msgs/Twist": [("geometry_msgs/Vector3", "linear"), ("geometry_msgs/Vector3", "angular")],
+               "geometry_msgs/TwistStamped": [("std_msgs/Header", "header"), ("geometry_msgs/Twist", "twist")],
                f"{GRAPH}/Gid": [("uint8[16]", "data")],
                f"{GRAPH}/NodeEntitiesInfo": [("string<=256", "node_namespace"), ("string<=256", "node_name"),
                                              (f"{GRAPH}/Gid[]", "reader_gid_seq"),

@@ -34,7 +34,8 @@ struct RosType {
 
 extern const RosType kPointCloud2Type, kVector3StampedType, kFloat32MultiArrayType, kStateType, kDiagnosticArrayType,
     kTfMessageType, kLaserScanType, kOccupancyGridType, kCovariantPoseType, kBoolType, kStopType;
-extern const RosType kParticipantEntitiesType, kLivoxCustomType;  // of ROS 2 alone, by name and hash
+// By name and hash alone: of ROS 2, and commands of the drive, which are read only.
+extern const RosType kParticipantEntitiesType, kLivoxCustomType, kTwistType, kTwistStampedType;
 
 class RosMessages {
  public:

@@ -744,5 +744,11 @@ const RosType kParticipantEntitiesType = {"rmw_dds_common/ParticipantEntitiesInf
 const RosType kLivoxCustomType = {"livox_ros_driver2/CustomMsg", "",
 "RIHS01_2eb17e5e35bf5a2d6cd079f3c57f33abf95e5bf7d71b42cddc05daace73d815a", "", ""};
 
+const RosType kTwistType = {"geometry_msgs/Twist", "",
+"RIHS01_9c45bf16fe0983d80e3cfe750d6835843d265a9a6c46bd2e609fcddde6fb8d2a", "", ""};
+
+const RosType kTwistStampedType = {"geometry_msgs/TwistStamped", "",
+"RIHS01_5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64", "", ""};
+
 }  // namespace pose_wall::tools::live
 // clang-format on

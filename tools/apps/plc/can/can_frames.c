@@ -82,3 +82,35 @@ uint32_t pose_wall_can_pack(const void* image, uint32_t counter_word, const pose
   }
   return written;
 }
+
+static int32_t signed_16_of(uint8_t low, uint8_t high) {
+  const int32_t word = (int32_t)low | (int32_t)high << 8;
+  return word < 0x8000 ? word : word - 0x10000;
+}
+
+static int fits_16(int32_t number) {
+  return number >= -0x8000 && number < 0x8000;
+}
+
+uint32_t pose_wall_can_write_command(const pose_wall_can_command* command, uint8_t data[8]) {
+  uint32_t speed, turn;
+  if (!command || !data || command->counter > 0xFFU) return 0;
+  if (!fits_16(command->speed_mm_s) || !fits_16(command->turn_mrad_s)) return 0;
+  speed = (uint32_t)command->speed_mm_s;
+  turn = (uint32_t)command->turn_mrad_s;
+  memset(data, 0, kFrameBytes);
+  data[1] = (uint8_t)command->counter;
+  data[2] = (uint8_t)(speed & 0xFFU), data[3] = (uint8_t)(speed >> 8U & 0xFFU);
+  data[4] = (uint8_t)(turn & 0xFFU), data[5] = (uint8_t)(turn >> 8U & 0xFFU);
+  data[0] = pose_wall_can_crc8(POSE_WALL_CAN_COMMAND_NUMBER, data);
+  return 1;
+}
+
+uint32_t pose_wall_can_read_command(const uint8_t data[8], pose_wall_can_command* command) {
+  if (!data || !command || data[6] != 0 || data[7] != 0) return 0;
+  if (data[0] != pose_wall_can_crc8(POSE_WALL_CAN_COMMAND_NUMBER, data)) return 0;
+  command->counter = data[1];
+  command->speed_mm_s = signed_16_of(data[2], data[3]);
+  command->turn_mrad_s = signed_16_of(data[4], data[5]);
+  return 1;
+}

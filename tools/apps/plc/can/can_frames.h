@@ -56,6 +56,20 @@ uint32_t pose_wall_can_pack(const void* image, uint32_t counter_word, const pose
  * its bytes 1 to 7. Byte 0 must equal it. */
 uint8_t pose_wall_can_crc8(uint8_t number, const uint8_t data[8]);
 
+/* What a controller commands its drive, in one frame that pose_walld reads: bytes 2 and 3 are the speed, 4 and 5 the
+ * turn, each 16 bits with a sign, the low byte first. Bytes 6 and 7 are 0. The CRC is of number 7. */
+#define POSE_WALL_CAN_COMMAND_NUMBER 7
+typedef struct pose_wall_can_command {
+  uint32_t counter;    /* 0 to 255: another one for each command */
+  int32_t speed_mm_s;  /* along forward_axis; negative: backwards */
+  int32_t turn_mrad_s; /* positive: to the left */
+} pose_wall_can_command;
+
+/* Returns 0, and writes nothing, for numbers that do not fit. */
+uint32_t pose_wall_can_write_command(const pose_wall_can_command* command, uint8_t data[8]);
+/* Returns 0, and writes nothing, where the CRC is wrong or bytes 6 and 7 are not 0. */
+uint32_t pose_wall_can_read_command(const uint8_t data[8], pose_wall_can_command* command);
+
 #ifdef __cplusplus
 }
 #endif

@@ -17,9 +17,8 @@ Object.assign(WORDS.en, {
   roadway: 'Roadway and obstacle stop', whole_map: 'Whole map', around_machine: 'Around the machine',
   roadway_help: 'Dark: a surface. White: seen free. Grey: not known. Blue line: the way so far. Yellow: the machine. Dashed: places that are left in an ambiguous search. Red dot: what limits the speed most.',
   stop_go: 'Obstacle stop: the machine may drive.', stop_slow: (v) => `Obstacle stop: slow, at most ${v} m/s.`, stop_stop: 'Obstacle stop: STOP.',
-  stop_not_known: 'Obstacle stop: STOP. No answer comes.', list_comma: ', ',
+  stop_not_known: 'Obstacle stop: STOP. No answer comes.',
   place_is: (state) => `Place: ${state}.`, place_at: (x, y, yaw) => `x ${x} m, y ${y} m, turned by ${yaw}°`, no_place_yet: 'No scan yet.', no_scan_comes: 'No new scan: the place is that of the last one.',
-  stop_reasons: { stale: 'no new frame', blind: 'a place in the way is not seen', invalid: 'invalid frame', frozen: 'the cloud does not change', missing: 'motion not known', thing: 'a thing in the way', low: 'low', nearing: 'it may come nearer', speed: 'faster than allowed', dust: 'dust or a thin thing', no_floor: 'floor not seen', restart: 'not clear for long enough yet' },
   place_states: { first: 'the map begins', tracked: 'known', doubtful: 'doubtful', blind: 'too little is seen', searching: 'being searched', unknown: 'not in this map', ambiguous: 'ambiguous', unique: 'known', 'no floor': 'no floor is measured', refused: 'the scan is refused' },
 });
 Object.assign(WORDS.zh, {
@@ -39,12 +38,11 @@ Object.assign(WORDS.zh, {
   roadway: '巷道地图与障碍停车', whole_map: '全图', around_machine: '机器周围',
   roadway_help: '深色：表面。白色：已见空闲。灰色：未知。蓝线：已行路径。黄色：机器。虚线：搜索不唯一时的候选位置。红点：最限制速度之物。',
   stop_go: '障碍停车：允许行驶。', stop_slow: (v) => `障碍停车：减速，最大 ${v} 米/秒。`, stop_stop: '障碍停车：停车。',
-  stop_not_known: '障碍停车：停车。没有应答。', list_comma: '、',
+  stop_not_known: '障碍停车：停车。没有应答。',
   place_is: (state) => `位置：${state}。`, place_at: (x, y, yaw) => `横 ${x} 米，纵 ${y} 米，转角 ${yaw}°`, no_place_yet: '尚无扫描。', no_scan_comes: '没有新的扫描：所示为最后一次的位置。',
-  stop_reasons: { stale: '没有新帧', blind: '前路有未见之处', invalid: '帧无效', frozen: '点云不变', missing: '运动未知', thing: '前路有物', low: '低矮', nearing: '可能靠近', speed: '超过允许速度', dust: '粉尘或细物', no_floor: '未见底板', restart: '畅通时间尚短' },
   place_states: { first: '开始建图', tracked: '已知', doubtful: '存疑', blind: '所见过少', searching: '正在搜索', unknown: '不在此图中', ambiguous: '不唯一', unique: '已知', 'no floor': '未测得底板', refused: '扫描被拒绝' },
   // Of the daemon, which speaks English; what is not listed stays as it is.
-  part_names: { runtime: '运行时', source: '输入', sink: '输出', 'planar stop': '障碍停车', 'planar roadway': '巷道地图' },
+  part_names: { runtime: '运行时', source: '输入', sink: '输出', commands: '指令输入', 'planar stop': '障碍停车', 'planar roadway': '巷道地图', 'planar command': '驱动指令' },
   summaries: {
     measures: '正在测量', 'times of points are of no use': '点的时间不可用', 'frames come, nothing is measured': '有帧到达，但均未测得', 'no frame yet': '尚无帧', 'no frame comes': '没有新的帧',
     'the worker hangs: results are old, and all values invalid': '计算线程停滞：结果陈旧，全部值无效', 'nothing is measured': '均未测得',
@@ -52,6 +50,7 @@ Object.assign(WORDS.zh, {
     receives: '正在接收', 'waits for clouds': '等待点云', 'no cloud comes any more': '不再有点云到达', publishes: '正在发布', records: '正在记录',
     'permits driving': '允许行驶', 'stops the machine': '使机器停车', 'stops the machine: no frame comes': '使机器停车：没有新的帧', 'stops the machine: frames come late, by their stamps': '使机器停车：按时间戳，帧到达过晚',
     'stops the machine: frames come slower than planar_period': '使机器停车：帧间隔长于 planar_period', maps: '正在建图',
+    'the machine moves without a command': '机器在没有指令时移动', 'commands come': '正在接收指令', 'waits for commands': '等待指令', 'the newest command was refused': '最新指令被拒绝', 'no command comes any more': '不再有指令到达',
     'the scan fits the map badly': '扫描与地图不符', 'the floor is not at planar_floor_z': '底板不在 planar_floor_z 处', 'no floor is measured: there is no scan': '未测得底板：没有扫描',
     'place: unique': '位置：唯一', 'place: searching': '位置：正在搜索', 'place: unknown': '位置：不在此图中', 'place: ambiguous': '位置：不唯一', 'place: doubtful': '位置：存疑',
     'waits for the sensor: no packet yet': '等待传感器：尚无数据包', 'the sensor is silent': '传感器无数据', 'packets come, no turn yet': '有数据包，尚未满一圈',
@@ -59,6 +58,7 @@ Object.assign(WORDS.zh, {
   fact_values: { good: '良好', none: '无', none_moving: '无，而机器在移动', type: '类型不可读', one_time: '全部相同', unit: '单位不明' },
   fact_names: {
     'frames pushed': '收到帧', 'frames measured': '已测帧', silences: '中断次数', 'age ms': '距上次测得时间 ms', 'latency p50 ms': '延迟中位数 ms', 'latency p99 ms': '延迟 99 % ms',
+    'latency mean ms': '平均延迟 ms', "stop's age when read, mean ms": '读取时停车应答的平均时龄 ms', "stop's age when read, worst ms": '读取时停车应答的最大时龄 ms',
     'latency worst ms': '最大延迟 ms', 'motion p99 ms': '运动计算 99 % ms', 'frames without motion': '无运动帧', 'times of points': '点的时间', activity: '当前动作', opened: '打开次数',
     'black box written': '黑匣子已写', 'black box lost': '黑匣子丢失', 'black box failed': '黑匣子失败', 'masters seen': '发现的 master', domain: '域', type: '类型', 'writers matched': '匹配的发布者',
     'largest cloud bytes': '最大点云字节数', 'receive buffer bytes': '接收缓冲字节数', 'clouds lost by DDS': 'DDS 丢失点云', 'dropped, no transform yet': '丢弃（尚无坐标变换）', 'last refusal': '最近一次拒绝',
@@ -67,9 +67,10 @@ Object.assign(WORDS.zh, {
     clouds: '点云', 'messages refused': '拒绝的消息', 'clouds without stamp': '无时间戳的点云', 'clouds of another frame_id, dropped': '其他 frame_id 的点云（丢弃）',
     'transform messages': '坐标变换消息', 'results published': '已发布结果', subscribers: '订阅者', 'results recorded': '已记录结果',
     'results not recorded': '未记录结果', files: '文件', 'results taken': '已取结果', 'results lost to slowness': '因过慢丢失的结果', clients: '客户端', requests: '请求',
-    state: '状态', reasons: '原因', 'allowed mm/s': '允许速度 mm/s', heartbeat: '心跳', 'frames answered': '已判断帧', 'frames lost to slowness': '因过慢丢失的帧',
+    state: '状态', reasons: '原因', 'allowed mm/s': '允许速度 mm/s', heartbeat: '心跳', why: '原因与解除', 'frames answered': '已判断帧', 'frames lost to slowness': '因过慢丢失的帧',
     'frames refused': '拒绝的帧', 'speed errs by m/s': '速度误差 m/s', 'looks heeded': '采纳的人工查看', lost: '丢失', waits: '等待', "settings' CRC": '设置的 CRC', stops: '停车次数', scans: '扫描', 'scans with a place': '有位置的扫描', 'scan worst ms': '扫描最长 ms', 'floor z m': '底板 z m', keyframes: '关键帧',
     closures: '闭环', 'trail is full': '轨迹已满', 'maps built anew': '地图重建次数', 'beams without room in the map': '地图容不下的光束', map: '地图', searches: '搜索次数', progress: '进度',
+    'command m/s': '指令速度 m/s', 'command rad/s': '指令转速 rad/s', 'command less measured m/s': '指令减实测 m/s', 'command less measured rad/s': '指令减实测 rad/s', "command's age ms": '指令时龄 ms', commands: '指令数',
     candidates: '候选', 'place lost': '位置丢失次数', 'planar news lost to slowness': '因过慢丢失的平面消息',
     refused: '拒绝', 'connections of no Modbus': '非 Modbus 连接', connections: '连接次数', 'messages acknowledged': '已确认消息', 'messages not sent': '未发送消息',
   },

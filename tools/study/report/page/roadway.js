@@ -47,9 +47,8 @@ class RoadwayView {
     const grade = { go: 'good', slow: 'fair', stop: 'bad' };
     const say = (state, text) => { line.className = grade[state]; if (line.textContent !== text) line.textContent = text; };
     if (!this.is_stop_known()) return say('stop', w.stop_not_known);
-    const reasons = this.stop.reasons.map((name) => w.stop_reasons[name] || name).join(w.list_comma);
     const text = this.stop.state === 'slow' ? w.stop_slow(number_text(this.stop.allowed_speed_m_s, 2)) : this.stop.state === 'go' ? w.stop_go : w.stop_stop;
-    return say(this.stop.state, reasons ? `${text} ${reasons}` : text);
+    return say(this.stop.state, `${text} ${this.stop.why[page.language]}`.trim());
   }
 
   show_place() {
