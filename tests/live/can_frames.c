@@ -3,7 +3,8 @@
  *
  * Process images in, frames of CAN out, for can_peer.py. Of each line "image2 HEX", "motion_image HEX" or
  * "stop_image HEX", the bytes of an image, it prints one line: the frames of 11 bits, then those of J1939, each as
- * "ID#DATA" in hex. An image that is refused gives an empty line. */
+ * "ID#DATA" in hex. An image that is refused gives an empty line. Of "command HEX", the words counter, speed and turn,
+ * it prints the frame of a command under the identifiers of the DBC files. */
 
 #include <stdio.h>
 #include <string.h>
@@ -43,6 +44,17 @@ static void print_image(const char* kind, const unsigned char* bytes) {
   printf("\n");
 }
 
+static void print_command(const unsigned char* bytes) {
+  pose_wall_can_frame frames[2] = {{0x687, 0, {0}}, {0x0CFF07FE, 1, {0}}};
+  pose_wall_can_command command;
+  int k;
+  memcpy(&command, bytes, sizeof(command));
+  for (k = 0; k < 2; ++k) {
+    if (pose_wall_can_write_command(&command, frames[k].data)) print_frames(&frames[k], 1);
+  }
+  printf("\n");
+}
+
 int main(void) {
   char kind[32], hex[2 * kBytesMost + 1];
   while (scanf("%31s %2048s", kind, hex) == 2) {
@@ -53,7 +65,11 @@ int main(void) {
       if (sscanf(hex + 2 * i, "%2x", &value) != 1) return 1;
       bytes[i] = (unsigned char)value;
     }
-    print_image(kind, bytes);
+    if (strcmp(kind, "command") == 0) {
+      print_command(bytes);
+    } else {
+      print_image(kind, bytes);
+    }
   }
   return 0;
 }

@@ -3,7 +3,7 @@
 # Copyright (c) 2026 the pose_wall authors
 """Frames of CAN, decoded by the project's DBC files and a reader of DBC that others wrote (candied). Each signal says
 what the image says, in physical units. Each frame has its counter and CRC. What does not fit is no value, no bound or
-not known. A damaged image gives no frames.
+not known. A damaged image gives no frames. A command of a drive reads as a controller wrote it.
 
 usage: can_peer.py ROOT POSE_WALL POSE_WALLD CAN_FRAMES NODE_MODULES"""
 
@@ -147,6 +147,21 @@ class Can(unittest.TestCase):
                 data = bytes.fromhex(short.split("#")[1])
                 self.assertEqual(data[0], crc8(bytes([frame.number]) + data[1:]))
         self.assertEqual(crc8(b"123456789"), 0xDF)  # as AUTOSAR_SWS_CRCLibrary has it
+
+    def test_a_command_is_what_a_controller_wrote(self):
+        chance = random.Random(7)
+        commands = [(chance.getrandbits(8), chance.randrange(-2**15, 2**15), chance.randrange(-2**15, 2**15))
+                    for _ in range(ROUNDS)]
+        printed = frames_of([f"command {struct.pack('<Iii', *command).hex()}" for command in commands])
+        for half, dbc in enumerate(("pose_wall_11bit.dbc", "pose_wall_j1939.dbc")):
+            told = decoded(dbc, [frames[half] for frames in printed])
+            for (counter, speed, turn), one, frames in zip(commands, told, printed):
+                self.assertEqual(one["message"], "PoseWallCommand")
+                self.assertEqual(one["signals"]["counter"][0], counter)
+                self.assertAlmostEqual(one["signals"]["command_speed"][1], speed / 1000, delta=1e-9)
+                self.assertAlmostEqual(one["signals"]["command_turn"][1], turn / 1000, delta=1e-9)
+                data = bytes.fromhex(frames[half].split("#")[1])
+                self.assertEqual(data[0], crc8(bytes([7]) + data[1:]))
 
     def test_crc_finds_three_flipped_bits(self):
         """Of any frame: by the syndromes of single bits, no two of them and no three add up to nothing."""

@@ -6,8 +6,9 @@
 // planar_period, a thing, an end in order, and a guard whose thread is gone: the heartbeat stands then. Nothing is
 // permitted before the first frame. The heartbeat goes on often enough for a controller, and not so often that it seems
 // to fall. A look counts while frames come. Measured motion of a machine that may stand is straight ahead. Commands
-// count where they are asked for; with one of two motions unknown every motion is assumed. The
-// sensor's stamps are placed on the daemon's clock: late frames count as old, also after a long silence.
+// count where they are asked for; with one of two motions unknown every motion is assumed. Why the
+// machine stands is told, with the time since then. The sensor's stamps are placed on the daemon's clock: late frames
+// count as old, also after a long silence.
 
 #include "apps/live/planar/stop_guard.hpp"
 
@@ -129,7 +130,7 @@ TEST_F(StopGuardTest, AThingInTheWayStopsWithItsPlace) {
   // 0.4 m before a machine of 0.6 m, with all motions assumed.
   const std::string why =
       StopLine(stop_settings_of(loaded_.planar), "+X").text(Language::kEnglish, guard_->stop_now().result, 0.0);
-  EXPECT_NE(why.find(" ahead, in the track, for "), std::string::npos) << why;
+  EXPECT_NE(why.find(" m ahead, in the track, "), std::string::npos) << why;
 }
 
 TEST_F(StopGuardTest, WhyItStandsIsToldWithTheTimeSinceThen) {
