@@ -4,8 +4,10 @@
 // Proves, byte for byte: registers are the words of the image of that moment, low word of a number first. Each wrong
 // request has its exception. Requests that come in parts, in rows or beside garbage get the answers they would have got
 // alone. A client that is turned away makes room. The port is free after a stop. One address alone may write commands
-// of the drive, and nobody without its key. A command counts when its counter changes, and is never half of two. Does
-// not prove: what clients of others make of it, modbus_peer.py.
+// of the drive, and nobody without its key. A command counts when its counter changes, and is never half of two. The
+// age of the stop's answers is told.
+//
+// Does not prove: what clients of others make of it, modbus_peer.py.
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
