@@ -45,7 +45,7 @@ TEST(Mounts, HaveNamesOfTheirOwnAndSettingsThatOpen) {
     EXPECT_NE(stop.get(), nullptr) << mount.name;
   }
   EXPECT_EQ(names.size(), mounts.size());
-  EXPECT_GE(mounts.size(), 9U * 2U * 4U * 4U);
+  EXPECT_EQ(mounts.size(), 9U * (4U + 5U) * 4U);
   EXPECT_EQ(mounts_named("xt32-front-1.35-10").size(), 1U);
   EXPECT_TRUE(mounts_named("no such sensor").empty());
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Mounts that mines have: a sensor at the front edge of the machine or in the middle of its roof. The machine shades
-// rays, and the settings have its height.
+// Mounts that mines have: a sensor at the front edge of the machine or in the middle of its roof, there on a mast, too.
+// The machine shades rays, and the settings have its height.
 
 #pragma once
 
@@ -38,15 +38,17 @@ inline Mount mount_of(Pattern pattern, bool is_upside_down, bool is_at_front, do
   return mount;
 }
 
-// Those whose names begin so.
-inline std::vector<Mount> mounts_named(const std::string& begin) {
+// Those whose names hold this.
+inline std::vector<Mount> mounts_named(const std::string& part) {
   std::vector<Mount> mounts;
   const auto add = [&](Pattern pattern, bool is_upside_down) {
     for (const bool is_at_front : {true, false}) {
-      for (const double z_m : {1.2, 1.35, 1.5, 1.6}) {
+      constexpr double kMast_m = 2.2;
+      for (const double z_m : {1.2, 1.35, 1.5, 1.6, kMast_m}) {
+        if (is_at_front && z_m == kMast_m) continue;  // nobody has a mast at the edge
         for (const int down_deg : {0, 10, 15, 20}) {
           Mount mount = mount_of(pattern, is_upside_down, is_at_front, z_m, down_deg);
-          if (mount.name.compare(0, begin.size(), begin) == 0) mounts.push_back(std::move(mount));
+          if (mount.name.find(part) != std::string::npos) mounts.push_back(std::move(mount));
         }
       }
     }

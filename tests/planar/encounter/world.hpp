@@ -182,8 +182,10 @@ inline float World::to_wall(const Vec3& from, const Vec3& d, float most) const {
   const float out_m = std::fmax(rock->wall(true).highest_m(), rock->wall(false).highest_m());
   const float clear_m = static_cast<float>(half_width_m) - out_m;
   float t = std::fmax(leaves(from, d, clear_m), 0.0F), before = t;
-  for (int k = 0; t < most && k < 200; ++k) {  // 200 steps lead 80 m far
-    if (depth_in_rock(at(t)) > 0.0F) {
+  for (int k = 0; before < most && k < 200; ++k) {  // 200 steps lead 80 m far
+    t = std::fmin(t, most);
+    const float depth_m = depth_in_rock(at(t));
+    if (depth_m > 0.0F) {
       for (int halves = 0; halves < 5; ++halves) {
         const float middle = 0.5F * (before + t);
         (depth_in_rock(at(middle)) > 0.0F ? t : before) = middle;
@@ -192,7 +194,8 @@ inline float World::to_wall(const Vec3& from, const Vec3& d, float most) const {
     }
     before = t;
     const Vec3 here = at(t);
-    t += 0.04F + 0.01F * t;
+    constexpr float kOfGap = 0.3F;  // blocks have steep edges
+    t += std::fmax(0.04F + 0.01F * t, -kOfGap * depth_m);
     constexpr float kInside_m = 0.01F;  // on the corridor's edge rounding could take either side for the next one
     if (std::fabs(across_at(here.x, here.y)) < clear_m - kInside_m) t = std::fmax(t, before + leaves(here, d, clear_m));
   }
@@ -210,7 +213,12 @@ inline float World::to_floor(const Vec3& from, const Vec3& d, float most) const 
   const auto height_at = [&](float t) { return from.z + t * d.z - floor_at(from.x + t * d.x, from.y + t * d.y); };
   const float end = std::fmin((rock->floor().lowest_m() - from.z) * per_z, most);
   float t = std::fmax((rock->floor().highest_m() - from.z) * per_z, 0.0F), before = t;
-  while (t < end && height_at(t) > 0.0F) before = t, t += 0.03F + 0.01F * t;
+  constexpr float kSteepest = 0.5F;
+  const float per_height = 1.0F / (kSteepest - d.z);
+  for (float height_m = height_at(t); t < end && height_m > 0.0F; height_m = height_at(t)) {
+    before = t;
+    t += std::fmax(0.03F + 0.01F * t, per_height * height_m);
+  }
   t = std::fmin(t, end);
   for (int halves = 0; halves < 5; ++halves) {
     const float middle = 0.5F * (before + t);

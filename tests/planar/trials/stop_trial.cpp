@@ -4,8 +4,8 @@
 // pose_wall_planar_stop_trial [--encounters N] [--seed S] [--only K] [--clear HOURS] [--dust HOURS [--density PER_M]]
 //                             [--mount NAME] [--mounts] [--rock] [--table MINUTES]
 // Contacts in drawn encounters, or false stops on a clear road. Exit status 1 if there was a contact. With --mount the
-// machine has a mount of those whose names begin so, and --mounts lists them. With --rock roads have the relief of real
-// rock. The table says what each mount lets the machine do on clear roads.
+// machine has a mount of those whose names hold this, and --mounts lists them. With --rock roads have the relief of
+// real rock. The table says what each mount lets the machine do on clear roads.
 
 #include <cstdio>
 #include <cstdlib>
