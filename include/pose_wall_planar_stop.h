@@ -32,8 +32,10 @@
  *           now_ns goes back by more than 5 ms, or where the stamps of two frames in a row do. The stop then goes on by
  *           itself as after the start: no reset is needed, but someone must look again where the sensor sees nothing.
  * DUST      returns between which most rays pass are doubtful. They count as soon as they persist in one place. That
- *           takes at most delay_s, which is part of TIME. Dense returns count at once.
- * MEMORY    of places: what was seen low, or of what hangs, is remembered for memory_s, until the bounds of the motion
+ *           takes at most delay_s, which is part of TIME. Dense returns count at once. A few returns at a place where
+ *           rays went through every smallest thing are dust, or thinner than what is found for certain. They count
+ *           once they come in more frames in turn than dust as thick as around them would bring in an hour.
+ * MEMORY    of places: what was seen low, or of what hangs, is remembered for memory_s, until the errors of the way
  *           since then reach drift_max_m. Things stay until they are seen gone. A person is excluded only by
  *           rays of the last delay_s. After the start nothing is known of places that the sensor cannot see;
  *           pose_wall_planar_stop_confirm tells that someone has looked.
@@ -85,7 +87,8 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_check(const pose_wall_p
                                                                pose_wall_planar_fault* fault);
 
 /* The machine's motion, each part with its bit. Give both the measured motion and the command under way: the stop
- * covers all between them. Without any it assumes every motion that the settings allow. Speeds are along forward_axis,
+ * covers all between them. Where no measured one is given, that of the odometry counts (_note_odometry), with its own
+ * levels. Without any the stop assumes every motion that the settings allow. Speeds are along forward_axis,
  * negative backwards; turns are to the left. */
 enum pose_wall_planar_stop_given { POSE_WALL_PLANAR_STOP_MEASURED = 1, POSE_WALL_PLANAR_STOP_COMMANDED = 2 };
 typedef struct pose_wall_planar_stop_motion {
@@ -163,6 +166,9 @@ typedef struct pose_wall_planar_stop_result {
   uint32_t doubtful_cells;
   double floor_height_m; /* of the floor under base, in base */
   double floor_slope[2]; /* along x and y of base */
+  /* measured motion that was reckoned with, given or of the odometry, and by how much it may err; NaN without */
+  double speed_m_s, speed_error_m_s;
+  double turn_rad_s, turn_error_rad_s;
 
   uint32_t settings_crc32; /* pose_wall_planar_stop_settings_crc() of the config and settings that decided */
   uint32_t mark; /* set by the library: shows pose_wall_planar_stop_image_fill that a stop wrote this result */
@@ -188,6 +194,14 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_reset(pose_wall_planar_stop* sto
 /* Someone has looked: within confirm_m of the footprint nothing lies lower than tall_m or hangs. Known things stay.
  * Fails as reset does. */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* stop);
+
+/* Where an odometry saw base at the stamp of a frame: as pose_wall_motion_give fills it for that frame. The frame may
+ * be the next one, or one of the last 31 that were processed: an odometry that comes late is not waited for. From it the
+ * stop has the way of what it remembers, so that errors of the speed do not add up, and the measured motion. Odometries
+ * of other stamps, of frames before one that had an odometry, and of infinite levels have no effect. Fails as reset does
+ * and iff: odometry NULL, POSE_WALL_E_INPUT (run 0, a place that is not finite, no unit quaternion, a negative level). */
+POSE_WALL_CHECKED int32_t pose_wall_planar_stop_note_odometry(pose_wall_planar_stop* stop,
+                                                              const pose_wall_odometry* odometry, int64_t stamp_ns);
 
 /* One frame in, one result out. now_ns is of the clock of the stamps: see CLOCK. motion may be NULL: nothing is given.
  * Fails as pose_wall_cloud_check does and iff: stop, cloud or result NULL, a struct_size, an unknown bit in given, not

@@ -160,6 +160,7 @@ typedef struct pose_wall_publication {
   int32_t motion_status;          /* why this frame has no motion although the runtime has: the motion's status */
   pose_wall_motion_result motion; /* without has_motion: as pose_wall_motion_blank, and all zero where the runtime has
                                      no motion. points_in includes what push left out */
+  pose_wall_odometry odometry;    /* with has_motion: the pose of `motion` as the engine got it. run 0: there is none */
 } pose_wall_publication;
 
 /* Called on the worker's thread after `latest` holds the same. The next frame waits until it returns. The pointer is

@@ -44,6 +44,7 @@ void Runtime::move(FrameSlot* slot) {
   pose_wall_publication& p = slot->publication;
   p.has_motion = 0;
   p.motion_status = POSE_WALL_OK;
+  p.odometry = {};
   if (!has_motion()) {
     p.motion = {};
     return;
@@ -62,6 +63,7 @@ void Runtime::move(FrameSlot* slot) {
   if (p.motion_status == POSE_WALL_OK) p.motion_status = options_.motion->give(motion_, &slot->inputs);
   if (p.motion_status == POSE_WALL_OK) {
     p.has_motion = 1;
+    if ((slot->inputs.given & POSE_WALL_INPUT_ODOMETRY) != 0) p.odometry = slot->inputs.odometry;
     p.motion.points_in += slot->left_out_not_finite + slot->left_out_zero;
   } else {
     if (p.motion_status == POSE_WALL_E_ENGINE) open_motion_anew();

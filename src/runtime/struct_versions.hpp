@@ -24,9 +24,10 @@ static_assert(sizeof(void*) != 8 || offsetof(pose_wall_publication, has_motion) 
 
 // How much of the motion's result was written follows from the publication's size.
 inline void write_publication(const pose_wall_publication& whole, std::uint32_t size, pose_wall_publication* to) {
-  constexpr auto kMotionAt = static_cast<std::uint32_t>(offsetof(pose_wall_publication, motion));  // the last member
+  constexpr auto kMotionAt = static_cast<std::uint32_t>(offsetof(pose_wall_publication, motion));
   pose_wall_publication told = whole;
-  if (told.motion.struct_size != 0 && size > kMotionAt) told.motion.struct_size = size - kMotionAt;
+  const bool is_cut = size > kMotionAt && size - kMotionAt < sizeof(told.motion);
+  if (told.motion.struct_size != 0 && is_cut) told.motion.struct_size = size - kMotionAt;
   write_struct(told, size, to);
 }
 

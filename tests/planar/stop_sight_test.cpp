@@ -212,16 +212,4 @@ TEST(StopSight, TheFloorIsFoundOnASlopeAndBesideAHeap) {
   EXPECT_NEAR(test.ground().slope_x, 0.036, 0.012);
 }
 
-// As a float the sum would lose millimetres within a day without a given motion.
-TEST(StopTrack, DriftIsToldHoweverMuchHasAddedUp) {
-  pose_wall::planar::DeadReckoning track;
-  for (int frame = 0; frame < 100000; ++frame) track.add_drift(1.0);
-  const std::uint32_t then = track.drift_steps;
-  EXPECT_EQ(track.drift_since_m(then), 0.0F);
-  for (int frame = 0; frame < 100; ++frame) track.add_drift(0.0025);
-  EXPECT_GE(track.drift_since_m(then), 0.25F);
-  EXPECT_LT(track.drift_since_m(then), 0.252F);
-  EXPECT_LT(pose_wall::planar::DeadReckoning::drift_between_m(track.drift_steps, then), 0.0F);
-}
-
 }  // namespace

@@ -9,8 +9,9 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr std::uint32_t kLeast = 60;  // with fewer on it the floor was not seen
-constexpr double kAround_m = 6.0;     // from the sensor: what the sweep needs
+constexpr std::uint32_t kLeast = 60;                      // with fewer on it the floor was not seen
+constexpr std::uint32_t kEnough = FloorLooks::kMost / 2;  // looks about the floor, of which most may be no floor
+constexpr double kAround_m = 6.0;                         // from the sensor: what the sweep needs
 // Gates of the rounds, above the plane (below it twice as wide: things stand on floors):
 constexpr double kGates_m[] = {0.20, 0.12, 0.08, 0.06};
 // How well the machine's own plane is known, as so many points of the last gate:
@@ -30,19 +31,25 @@ double within(double value, double most) {
 void look(const Rays& rays, const Mount& mount, const StopSettings& settings, FloorLooks* looks) {
   constexpr std::uint32_t kLooks = FloorLooks::kMost;  // room for as many
   looks->count = 0;
-  const std::uint64_t stride = (rays.points() / kLooks + 1) | 1U;  // odd: no ring of an even number is passed over
+  // Odd: no ring of an even number is passed over. A level sensor has few rays on the floor nearby: then it looks again
+  // between its looks.
+  constexpr std::uint64_t kPasses = 4;
+  const std::uint64_t stride = (rays.points() / kLooks + 1) | 1U;
   const auto sx = static_cast<float>(mount.sensor_base_m.x()), sy = static_cast<float>(mount.sensor_base_m.y());
   const auto sz = static_cast<float>(mount.sensor_base_m.z() - settings.floor_z_m);
   const float slope = static_cast<float>(settings.slope_max_rad), first = static_cast<float>(kGates_m[0]);
-  for (std::uint64_t i = 0; i < rays.points() && looks->count < kLooks; i += stride) {
+  const auto look_at = [&](std::uint64_t i) {
     float x, y, z;
-    if (!rays.one(i, &x, &y, &z)) continue;
+    if (!rays.one(i, &x, &y, &z)) return;
     const float r2 = x * x + y * y, z_above = z + sz;
-    if (!(r2 < static_cast<float>(kAround_m * kAround_m))) continue;
+    if (!(r2 < static_cast<float>(kAround_m * kAround_m))) return;
     const float room = first + slope * std::sqrt(r2) + slope * 2.0F;
-    if (!(z_above > -room && z_above < room)) continue;
+    if (!(z_above > -room && z_above < room)) return;
     looks->x[looks->count] = x + sx, looks->y[looks->count] = y + sy, looks->z[looks->count] = z_above;
     ++looks->count;
+  };
+  for (std::uint64_t pass = 0; pass < kPasses && looks->count < kEnough; ++pass) {
+    for (std::uint64_t i = pass * stride / kPasses; i < rays.points() && looks->count < kLooks; i += stride) look_at(i);
   }
 }
 

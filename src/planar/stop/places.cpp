@@ -3,6 +3,7 @@
 
 #include "planar/stop/places.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/math/elementary.hpp"
@@ -17,6 +18,9 @@ constexpr float kNotUnder_m = -0.02F;      // places under the machine are not i
 constexpr auto kPlace_mm = static_cast<std::int32_t>(1000.0 * kPlace_m + 0.5);  // rounded to whole ones
 // A wall's tips stand out by less, the chest of a person with the back to it by more. Along a diagonal in both axes.
 constexpr std::int32_t kAside_mm = 230, kAsideDiagonal_mm = 325;
+constexpr std::uint32_t kFew = 3;  // returns that dust brings to a cell of the sight
+// Of dust: the sweep's thousand places and an hour's 36,000 frames.
+constexpr float kOnceAnHour = 1.0F / (1000.0F * 36000.0F);
 constexpr std::int32_t kAsidePlaces = 3;  // what is so little aside is within as many
 
 std::int32_t place_of(double m) {
@@ -35,6 +39,7 @@ void Places::open(const StopSettings& settings) {
   settle_ms_ = milliseconds(settings.settle_s);
   gap_ms_ = 2 * delay_ms_;  // a thing that is not seen for longer has gone, or was another one
   drift_most_m_ = static_cast<float>(settings.drift_max_m);
+  thing_half_m_ = static_cast<float>(0.5 * settings.thing_width_m);
   protection_m_ = static_cast<float>(settings.protection_m);
   approach_m_s_ = static_cast<float>(settings.approach_m_s);
   confirm_m_ = static_cast<float>(settings.confirm_m);
@@ -47,6 +52,8 @@ void Places::forget() {
   Place none{};
   none.ix = none.iy = kNowhere;
   places_.fill(none);
+  dust_.forget();
+  last_ms_ = 0;
 }
 
 std::uint32_t Places::index_of(std::int32_t ix, std::int32_t iy) {
@@ -70,74 +77,140 @@ const Place* Places::known_at(std::int32_t ix, std::int32_t iy) const {
   return is_of(place, ix, iy) ? &place : nullptr;
 }
 
-bool Places::is_remembered(std::uint32_t when_ms, std::uint32_t drift, const DeadReckoning& track,
-                           std::uint32_t now_ms) const {
-  return when_ms != 0 && now_ms - when_ms <= memory_ms_ && track.drift_since_m(drift) <= drift_most_m_;
+bool Places::is_remembered(std::uint32_t when_ms, const Way& way, std::uint32_t now_ms) const {
+  return when_ms != 0 && now_ms - when_ms <= memory_ms_ && way.error_m(when_ms) <= drift_most_m_;
 }
 
-bool Places::is_thing(const Place& place, const DeadReckoning& track, std::uint32_t now_ms) const {
-  return is_remembered(place.thing_low_ms, place.thing_drift, track, now_ms) ||
-         is_remembered(place.thing_high_ms, place.thing_drift, track, now_ms);
+bool Places::is_thing(const Place& place, const Way& way, std::uint32_t now_ms) const {
+  return is_remembered(place.thing_low_ms, way, now_ms) || is_remembered(place.thing_high_ms, way, now_ms);
 }
 
-bool Places::is_free(const Place& place, const DeadReckoning& track, std::uint32_t now_ms) const {
-  return is_remembered(place.low_ms, place.low_drift, track, now_ms) &&
-         is_remembered(place.top_ms, place.top_drift, track, now_ms) && place.tall_ms != 0 &&
+bool Places::is_free(const Place& place, const Way& way, std::uint32_t now_ms) const {
+  return is_remembered(place.low_ms, way, now_ms) && is_remembered(place.top_ms, way, now_ms) && place.tall_ms != 0 &&
          now_ms - place.tall_ms <= delay_ms_;
 }
 
-// A doubtful return is a thing's once there were others around it for two thirds of the delay: with a frame's period
+// Whether rays went through every smallest thing that could have returned there: then it is dust, or thinner than what
+// is found for certain. Where no ray of the frame comes so low, or so high, what was seen before counts.
+bool Places::is_gone_through(const Sight& sight, const Way& way, const Turn2& turn, const Eigen::Vector2d& origin_m,
+                             float x, float y, std::uint32_t now_ms) const {
+  const float range_m = std::sqrt(x * x + y * y);
+  const float ux = x / range_m, uy = y / range_m;
+  // Middles of things that touch the place: round ones from beside it to behind it, and corners of square ones.
+  constexpr float kHalf = 0.70711F;
+  constexpr float kInFront_m = 0.05F;  // with what seen() looks to each side, within the smallest thing
+  constexpr FourFloats kBehind[2] = {{0.0F, kHalf, kHalf, 0.0F}, {1.0F, 1.0F, 1.0F, kHalf}};
+  constexpr FourFloats kAside[2] = {{-1.0F, -kHalf, kHalf, 1.0F}, {0.0F, -1.0F, 1.0F, 0.0F}};
+  for (int k = 0; k < 2; ++k) {
+    const FourFloats behind = kBehind[k] * thing_half_m_, aside = kAside[k] * thing_half_m_;
+    const FourFloats px = x + behind * ux - aside * uy, py = y + behind * uy + aside * ux;
+    // A ray that is low in front of the middle would have hit the thing as well.
+    const FourInts seen = sight.seen(px, py) | sight.seen(px - kInFront_m * ux, py - kInFront_m * uy);
+    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+      const auto unseen = static_cast<std::uint32_t>(~seen[lane] & Sight::kAll);
+      if (unseen == 0) continue;
+      if (((Sight::kTall | sight.could_see(px[lane], py[lane])) & unseen) != 0) return false;
+      const Eigen::Vector2d at =
+          turn * Eigen::Vector2d(static_cast<double>(px[lane]), static_cast<double>(py[lane])) + origin_m;
+      const Place* const place = known_at(place_of(at.x()), place_of(at.y()));
+      if (place == nullptr) return false;
+      if ((unseen & Sight::kLow) != 0 && !is_remembered(place->low_ms, way, now_ms)) return false;
+      if ((unseen & Sight::kTop) != 0 && !is_remembered(place->top_ms, way, now_ms)) return false;
+    }
+  }
+  return true;
+}
+
+// A few low or high returns are a thing's at once where others of the frame are around them, for the smallest thing is
+// as wide as all places around. Else they are once others were there for two thirds of the delay: with a frame's period
 // of a third, before the delay has passed.
-void Places::doubt(Place* place, std::uint32_t now_ms) {
-  std::uint32_t first_ms = now_ms;
+bool Places::is_wide_or_lasting(Place* place, const Sight::Return& hit, std::uint32_t now_ms) {
+  constexpr std::uint32_t kWide = 4, kMost = 255;
+  const int kind = hit.is_high ? 1 : 0;
+  std::uint32_t first_ms = now_ms, in_frame = hit.returns, in_delay = hit.returns;
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
       const Place* const near = known_at(place->ix + dx, place->iy + dy);
       if (near == nullptr || near->doubt_ms == 0 || now_ms - near->doubt_ms > delay_ms_) continue;
       if (near->doubt_first_ms < first_ms) first_ms = near->doubt_first_ms;
+      if (near->doubt_ms == now_ms) in_frame += near->doubts_in_frame[kind];
+      in_delay += near->doubts[kind];
     }
   }
+  const bool goes_on = place->doubt_ms != 0 && now_ms - place->doubt_ms <= delay_ms_;
+  for (int k = 0; k < 2; ++k) {
+    if (!goes_on) place->doubts[k] = 0;
+    if (place->doubt_ms != now_ms) place->doubts_in_frame[k] = 0;
+  }
+  const auto add = [&](std::uint8_t* count) {
+    const std::uint32_t sum = *count + hit.returns;
+    *count = static_cast<std::uint8_t>(sum < kMost ? sum : kMost);
+  };
+  add(&place->doubts_in_frame[kind]);
+  add(&place->doubts[kind]);
   place->doubt_first_ms = first_ms;
   place->doubt_ms = now_ms;
+  return in_frame >= kWide || (3 * (now_ms - first_ms) >= 2 * delay_ms_ && in_delay >= kWide);
 }
 
-void Places::put_returns(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
-                         std::uint32_t now_ms) {
-  const Turn2 turn(track.yaw_rad);
-  const Eigen::Vector2d origin = turn * sensor_m + Eigen::Vector2d(track.x_m, track.y_m);
-  const std::uint32_t drift = track.drift_steps;
+// A thin thing returns in frame after frame, a grain of dust once. Of dust as thick as around the place, so many frames
+// in turn would have a return here once in an hour, somewhere in the way.
+bool Places::is_thin_thing(Place* place, std::uint32_t now_ms) {
+  std::uint32_t run = 0;
+  for (std::int32_t dy = -1; dy <= 1; ++dy) {
+    for (std::int32_t dx = -1; dx <= 1; ++dx) {
+      const Place* const near = known_at(place->ix + dx, place->iy + dy);
+      if (near == nullptr || near->dust_ms == 0) continue;
+      if (near->dust_ms == last_ms_ && near->dust_run > run) run = near->dust_run;
+      if (near->dust_ms == now_ms && near->dust_run > run + 1U) run = near->dust_run - 1U;
+    }
+  }
+  constexpr std::uint32_t kRunMost = 255;
+  if (run < kRunMost) ++run;
+  place->dust_ms = now_ms;
+  place->dust_run = static_cast<std::uint8_t>(run);
+  const float by_chance = dust_.share_around(place->ix, place->iy);
+  float all_by_chance = 1.0F;
+  for (std::uint32_t k = 0; k < run; ++k) all_by_chance *= by_chance;
+  return all_by_chance <= kOnceAnHour;
+}
+
+void Places::put_returns(const Sight& sight, const Way& way, const Eigen::Vector2d& sensor_m, std::uint32_t now_ms) {
+  const Turn2 turn(way.base().yaw_rad);
+  const Eigen::Vector2d origin = turn * sensor_m + way.base().place();
+  dust_.next();
   sight.each_return([&](const Sight::Return& hit) {
     const Eigen::Vector2d at = turn * Eigen::Vector2d(static_cast<double>(hit.x), static_cast<double>(hit.y)) + origin;
     Place& place = place_at(place_of(at.x()), place_of(at.y()));
-    bool counts = !hit.is_doubtful;
-    if (hit.is_doubtful) {
-      doubt(&place, now_ms);
-      counts = 3 * (now_ms - place.doubt_first_ms) >= 2 * delay_ms_;
+    if (hit.returns <= kFew && is_gone_through(sight, way, turn, origin, hit.x, hit.y, now_ms)) {
+      if (place.dust_ms != now_ms) dust_.add(place.ix, place.iy);
+      if (!is_thin_thing(&place, now_ms)) return;
+    } else if (hit.returns <= kFew && !is_wide_or_lasting(&place, hit, now_ms)) {
+      return;
     }
-    if (!counts) return;
     std::uint32_t& last_ms = hit.is_high ? place.thing_high_ms : place.thing_low_ms;
     std::uint32_t& first_ms = hit.is_high ? place.first_ms : place.low_first_ms;
     const bool is_new = last_ms == 0 || now_ms - last_ms > gap_ms_;
     if (is_new) first_ms = now_ms;
     if (is_new && hit.is_high) place.long_ms = 0;
     last_ms = now_ms;
-    place.thing_drift = drift;
     if (!hit.is_high) return;
     const auto x_mm = static_cast<std::int32_t>((at.x() - place.ix * kPlace_m) * 1000.0);
     const auto y_mm = static_cast<std::int32_t>((at.y() - place.iy * kPlace_m) * 1000.0);
     place.high_x_mm = static_cast<std::uint8_t>(is_new ? x_mm : (3 * place.high_x_mm + x_mm) / 4);
     place.high_y_mm = static_cast<std::uint8_t>(is_new ? y_mm : (3 * place.high_y_mm + y_mm) / 4);
   });
+  last_ms_ = now_ms;
 }
 
 // visit(ix, iy, which of them count, x and y in base): places within a square around a point of base, four of a row at
 // a time.
 template <typename Visit>
-void Places::each_four(const DeadReckoning& track, const Eigen::Vector2d& middle_m, double half_m,
-                       const Visit& visit) const {
-  const Turn2 turn(track.yaw_rad);
-  const std::int32_t bx = place_of(track.x_m), by = place_of(track.y_m);
-  const Eigen::Vector2d middle = turn * middle_m + Eigen::Vector2d(track.x_m, track.y_m);
+void Places::each_four(const Way& way, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
+  const Pose2& base = way.base();
+  const Turn2 turn(base.yaw_rad);
+  const std::int32_t bx = place_of(base.x_m), by = place_of(base.y_m);
+  const Eigen::Vector2d middle = turn * middle_m + base.place();
   const auto bounded = [](double at_m, std::int32_t around) {
     const std::int32_t place = place_of(at_m), least = around - kPlacesAround, most = around + kPlacesAround;
     return place < least ? least : place > most ? most : place;
@@ -147,8 +220,7 @@ void Places::each_four(const DeadReckoning& track, const Eigen::Vector2d& middle
   const auto step_x = static_cast<float>(turn.c * kPlace_m), step_y = static_cast<float>(-turn.s * kPlace_m);
   constexpr FourFloats kLanes = {0.0F, 1.0F, 2.0F, 3.0F};
   for (std::int32_t iy = first_y; iy <= last_y; ++iy) {
-    const Eigen::Vector2d first =
-        turn.back({(first_x + 0.5) * kPlace_m - track.x_m, (iy + 0.5) * kPlace_m - track.y_m});
+    const Eigen::Vector2d first = turn.back({(first_x + 0.5) * kPlace_m - base.x_m, (iy + 0.5) * kPlace_m - base.y_m});
     const auto x = static_cast<float>(first.x()), y = static_cast<float>(first.y());
     for (std::int32_t ix = first_x; ix <= last_x; ix += static_cast<std::int32_t>(kFour)) {
       const FourFloats steps = static_cast<float>(ix - first_x) + kLanes;
@@ -158,31 +230,28 @@ void Places::each_four(const DeadReckoning& track, const Eigen::Vector2d& middle
 }
 
 template <typename Visit>
-void Places::each_around(const DeadReckoning& track, const Eigen::Vector2d& middle_m, double half_m,
-                         const Visit& visit) const {
-  each_four(track, middle_m, half_m,
-            [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
-              for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(kFour); ++lane) {
-                if (those[lane] != 0) visit(ix + lane, iy, x[lane], y[lane]);
-              }
-            });
+void Places::each_around(const Way& way, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const {
+  each_four(way, middle_m, half_m, [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
+    for (std::int32_t lane = 0; lane < static_cast<std::int32_t>(kFour); ++lane) {
+      if (those[lane] != 0) visit(ix + lane, iy, x[lane], y[lane]);
+    }
+  });
 }
 
-void Places::put_seen(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
-                      const Sweep& sweep, std::uint32_t now_ms) {
-  const std::uint32_t drift = track.drift_steps;
+void Places::put_seen(const Sight& sight, const Way& way, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
+                      std::uint32_t now_ms) {
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
   const float most_m = sight.seen_most_m();
   const Sight::Bounds& in = sight.seen_within();
   const auto put = [&](std::int32_t ix, std::int32_t iy, std::int32_t seen) {
     Place& place = place_at(ix, iy);
     if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
-    if ((seen & Sight::kTop) != 0) place.top_ms = now_ms, place.top_drift = drift;
+    if ((seen & Sight::kTop) != 0) place.top_ms = now_ms;
     if ((seen & Sight::kLow) == 0) return;
-    place.low_ms = now_ms, place.low_drift = drift;
+    place.low_ms = now_ms;
     if (now_ms - place.thing_low_ms > delay_ms_) place.thing_low_ms = 0;
   };
-  each_four(track, sensor_m, static_cast<double>(most_m),
+  each_four(way, sensor_m, static_cast<double>(most_m),
             [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
               const FourFloats dx = x - sx, dy = y - sy;
               those &= (dx * dx + dy * dy < all_four(most_m * most_m)) & (dx >= all_four(in.low_x)) &
@@ -194,47 +263,46 @@ void Places::put_seen(const Sight& sight, const DeadReckoning& track, const Eige
               }
             });
   // Where the machine stands, nothing lies.
-  each_around(track, {0.0, 0.0}, sweep.radius_m(), [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+  each_around(way, {0.0, 0.0}, sweep.radius_m(), [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     if (!(sweep.distance_now(x, y) < -kInside_m)) return;
     Place& place = place_at(ix, iy);
-    place.low_ms = place.top_ms = now_ms, place.low_drift = place.top_drift = drift;
+    place.low_ms = place.top_ms = now_ms;
     place.thing_low_ms = place.thing_high_ms = 0;
   });
 }
 
-void Places::confirm(const DeadReckoning& track, const Sweep& sweep, std::uint32_t now_ms) {
-  const std::uint32_t drift = track.drift_steps;
+void Places::confirm(const Way& way, const Sweep& sweep, std::uint32_t now_ms) {
   const double reach_m = sweep.radius_m() + static_cast<double>(confirm_m_);
-  each_around(track, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
+  each_around(way, {0.0, 0.0}, reach_m, [&](std::int32_t ix, std::int32_t iy, float x, float y) {
     if (!(sweep.distance_now(x, y) <= confirm_m_)) return;
     Place& place = place_at(ix, iy);
-    place.low_ms = place.top_ms = now_ms, place.low_drift = place.top_drift = drift;
+    place.low_ms = place.top_ms = now_ms;
   });
 }
 
 // Whether the one was remembered when the other was last seen. The memory of a wall ends place by place: what is left
 // of it behind the machine is still part of it.
-bool Places::was_there_with(const Place* near, const Place& place) const {
+bool Places::was_there_with(const Place* near, const Place& place, const Way& way) const {
   if (near == nullptr || near->thing_high_ms == 0) return false;
   const bool was_seen_before = near->thing_high_ms < place.thing_high_ms;
-  const std::uint32_t before_ms = was_seen_before ? place.thing_high_ms - near->thing_high_ms : 0;
-  return before_ms <= memory_ms_ &&
-         DeadReckoning::drift_between_m(near->thing_drift, place.thing_drift) <= drift_most_m_;
+  if (!was_seen_before) return true;
+  return place.thing_high_ms - near->thing_high_ms <= memory_ms_ &&
+         way.error_m(near->thing_high_ms, place.thing_high_ms) <= drift_most_m_;
 }
 
 // It, or a neighbour, was there for long. What went out of sight then is taken to be still there.
-bool Places::is_settled(const Place& place) const {
+bool Places::is_settled(const Place& place, const Way& way) const {
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
       const Place* const near = known_at(place.ix + dx, place.iy + dy);
-      if (was_there_with(near, place) && near->thing_high_ms - near->first_ms >= settle_ms_) return true;
+      if (was_there_with(near, place, way) && near->thing_high_ms - near->first_ms >= settle_ms_) return true;
     }
   }
   return false;
 }
 
 // Whether a thing goes on so many steps along an axis: there, a place more or less far, and little aside of the line.
-bool Places::goes_on(const Place& place, const std::int32_t* axis, std::int32_t times) const {
+bool Places::goes_on(const Place& place, const Way& way, const std::int32_t* axis, std::int32_t times) const {
   const std::int32_t along_x = axis[0] > 0 ? 1 : 0, along_y = axis[1] > 0 ? 1 : axis[1] < 0 ? -1 : 0;
   const bool is_diagonal = along_x * along_y != 0;
   const std::int32_t along_most = is_diagonal ? 2 : 1, aside_most_mm = is_diagonal ? kAsideDiagonal_mm : kAside_mm;
@@ -243,7 +311,7 @@ bool Places::goes_on(const Place& place, const std::int32_t* axis, std::int32_t 
       const std::int32_t along = dx * along_x + dy * along_y;
       if (along > along_most || along < -along_most) continue;
       const Place* const near = known_at(place.ix + times * axis[0] + dx, place.iy + times * axis[1] + dy);
-      if (!was_there_with(near, place) || near->thing_high_ms - near->first_ms < settle_ms_) continue;
+      if (!was_there_with(near, place, way) || near->thing_high_ms - near->first_ms < settle_ms_) continue;
       const std::int32_t x_mm = kPlace_mm * (near->ix - place.ix) + near->high_x_mm - place.high_x_mm;
       const std::int32_t y_mm = kPlace_mm * (near->iy - place.iy) + near->high_y_mm - place.high_y_mm;
       const std::int32_t aside_mm = x_mm * along_y - y_mm * along_x;
@@ -255,10 +323,10 @@ bool Places::goes_on(const Place& place, const std::int32_t* axis, std::int32_t 
 
 // Whether it goes on in a line: half a metre to both sides, or a metre to one, along any of four axes. The face of a
 // wall does, with the tips of its rock. A person does not, even with the back to a wall.
-bool Places::is_long(const Place& place) const {
+bool Places::is_long(const Place& place, const Way& way) const {
   constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};  // half a metre in places
   for (const auto& axis : kAxes) {
-    const auto goes_on = [&](std::int32_t times) { return this->goes_on(place, axis, times); };
+    const auto goes_on = [&](std::int32_t times) { return this->goes_on(place, way, axis, times); };
     const bool ahead = goes_on(1), behind = goes_on(-1);
     if ((ahead && behind) || (ahead && goes_on(2)) || (behind && goes_on(-2))) return true;
   }
@@ -271,40 +339,61 @@ void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uin
   if (may_go && sight.passed_high(x, y)) place->thing_high_ms = 0;
 }
 
-// A wall: long and settled, or right behind such a place, seen from the sensor. For so long as a thing needs to settle
-// it stays one: where neighbours go out of sight, nothing new was seen. `away`: from the sensor to it, on the ground.
-bool Places::is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const {
+// Whether what came into sight here within settle_s is smaller than a person: a tip of rock beside others.
+bool Places::is_small_and_new(const Place& place, std::uint32_t now_ms) const {
+  constexpr std::int32_t kAround = 2;       // a person is 0.3 m wide
+  constexpr std::uint32_t kPlacesMost = 3;  // of which a person fills more
+  if (now_ms - place.first_ms >= settle_ms_) return false;
+  std::uint32_t count = 0;
+  for (std::int32_t dy = -kAround; dy <= kAround; ++dy) {
+    for (std::int32_t dx = -kAround; dx <= kAround; ++dx) {
+      const Place* const near = known_at(place.ix + dx, place.iy + dy);
+      if (near != nullptr && near->thing_high_ms != 0 && now_ms - near->first_ms < settle_ms_) ++count;
+    }
+  }
+  return count <= kPlacesMost;
+}
+
+// A wall: long and settled, or right behind such a place as seen from the sensor, or a small new part beside one. For
+// so long as a thing needs to settle it stays one: where neighbours go out of sight, nothing new was seen. `away`: from
+// the sensor to it, on the ground.
+bool Places::is_wall(Place* place, const Way& way, const Eigen::Vector2d& away, std::uint32_t now_ms) const {
   const auto is_known = [&](const Place& p) { return p.long_ms != 0 && now_ms - p.long_ms <= settle_ms_; };
   const bool is_fresh = place->long_ms != 0 && 2 * (now_ms - place->long_ms) < settle_ms_;
-  if (!is_fresh && is_settled(*place) && is_long(*place)) place->long_ms = now_ms;
+  if (!is_fresh && is_settled(*place, way) && is_long(*place, way)) place->long_ms = now_ms;
   if (is_known(*place)) return true;
+  const bool is_small = is_small_and_new(*place, now_ms);
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
       const Place* const near = known_at(place->ix + dx, place->iy + dy);
-      if (dx * away.x() + dy * away.y() < 0.0 && was_there_with(near, *place) && is_known(*near)) return true;
+      const bool is_beside = is_small || dx * away.x() + dy * away.y() < 0.0;
+      if (is_beside && was_there_with(near, *place, way) && is_known(*near)) return true;
     }
   }
   return false;
 }
 
 // What a place is to the sweep: false if it is free.
-bool Places::is_hazard(Place* place, const DeadReckoning& track, const Eigen::Vector2d& away, std::uint32_t now_ms,
+bool Places::is_hazard(Place* place, const Way& way, const Eigen::Vector2d& away, std::uint32_t now_ms,
                        Hazard* hazard) const {
   hazard->margin_m = protection_m_ + kPlaceCorner_m;
   hazard->approach_m_s = hazard->sooner_s = 0.0F;
   hazard->kind = POSE_WALL_PLANAR_STOP_UNSEEN;
   if (place == nullptr) return true;
-  const bool is_low = is_remembered(place->thing_low_ms, place->thing_drift, track, now_ms);
-  const bool is_high = is_remembered(place->thing_high_ms, place->thing_drift, track, now_ms);
+  const bool is_low = is_remembered(place->thing_low_ms, way, now_ms);
+  const bool is_high = is_remembered(place->thing_high_ms, way, now_ms);
   // What was low stays in doubt until it is seen gone: nobody who looks from a distance confirms it away.
-  if (!is_low && !is_high) return place->thing_low_ms != 0 || !is_free(*place, track, now_ms);
-  hazard->margin_m += kCellCorner_m + track.drift_since_m(place->thing_drift);
+  if (!is_low && !is_high) return place->thing_low_ms != 0 || !is_free(*place, way, now_ms);
+  const std::uint32_t first_ms = !is_low    ? place->thing_high_ms
+                                 : !is_high ? place->thing_low_ms
+                                            : std::min(place->thing_low_ms, place->thing_high_ms);
+  hazard->margin_m += kCellCorner_m + way.error_m(first_ms);
   hazard->kind =
       static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) + (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
   if (!is_high) return true;
-  if (is_wall(place, away, now_ms)) return true;
+  if (is_wall(place, way, away, now_ms)) return true;
   hazard->approach_m_s = approach_m_s_;
-  hazard->sooner_s = is_settled(*place) ? sooner_s_ : 0.0F;
+  hazard->sooner_s = is_settled(*place, way) ? sooner_s_ : 0.0F;
   return true;
 }
 
@@ -314,9 +403,11 @@ bool Places::find_at(const HazardScene& scene, std::int32_t ix, std::int32_t iy,
   const float dx = hazard->x_m - scene.sensor_x_m, dy = hazard->y_m - scene.sensor_y_m;
   Place* const place = is_of(places_[hazard->place], ix, iy) ? &places_[hazard->place] : nullptr;
   if (place != nullptr) let_go(place, scene.sight, dx, dy, scene.now_ms);
-  if (place != nullptr && is_near && place->doubt_ms == scene.now_ms) ++count->doubtful;
+  if (place != nullptr && is_near && (place->doubt_ms == scene.now_ms || place->dust_ms == scene.now_ms)) {
+    ++count->doubtful;
+  }
   const Eigen::Vector2d away = scene.turn * Eigen::Vector2d(static_cast<double>(dx), static_cast<double>(dy));
-  if (!is_hazard(place, scene.track, away, scene.now_ms, hazard)) return false;
+  if (!is_hazard(place, scene.way, away, scene.now_ms, hazard)) return false;
   const bool is_blind = hazard->kind == POSE_WALL_PLANAR_STOP_UNSEEN;
   if (!is_blind) ++count->things;
   if (!is_near && !(hazard->approach_m_s > 0.0F)) return false;
@@ -325,12 +416,12 @@ bool Places::find_at(const HazardScene& scene, std::int32_t ix, std::int32_t iy,
   return true;
 }
 
-std::uint32_t Places::find_hazards(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
+std::uint32_t Places::find_hazards(const Sight& sight, const Way& way, const Eigen::Vector2d& sensor_m,
                                    const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count) {
   const float still_reach_m = protection_m_ + kPlaceCorner_m + kCellCorner_m + drift_most_m_ + sweep.growth_m(0.0F);
   const float walk_reach_m = still_reach_m + sweep.growth_m(approach_m_s_) - sweep.growth_m(0.0F);
   const auto sx = static_cast<float>(sensor_m.x()), sy = static_cast<float>(sensor_m.y());
-  const HazardScene scene{sight, track, sweep, Turn2(track.yaw_rad), sx, sy, now_ms};
+  const HazardScene scene{sight, way, sweep, Turn2(way.base().yaw_rad), sx, sy, now_ms};
   std::uint32_t found = 0;
   const auto find = [&](std::int32_t ix, std::int32_t iy, float x, float y, bool is_near) {
     const std::uint32_t index = index_of(ix, iy);
@@ -338,7 +429,7 @@ std::uint32_t Places::find_hazards(const Sight& sight, const DeadReckoning& trac
     Hazard hazard{x, y, 0.0F, 0.0F, 0.0F, index, 0};
     if (find_at(scene, ix, iy, is_near, &hazard, count)) hazards[found++] = hazard;  // there is room for every place
   };
-  each_four(track, sweep.middle_m(), sweep.half_m() + static_cast<double>(walk_reach_m),
+  each_four(way, sweep.middle_m(), sweep.half_m() + static_cast<double>(walk_reach_m),
             [&](std::int32_t ix, std::int32_t iy, FourTruths those, FourFloats x, FourFloats y) {
               those &= sweep.concerns(x, y, walk_reach_m);
               if (!any_of(those)) return;
@@ -350,14 +441,14 @@ std::uint32_t Places::find_hazards(const Sight& sight, const DeadReckoning& trac
   return found;
 }
 
-double Places::size_around(std::uint32_t index, const DeadReckoning& track, std::uint32_t now_ms) const {
+double Places::size_around(std::uint32_t index, const Way& way, std::uint32_t now_ms) const {
   constexpr std::int32_t kAround = 10;  // 1 m to each side
   const Place& middle = places_[index];
   std::int32_t low_x = 0, high_x = 0, low_y = 0, high_y = 0;
   for (std::int32_t dy = -kAround; dy <= kAround; ++dy) {
     for (std::int32_t dx = -kAround; dx <= kAround; ++dx) {
       const Place* const near = known_at(middle.ix + dx, middle.iy + dy);
-      if (near == nullptr || !is_thing(*near, track, now_ms)) continue;
+      if (near == nullptr || !is_thing(*near, way, now_ms)) continue;
       if (dx < low_x) low_x = dx;
       if (dx > high_x) high_x = dx;
       if (dy < low_y) low_y = dy;

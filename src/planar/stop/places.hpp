@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the pose_wall authors
 //
 // Places of 0.1 m that stand still on the ground while the machine moves over them: when each was seen free, and when
-// a thing was there. The ground's frame is dead reckoning; it serves for seconds, and its errors are bounded.
+// a thing was there. The ground's frame is that of the way; it serves for minutes, and its errors are bounded.
 
 #pragma once
 
@@ -13,6 +13,7 @@
 #include "place/pose2.hpp"
 #include "planar/stop/sight.hpp"
 #include "planar/stop/sweep.hpp"
+#include "planar/stop/way.hpp"
 
 namespace pose_wall::planar {
 
@@ -22,36 +23,59 @@ constexpr std::int32_t kPlacesAround = 79;    // to each side of base
 // From the middle of a place to its corner, and from the middle of a cell of the sight to its own.
 constexpr float kPlaceCorner_m = 0.0707F, kCellCorner_m = 0.0640F;
 
-// Base on the ground, and the bound of the errors that have added up.
-struct DeadReckoning {
-  double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
-  // In steps of 0.01 mm, and only differences count: so it may grow for years, as a clock does. It comes round after
-  // 21 km, and memory_s ends long before.
-  std::uint32_t drift_steps = 0;
+struct Place {
+  std::int16_t ix, iy;                         // which place of the ground this is
+  std::uint32_t low_ms;                        // seen free low; 0: never
+  std::uint32_t tall_ms;                       // seen free of people
+  std::uint32_t top_ms;                        // seen free of what hangs
+  std::uint32_t thing_low_ms, thing_high_ms;   // last return; 0: none, or seen gone
+  std::uint32_t first_ms;                      // of the high returns that go on until now
+  std::uint32_t low_first_ms;                  // likewise of the low ones
+  std::uint32_t doubt_first_ms, doubt_ms;      // a few returns
+  std::uint32_t dust_ms;                       // returns of dust or of a thin thing
+  std::uint32_t long_ms;                       // last part of something long that stands still
+  std::uint8_t doubts[2], doubts_in_frame[2];  // low and high ones, as long as they go on, and in the last frame
+  std::uint8_t dust_run;                       // of frames in turn with such returns around it
+  std::uint8_t high_x_mm, high_y_mm;           // where in it the high returns are, in the mean of the last ones
+};
 
-  void add_drift(double m) { drift_steps += static_cast<std::uint32_t>(m * kDriftStepsPerM) + 1U; }
-  float drift_since_m(std::uint32_t steps) const { return drift_between_m(steps, drift_steps); }
-  // Negative if the second was first.
-  static float drift_between_m(std::uint32_t first, std::uint32_t second) {
-    return static_cast<float>(static_cast<std::int32_t>(second - first)) / static_cast<float>(kDriftStepsPerM);
+// How thick dust is around each place, from the frames before: in blocks of 0.8 m.
+class DustRate {
+ public:
+  void forget() { *this = DustRate(); }
+  // A frame begins.
+  void next() {
+    for (std::uint32_t k = 0; k < kBlocks * kBlocks; ++k) {
+      // It rises at once and falls in a second of frames.
+      constexpr float kStays = 0.9F;
+      const float stays = kStays * rate_[k];
+      rate_[k] = stays > count_[k] ? stays : count_[k];
+      count_[k] = 0.0F;
+    }
+  }
+  void add(std::int32_t ix, std::int32_t iy) { count_[block_of(ix) + kBlocks * block_of(iy)] += 1.0F; }
+  // The chance that a place or one beside it has a return in a frame, by those elsewhere around it. Half of one more
+  // than was seen: rare is not never.
+  float share_around(std::int32_t ix, std::int32_t iy) const {
+    float sum = 0.0F;
+    for (std::uint32_t dy = 0; dy < 3; ++dy) {
+      for (std::uint32_t dx = 0; dx < 3; ++dx) {
+        const std::uint32_t bx = (block_of(ix) + dx + kBlocks - 1) % kBlocks;
+        sum += rate_[bx + kBlocks * ((block_of(iy) + dy + kBlocks - 1) % kBlocks)];
+      }
+    }
+    const float others = (sum > 1.0F ? sum - 1.0F : 0.0F) + 0.5F;
+    const float share = 9.0F * others / static_cast<float>(9 * kBlockPlaces * kBlockPlaces);
+    return share < 1.0F ? share : 1.0F;
   }
 
  private:
-  static constexpr double kDriftStepsPerM = 1e5;  // of 0.01 mm, see drift_steps
-};
-
-struct Place {
-  std::int16_t ix, iy;                              // which place of the ground this is
-  std::uint32_t low_ms;                             // seen free low; 0: never
-  std::uint32_t tall_ms;                            // seen free of people
-  std::uint32_t top_ms;                             // seen free of what hangs
-  std::uint32_t thing_low_ms, thing_high_ms;        // last return; 0: none, or seen gone
-  std::uint32_t first_ms;                           // of the high returns that go on until now
-  std::uint32_t low_first_ms;                       // likewise of the low ones
-  std::uint32_t doubt_first_ms, doubt_ms;           // doubtful returns
-  std::uint32_t long_ms;                            // last part of something long that stands still
-  std::uint32_t low_drift, top_drift, thing_drift;  // the track's steps, then
-  std::uint8_t high_x_mm, high_y_mm;                // where in it the high returns are, in the mean of the last ones
+  static constexpr std::uint32_t kBlockPlaces = 8, kBlocks = kPlacesAcross / kBlockPlaces;
+  static std::uint32_t block_of(std::int32_t place) {
+    constexpr std::uint32_t kOffset = kPlacesAcross * 100000U;  // no machine goes as far: above 0
+    return (static_cast<std::uint32_t>(place) + kOffset) % kPlacesAcross / kBlockPlaces;
+  }
+  float rate_[kBlocks * kBlocks] = {}, count_[kBlocks * kBlocks] = {};
 };
 
 class Places {
@@ -61,64 +85,67 @@ class Places {
   void forget();
 
   // The returns of a frame at time now_ms. `sensor` in base.
-  void put_returns(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
-                   std::uint32_t now_ms);
+  void put_returns(const Sight& sight, const Way& way, const Eigen::Vector2d& sensor_m, std::uint32_t now_ms);
   // What was seen free, and what is gone.
-  void put_seen(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
+  void put_seen(const Sight& sight, const Way& way, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
                 std::uint32_t now_ms);
   // Someone has looked.
-  void confirm(const DeadReckoning& track, const Sweep& sweep, std::uint32_t now_ms);
+  void confirm(const Way& way, const Sweep& sweep, std::uint32_t now_ms);
 
   struct Count {
     std::uint32_t things = 0, blind = 0, doubtful = 0;
   };
   // All that is in the way of a sweep, and high things that are gone go. `hazards` has room for kHazards.
-  std::uint32_t find_hazards(const Sight& sight, const DeadReckoning& track, const Eigen::Vector2d& sensor_m,
-                             const Sweep& sweep, std::uint32_t now_ms, Span<Hazard> hazards, Count* count);
+  std::uint32_t find_hazards(const Sight& sight, const Way& way, const Eigen::Vector2d& sensor_m, const Sweep& sweep,
+                             std::uint32_t now_ms, Span<Hazard> hazards, Count* count);
 
   const Place& at(std::uint32_t index) const { return places_[index]; }
   // Across, of things that hang together around a place.
-  double size_around(std::uint32_t index, const DeadReckoning& track, std::uint32_t now_ms) const;
-  bool is_thing(const Place& place, const DeadReckoning& track, std::uint32_t now_ms) const;
+  double size_around(std::uint32_t index, const Way& way, std::uint32_t now_ms) const;
+  bool is_thing(const Place& place, const Way& way, std::uint32_t now_ms) const;
 
  private:
   template <typename Visit>
-  void each_four(const DeadReckoning& track, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
+  void each_four(const Way& way, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
   template <typename Visit>
-  void each_around(const DeadReckoning& track, const Eigen::Vector2d& middle_m, double half_m,
-                   const Visit& visit) const;
+  void each_around(const Way& way, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
   void let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const;
-  bool is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const;
+  bool is_small_and_new(const Place& place, std::uint32_t now_ms) const;
+  bool is_wall(Place* place, const Way& way, const Eigen::Vector2d& away, std::uint32_t now_ms) const;
   // What find_hazards looks from.
   struct HazardScene {
     const Sight& sight;
-    const DeadReckoning& track;
+    const Way& way;
     const Sweep& sweep;
     Turn2 turn;  // from base to the ground
     float sensor_x_m, sensor_y_m;
     std::uint32_t now_ms;
   };
   bool find_at(const HazardScene& scene, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard, Count* count);
-  bool is_hazard(Place* place, const DeadReckoning& track, const Eigen::Vector2d& away, std::uint32_t now_ms,
-                 Hazard* hazard) const;
+  bool is_hazard(Place* place, const Way& way, const Eigen::Vector2d& away, std::uint32_t now_ms, Hazard* hazard) const;
   static std::uint32_t index_of(std::int32_t ix, std::int32_t iy);
   static bool is_of(const Place& place, std::int32_t ix, std::int32_t iy) {
     return place.ix == static_cast<std::int16_t>(ix) && place.iy == static_cast<std::int16_t>(iy);
   }
   Place& place_at(std::int32_t ix, std::int32_t iy);
   const Place* known_at(std::int32_t ix, std::int32_t iy) const;
-  void doubt(Place* place, std::uint32_t now_ms);
-  bool is_remembered(std::uint32_t when_ms, std::uint32_t drift, const DeadReckoning& track,
-                     std::uint32_t now_ms) const;
-  bool was_there_with(const Place* near, const Place& place) const;
-  bool is_settled(const Place& place) const;
-  bool goes_on(const Place& place, const std::int32_t* axis, std::int32_t times) const;
-  bool is_long(const Place& place) const;
-  bool is_free(const Place& place, const DeadReckoning& track, std::uint32_t now_ms) const;
+  bool is_gone_through(const Sight& sight, const Way& way, const Turn2& turn, const Eigen::Vector2d& origin_m, float x,
+                       float y, std::uint32_t now_ms) const;
+  bool is_wide_or_lasting(Place* place, const Sight::Return& hit, std::uint32_t now_ms);
+  bool is_thin_thing(Place* place, std::uint32_t now_ms);
+  bool is_remembered(std::uint32_t when_ms, const Way& way, std::uint32_t now_ms) const;
+  bool was_there_with(const Place* near, const Place& place, const Way& way) const;
+  bool is_settled(const Place& place, const Way& way) const;
+  bool goes_on(const Place& place, const Way& way, const std::int32_t* axis, std::int32_t times) const;
+  bool is_long(const Place& place, const Way& way) const;
+  bool is_free(const Place& place, const Way& way, std::uint32_t now_ms) const;
 
   Span<Place> places_;
+  DustRate dust_;
+  std::uint32_t last_ms_ = 0;  // of the frame before
   std::uint32_t memory_ms_ = 0, delay_ms_ = 0, settle_ms_ = 0, gap_ms_ = 0;
-  float drift_most_m_ = 0.0F, protection_m_ = 0.0F, approach_m_s_ = 0.0F, confirm_m_ = 0.0F, sooner_s_ = 0.0F;
+  float drift_most_m_ = 0.0F, thing_half_m_ = 0.0F, protection_m_ = 0.0F, approach_m_s_ = 0.0F, confirm_m_ = 0.0F,
+        sooner_s_ = 0.0F;
 };
 
 // Every place at most:

@@ -18,8 +18,6 @@ constexpr float kLevel = 1e-4F;                 // a slope: less than a millimet
 constexpr float kPlaceHalf_m = 0.0707F;         // half the diagonal of a place of 0.1 m
 constexpr std::uint32_t kEdge = kAzimuths / 4;  // steps of one edge of the diamond
 constexpr std::uint32_t kSides = 24;            // azimuths to each side at most, near the sensor
-// Doubtful: so many rays pass for each that returns, and it is a few.
-constexpr std::uint32_t kPassesEach = 4, kReturnsFew = 3;
 // One ray in the counts of a word, and their bits; as Sight has their shifts.
 constexpr std::uint64_t kLowOne = 1ULL, kTallOne = 1ULL << 16U, kHighOne = 1ULL << 32U, kTopOne = 1ULL << 48U;
 // Steps of a diamond's edge are twice as wide in the middle as at its corners. This much of a parabola on each half of
@@ -32,6 +30,8 @@ void Sight::lay_out(Arena& arena) {
   passes_ = arena.take<std::uint64_t>(kCounts);
   returns_ = arena.take<std::uint8_t>(2 * kRingCells);
   seen_ = arena.take<std::uint8_t>(kRingCells);
+  steepest_fall_ = arena.take<float>(kAzimuths / kSliceAzimuths);
+  steepest_rise_ = arena.take<float>(kAzimuths / kSliceAzimuths);
 }
 
 void Sight::open(const StopSettings& settings, const Mount& mount) {
@@ -59,6 +59,9 @@ void Sight::open(const StopSettings& settings, const Mount& mount) {
 void Sight::clear() {
   passes_.fill(0);
   returns_.fill(0);
+  steepest_fall_.fill(0.0F);
+  steepest_rise_.fill(0.0F);
+  fours_ = 0;
 }
 
 FourInts azimuths_of(FourFloats x, FourFloats y) {
@@ -148,6 +151,19 @@ void Sight::put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m,
   }
 }
 
+// Where rays go, whatever stops them. A quarter of the rays tells it.
+void Sight::put_slopes(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those) {
+  if ((++fours_ & 3U) != 0) return;
+  const FourFloats slope = fall_m / range_m;
+  const std::uint32_t lanes = bits_of(those);
+  for (std::uint32_t lane = 0; lane < kFour; ++lane) {
+    if ((lanes >> lane & 1U) == 0) continue;
+    const auto a = static_cast<std::uint32_t>(azimuth[lane]) / kSliceAzimuths;
+    if (slope[lane] > steepest_fall_[a]) steepest_fall_[a] = slope[lane];
+    if (-slope[lane] > steepest_rise_[a]) steepest_rise_[a] = -slope[lane];
+  }
+}
+
 void Sight::put(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those) {
   const FourFloats level_m = kLevel * range_m, rings = range_m * (1.0F / kRing_m);
   const FourTruths falls = fall_m > level_m;
@@ -158,6 +174,7 @@ void Sight::put(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTru
   if (any_of(falling)) put_falling(azimuth, per_m, end, falling);
   if (is_within_ && any_of(rising)) put_level(azimuth, per_m, end, rising);
   put_returns(azimuth, fall_m, range_m, those);
+  put_slopes(azimuth, fall_m, range_m, those);
 }
 
 // How far rays fall, or rise, from the sensor to each height; 0 to heights that they never come to.
@@ -289,17 +306,28 @@ FourInts Sight::seen(FourFloats x, FourFloats y) const {
   return seen;
 }
 
+std::uint32_t Sight::could_see(float x, float y) const {
+  const float range_m = std::sqrt(x * x + y * y);
+  const std::uint32_t slice = azimuth_of(x, y) / kSliceAzimuths;
+  const float falls_m = steepest_fall_[slice] * range_m, rises_m = steepest_rise_[slice] * range_m;
+  const bool low = falls_m >= fall_.thing_m, tall = falls_m >= fall_.tall_m;
+  const bool top = falls_m >= fall_.top_m && rises_m >= rise_.hang_m;
+  std::uint32_t kinds = 0;
+  if (low) kinds |= kLow;
+  if (tall) kinds |= kTall;
+  if (top) kinds |= kTop;
+  return kinds;
+}
+
 bool Sight::passed_high(float x, float y) const {
   const auto ring = static_cast<std::uint32_t>(std::sqrt(x * x + y * y) / kRing_m);
   return ring < kRings && count_of(ring * kRow + azimuth_of(x, y), kHighShift) != 0;
 }
 
-Sight::Return Sight::returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t word,
-                              std::uint32_t passes) const {
+Sight::Return Sight::returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t word) const {
   const std::uint32_t count = word & kCountMost, eighth = word >> kCountBits;
   const float r_m = (static_cast<float>(ring) + (static_cast<float>(eighth) + 0.5F) * 0.125F) * kRing_m;
-  return {r_m * direction_x_[azimuth], r_m * direction_y_[azimuth], is_high,
-          count <= kReturnsFew && passes >= kPassesEach * count};
+  return {r_m * direction_x_[azimuth], r_m * direction_y_[azimuth], is_high, count};
 }
 
 }  // namespace pose_wall::planar

@@ -37,6 +37,8 @@ class Sight {
   // How places at (x, y) about the sensor were seen in this frame: kLow where the smallest thing would have been hit,
   // kTall where a person would have been, kTop where a thing that hangs into the machine's height would have been.
   FourInts seen(FourFloats x, FourFloats y) const;
+  // How a place could be seen if nothing stood before it.
+  std::uint32_t could_see(float x, float y) const;
   // No place is seen further away than this, nor outside of these bounds.
   float seen_most_m() const { return seen_most_m_; }
   struct Bounds {
@@ -51,7 +53,7 @@ class Sight {
   struct Return {
     float x, y;  // about the sensor
     bool is_high;
-    bool is_doubtful;  // most rays pass
+    std::uint32_t returns;  // up to 31
   };
   // visit(Return) for each cell with returns, low and high ones apart.
   template <typename Visit>
@@ -62,9 +64,8 @@ class Sight {
       for (std::uint32_t eight = 0; eight < kAzimuths; eight += 8) {
         if (are_zero(low + eight) && are_zero(high + eight)) continue;
         for (std::uint32_t a = eight; a < eight + 8; ++a) {
-          const std::uint32_t cell = ring * kRow + a;
-          if (low[a] != 0) visit(returned(ring, a, false, low[a], count_of(cell, kLowShift)));
-          if (high[a] != 0) visit(returned(ring, a, true, high[a], count_of(cell, kHighShift)));
+          if (low[a] != 0) visit(returned(ring, a, false, low[a]));
+          if (high[a] != 0) visit(returned(ring, a, true, high[a]));
         }
       }
     }
@@ -75,6 +76,7 @@ class Sight {
   // cell.
   static constexpr unsigned kLowShift = 0, kTallShift = 16, kHighShift = 32, kTopShift = 48;  // bits
 
+  static constexpr std::uint32_t kSliceAzimuths = 8;
   static constexpr unsigned kCountBits = 5;                             // of a word of returns
   static constexpr std::uint32_t kCountMost = (1U << kCountBits) - 1U;  // what the bits hold
 
@@ -86,8 +88,7 @@ class Sight {
   std::uint32_t count_of(std::uint32_t cell, unsigned shift) const {
     return static_cast<std::uint16_t>(passes_[cell] >> shift);
   }
-  Return returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t word,
-                  std::uint32_t passes) const;
+  Return returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t word) const;
   // From the sensor to each height.
   struct Heights {
     float top_m, hang_m, tall_m, thing_m, low_m;  // no less than 0
@@ -101,11 +102,15 @@ class Sight {
   void put(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those);
   void put_falling(FourInts azimuth, FourFloats per_m, FourFloats end, FourTruths those);
   void put_level(FourInts azimuth, FourFloats per_m, FourFloats end, FourTruths those);
+  void put_slopes(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those);
   void put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those);
 
   Span<std::uint64_t> passes_;  // rays by cell, one ring more than cells
   Span<std::uint8_t> returns_;  // low ones, then high ones: count, saturated, and eighth of the ring of the last one
   Span<std::uint8_t> seen_;     // widened over azimuths
+  // Of rays in each slice of 5.6 degrees, in metres of height to a metre; not below 0.
+  Span<float> steepest_fall_, steepest_rise_;
+  std::uint32_t fours_ = 0;  // of rays, in this frame
   float direction_x_[kAzimuths], direction_y_[kAzimuths];
   Mount mount_;
   float sensor_height_m_ = 0.0F;

@@ -20,8 +20,7 @@ constexpr std::uint32_t kMomentFirst_ms = 1000000;  // the first frame's time: t
 constexpr std::uint32_t kMomentMost_ms = 0xF0000000U;  // after 46 days all is forgotten once
 constexpr double kFuture_s = 0.005;                    // a stamp may lie so far ahead of the caller's clock
 constexpr std::uint32_t kClockStandsMost = 100;        // calls with one time: a clock in steps of 16 ms takes some
-constexpr double kGap_s = 1.0;                         // beyond stale_s: what the machine did in between is not known
-constexpr double kStill = 1e-9;                        // m/s and rad/s: it stands
+constexpr double kStill_m_s = 1e-9;                    // it stands
 
 // Without a frame that can be used nothing is known:
 constexpr std::uint32_t kFatal =
@@ -42,16 +41,18 @@ double age_s_of(std::int64_t stamp_ns, std::int64_t now_ns) {
 void Stop::lay_out(Arena& arena) {
   sight_.lay_out(arena);
   places_.lay_out(arena);
+  moves_.lay_out(arena);
   hazards_ = arena.take<Hazard>(kHazards);
   looks_ = arena.take_one<FloorLooks>();
   print_ = arena.take_one<CloudPrint>();
 }
 
-void Stop::open(const StopSettings& settings, const Mount& mount, std::uint32_t settings_crc32) {
+void Stop::open(const StopSettings& settings, const Mount& mount, double sigmas, std::uint32_t settings_crc32) {
   settings_ = settings;
   mount_ = mount;
   sight_.open(settings, mount);
   sweep_.open(settings);
+  moves_.open(settings, mount, sweep_.radius_m(), sigmas);
   heartbeat_ = 0;
   settings_crc32_ = settings_crc32;
   reset();
@@ -67,8 +68,7 @@ void Stop::reset() {
 
 void Stop::forget() {
   places_.open(settings_);
-  track_ = DeadReckoning();
-  last_motion_ = Motion{};
+  moves_.forget();
   first_ns_ = last_ns_ = clear_since_ns_ = 0;
   frames_ = 0;
   now_ms_ = kMomentFirst_ms;
@@ -110,7 +110,7 @@ void Stop::heed_stamp(std::int64_t stamp_ns) {
 }
 
 void Stop::confirm() {
-  places_.confirm(track_, sweep_, now_ms_);
+  places_.confirm(moves_.way(), sweep_, now_ms_);
 }
 
 pose_wall_planar_stop_result Stop::begun(std::int64_t now_ns) const {
@@ -123,101 +123,11 @@ pose_wall_planar_stop_result Stop::begun(std::int64_t now_ns) const {
   r.rim_speed_m_s = r.nearest_m[0] = r.nearest_m[1] = r.nearest_distance_m = not_a_number();
   r.nearest_size_m = r.nearest_age_s = not_a_number();
   r.floor_height_m = r.floor_slope[0] = r.floor_slope[1] = not_a_number();
+  r.speed_m_s = r.speed_error_m_s = r.turn_rad_s = r.turn_error_rad_s = not_a_number();
   r.time_to_contact_s = std::numeric_limits<double>::infinity();
   r.settings_crc32 = settings_crc32_;
   r.mark = kStopMark;
   return r;
-}
-
-Stop::Motion Stop::motion_of(const pose_wall_planar_stop_motion& m) const {
-  Motion motion{};
-  const double speed[2] = {m.speed_m_s, m.command_speed_m_s}, turn[2] = {m.turn_rad_s, m.command_turn_rad_s};
-  // Of the two kinds of motion:
-  constexpr std::uint32_t kBits[2] = {POSE_WALL_PLANAR_STOP_MEASURED, POSE_WALL_PLANAR_STOP_COMMANDED};
-  motion.is_known = m.given != 0;
-  for (int k = 0; k < 2; ++k) {
-    motion.given[k] = (m.given & kBits[k]) != 0;
-    if (!motion.given[k]) continue;
-    motion.speed_m_s[k] = speed[k], motion.turn_rad_s[k] = turn[k];
-    constexpr double kMost = 1000.0;  // no machine: more is a wrong unit
-    const bool is_sound = speed[k] >= -kMost && speed[k] <= kMost && turn[k] >= -kMost && turn[k] <= kMost;
-    motion.is_known = motion.is_known && is_sound;
-  }
-  return motion;
-}
-
-double Stop::rim_of(double speed_m_s, double turn_rad_s) const {
-  const Eigen::Vector2d v = speed_m_s * mount_.forward_base;
-  double most = 0.0;
-  for (std::uint32_t k = 0; k < settings_.corners; ++k) {
-    const double* c = settings_.corner_m[k];
-    const double x = v.x() - turn_rad_s * c[1], y = v.y() + turn_rad_s * c[0];
-    most = larger(most, std::sqrt(x * x + y * y));
-  }
-  return most;
-}
-
-// The direction is the command's, or the measured one where nothing is commanded. What the measured motion has beside
-// it is a deviation.
-SweepMotion Stop::sweep_of(const Motion& motion, double* rim_m_s) const {
-  SweepMotion sweep;
-  sweep.any = !motion.is_known;
-  *rim_m_s = sweep.any ? settings_.speed_max_m_s : 0.0;
-  sweep.velocity = mount_.forward_base;
-  if (sweep.any) return sweep;
-  double v = 0.0, w = 0.0;
-  for (int k = 0; k < 2; ++k) {
-    if (!motion.given[k]) continue;
-    const double speed = std::fabs(motion.speed_m_s[k]), turn = std::fabs(motion.turn_rad_s[k]);
-    if (!(speed + turn > kStill)) continue;
-    v = motion.speed_m_s[k], w = motion.turn_rad_s[k];
-    *rim_m_s = larger(*rim_m_s, rim_of(speed, turn));
-  }
-  const double rim = rim_of(v, w);
-  if (rim > kStill) {
-    sweep.velocity = v / rim * mount_.forward_base;
-    sweep.turn_rad_m = w / rim;
-  }
-  const double along = sweep.velocity.dot(mount_.forward_base), lever_m = sweep_.radius_m();
-  sweep.speed_error_ratio = settings_.speed_error_ratio;
-  sweep.speed_error_m_s = settings_.speed_error_m_s;
-  sweep.turn_error_rad_s = settings_.turn_error_rad_s;
-  if (motion.given[0] && motion.given[1]) {
-    // In the plane of speed and turn by the lever: the part of the measured motion that the direction leaves.
-    const double a = along, b = sweep.turn_rad_m * lever_m, ab = a * a + b * b;
-    const double m = motion.speed_m_s[0], n = motion.turn_rad_s[0] * lever_m;
-    double share = ab > 0.0 ? (m * a + n * b) / ab : 0.0;
-    if (share < 0.0) share = 0.0;
-    sweep.aside_m_s = std::fabs(m - share * a);
-    sweep.turn_error_rad_s += std::fabs(n - share * b) / lever_m;
-  }
-  return sweep;
-}
-
-void Stop::move_on(const Motion& motion, double seconds) {
-  if (frames_ == 0) return;
-  // The mean of the motions at both ends.
-  double v = 0.0, w = 0.0, rim = 0.0;
-  bool is_known = motion.is_known && last_motion_.is_known, is_still = is_known;
-  const Motion* const ends[] = {&last_motion_, &motion};
-  for (const Motion* m : ends) {
-    const int k = m->given[0] ? 0 : 1;
-    v += 0.5 * m->speed_m_s[k], w += 0.5 * m->turn_rad_s[k];
-    rim = larger(rim, rim_of(m->speed_m_s[k], m->turn_rad_s[k]));
-    is_still = is_still && std::fabs(m->speed_m_s[k]) + std::fabs(m->turn_rad_s[k]) <= kStill;
-  }
-  const bool is_followed = is_known && seconds <= settings_.stale_s + kGap_s;
-  if (!is_followed) {
-    v = w = 0.0;
-    track_.add_drift(2.0 * settings_.drift_max_m);  // nothing is remembered
-  } else if (!is_still) {
-    track_.add_drift(seconds * (settings_.speed_error_ratio * rim + settings_.speed_error_m_s +
-                                settings_.turn_error_rad_s * sweep_.radius_m()));
-  }
-  const double yaw = track_.yaw_rad + 0.5 * w * seconds;
-  const Eigen::Vector2d step = Turn2(yaw) * (v * seconds * mount_.forward_base);
-  track_.x_m += step.x(), track_.y_m += step.y();
-  track_.yaw_rad = wrapped(track_.yaw_rad + w * seconds);
 }
 
 std::uint32_t Stop::frame_reasons(const pose_wall_cloud& cloud, std::int64_t now_ns) {
@@ -232,8 +142,8 @@ std::uint32_t Stop::frame_reasons(const pose_wall_cloud& cloud, std::int64_t now
 
 void Stop::see(const Ground& ground, pose_wall_planar_stop_result* result) {
   const Eigen::Vector2d sensor_m = mount_.sensor_base_m.head<2>();
-  places_.put_returns(sight_, track_, sensor_m, now_ms_);
-  places_.put_seen(sight_, track_, sensor_m, sweep_, now_ms_);
+  places_.put_returns(sight_, moves_.way(), sensor_m, now_ms_);
+  places_.put_seen(sight_, moves_.way(), sensor_m, sweep_, now_ms_);
   result->floor_height_m = ground.height_m;
   result->floor_slope[0] = ground.slope_x, result->floor_slope[1] = ground.slope_y;
   if (!ground.seen) result->reasons |= POSE_WALL_PLANAR_STOP_R_NO_FLOOR;
@@ -244,7 +154,7 @@ void Stop::judge(const SweepMotion& motion, pose_wall_planar_stop_result* result
   sweep_.set_motion(motion, reaction_s(settings_) + settings_.slack_s);
   Places::Count count;
   const Eigen::Vector2d sensor_m = mount_.sensor_base_m.head<2>();
-  const std::uint32_t found = places_.find_hazards(sight_, track_, sensor_m, sweep_, now_ms_, hazards_, &count);
+  const std::uint32_t found = places_.find_hazards(sight_, moves_.way(), sensor_m, sweep_, now_ms_, hazards_, &count);
   const Span<const Hazard> hazards = hazards_.first(found);
   std::int32_t limiting = -1;
   const std::uint32_t careful = sweep_.highest_level(hazards, &limiting);
@@ -253,7 +163,7 @@ void Stop::judge(const SweepMotion& motion, pose_wall_planar_stop_result* result
   if (limiting >= 0) {
     const Hazard& hazard = hazards[static_cast<std::uint32_t>(limiting)];
     tell_nearest(hazard, result);
-    if (result->rim_speed_m_s > kStill) result->time_to_contact_s = sweep_.path_to(hazard) / result->rim_speed_m_s;
+    if (result->rim_speed_m_s > kStill_m_s) result->time_to_contact_s = sweep_.path_to(hazard) / result->rim_speed_m_s;
     sweep_.set_motion(motion, reaction_s(settings_));
     std::int32_t same = -1;
     result->stop_speed_m_s = sweep_.speed_of(sweep_.highest_level(hazards, &same));
@@ -276,7 +186,7 @@ void Stop::tell_nearest(const Hazard& hazard, pose_wall_planar_stop_result* resu
     return;
   }
   const Place& place = places_.at(hazard.place);
-  result->nearest_size_m = places_.size_around(hazard.place, track_, now_ms_);
+  result->nearest_size_m = places_.size_around(hazard.place, moves_.way(), now_ms_);
   const bool is_high = (hazard.kind & POSE_WALL_PLANAR_STOP_HIGH) != 0;
   result->nearest_age_s = 0.001 * (now_ms_ - (is_high ? place.first_ms : place.low_first_ms));
   result->reasons |= POSE_WALL_PLANAR_STOP_R_THING;
@@ -287,8 +197,8 @@ void Stop::tell_nearest(const Hazard& hazard, pose_wall_planar_stop_result* resu
 // Stops at once; goes on only after restart_s without a reason to stop.
 void Stop::decide(std::uint32_t fatal, std::int64_t now_ns, pose_wall_planar_stop_result* r) {
   // The sweep has the errors of a speed; the same ones may be in what was measured.
-  const double may_read = r->stop_speed_m_s * (1.0 + settings_.speed_error_ratio) + settings_.speed_error_m_s;
-  const bool is_fast = !(r->rim_speed_m_s <= may_read);
+  const double may_read_m_s = r->stop_speed_m_s + moves_.rim_error_m_s(r->stop_speed_m_s);
+  const bool is_fast = !(r->rim_speed_m_s <= may_read_m_s);
   if (is_fast) r->reasons |= POSE_WALL_PLANAR_STOP_R_SPEED;
   const bool may_move = fatal == 0 && r->stop_speed_m_s > 0.0 && !is_fast;
   const bool is_clear = may_move && r->allowed_speed_m_s >= settings_.restart_speed_m_s;
@@ -315,27 +225,27 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
   // Each cloud is looked at: one that is refused may come again. Of what it shows only its print is kept.
   const Ground ground = find_ground(rays, mount_, settings_, looks_);
   const std::uint32_t points_used = sight_.look(rays, ground, print_);
-  const Motion motion = motion_of(given);
   const std::uint32_t of_clock = heed_clock(now_ns);
   heed_stamp(cloud.stamp_ns);
+  moves_.take(given, cloud.stamp_ns);
   const std::uint32_t refused = of_clock | frame_reasons(cloud, now_ns);
   pose_wall_planar_stop_result r = begun(now_ns);
   r.reasons = refused;
   r.points_in = static_cast<std::uint32_t>(rays.points());
-  const SweepMotion sweep_motion = sweep_of(motion, &r.rim_speed_m_s);
-  if (!motion.is_known) r.reasons |= POSE_WALL_PLANAR_STOP_R_MISSING;
+  r.rim_speed_m_s = moves_.rim_m_s();
+  moves_.tell(&r);
+  if (!moves_.is_known()) r.reasons |= POSE_WALL_PLANAR_STOP_R_MISSING;
   // A stamp of the future is no last one: all that follow would seem to go back.
   const bool is_of_future = !(age_s_of(cloud.stamp_ns, now_ns) >= -kFuture_s);
   const bool goes_on = !is_of_future && (frames_ == 0 || cloud.stamp_ns > last_ns_);
   if (goes_on) {
     if (frames_ == 0) first_ns_ = cloud.stamp_ns;
     const double since_s = frames_ == 0 ? 0.0 : kNanosecond_s * nanoseconds_between(last_ns_, cloud.stamp_ns);
-    move_on(motion, since_s);
     const double ms = 1e-6 * nanoseconds_between(first_ns_, cloud.stamp_ns);
     if (!(ms < kMomentMost_ms - kMomentFirst_ms)) places_.forget(), first_ns_ = cloud.stamp_ns;
     now_ms_ = kMomentFirst_ms + static_cast<std::uint32_t>(1e-6 * nanoseconds_between(first_ns_, cloud.stamp_ns));
     last_ns_ = cloud.stamp_ns;
-    last_motion_ = motion;
+    moves_.go(cloud.stamp_ns, now_ms_, since_s);
     ++frames_;
   }
   r.stamp_ns = last_ns_;
@@ -344,7 +254,7 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
     r.points_used = points_used;
     see(ground, &r);
     if (r.points_used < kReturnsLeast) r.reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
-    judge(sweep_motion, &r);
+    judge(moves_.sweep(), &r);
   }
   decide(r.reasons & kFatal, now_ns, &r);
   r.heartbeat = heartbeat_;

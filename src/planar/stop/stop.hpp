@@ -9,6 +9,7 @@
 
 #include "base/containers/arena.hpp"
 #include "lidar/seen_clouds.hpp"
+#include "planar/stop/moves.hpp"
 #include "planar/stop/places.hpp"
 #include "planar/stop/settings.hpp"
 #include "planar/stop/sight.hpp"
@@ -19,25 +20,16 @@ namespace pose_wall::planar {
 class Stop {
  public:
   void lay_out(Arena& arena);
-  // settings_crc32: of settings and config, for the results.
-  void open(const StopSettings& settings, const Mount& mount, std::uint32_t settings_crc32);
+  // sigmas: of an odometry's variances in a bound. settings_crc32: of settings and config, for the results.
+  void open(const StopSettings& settings, const Mount& mount, double sigmas, std::uint32_t settings_crc32);
   void reset();
   void confirm();
+  bool note(const pose_wall_odometry& odometry, std::int64_t stamp_ns) { return moves_.note(odometry, stamp_ns); }
   void process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_motion& motion, std::int64_t now_ns,
                pose_wall_planar_stop_result* result);
   void tick(std::int64_t now_ns, pose_wall_planar_stop_result* result);
 
  private:
-  // What the machine does and may do, in speeds of its fastest point.
-  struct Motion {
-    double speed_m_s[2], turn_rad_s[2];  // measured and commanded
-    bool given[2];
-    bool is_known;
-  };
-  Motion motion_of(const pose_wall_planar_stop_motion& motion) const;
-  double rim_of(double speed_m_s, double turn_rad_s) const;
-  SweepMotion sweep_of(const Motion& motion, double* rim_m_s) const;
-  void move_on(const Motion& motion, double seconds);
   void forget();
   std::uint32_t heed_clock(std::int64_t now_ns);
   void heed_stamp(std::int64_t stamp_ns);
@@ -57,8 +49,7 @@ class Stop {
   FloorLooks* looks_;
   CloudPrint* print_;
 
-  DeadReckoning track_;
-  Motion last_motion_;
+  Moves moves_;
   std::int64_t first_ns_, last_ns_, clear_since_ns_;
   RepeatGuard repeat_guard_;
   std::uint64_t frames_;

@@ -3,6 +3,7 @@
 //
 // The C ABI of the stop: pointers and sizes are checked here, once.
 
+#include "base/estimation/protection.hpp"
 #include "lidar/mount.hpp"
 #include "part/image_words.hpp"
 #include "part/shell.hpp"
@@ -77,7 +78,8 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_open(const pose_wall_config* conf
   if (status == POSE_WALL_OK) status = choose_settings<StopTable>(settings, &given);
   if (status == POSE_WALL_OK) status = Mine::place(block, block_bytes, &opened);
   if (status != POSE_WALL_OK) return status;
-  opened->body().open(given, mount_of(*config), settings_crc(*config, given));
+  const double sigmas = sigmas_at_risk(number_of(*config, "integrity_risk"));
+  opened->body().open(given, mount_of(*config), sigmas, settings_crc(*config, given));
   *stop = reinterpret_cast<pose_wall_planar_stop*>(opened);
   return POSE_WALL_OK;
 }
@@ -88,6 +90,12 @@ POSE_WALL_EXPORT int32_t pose_wall_planar_stop_reset(pose_wall_planar_stop* stop
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* stop) {
   return with_part<Mine>(stop, [](Stop& own) { own.confirm(); });
+}
+
+POSE_WALL_EXPORT int32_t pose_wall_planar_stop_note_odometry(pose_wall_planar_stop* stop,
+                                                             const pose_wall_odometry* odometry, int64_t stamp_ns) {
+  if (odometry == nullptr) return POSE_WALL_E_NULL;
+  return with_part<Mine>(stop, [&](Stop& own) { return ok_if(own.note(*odometry, stamp_ns), POSE_WALL_E_INPUT); });
 }
 
 POSE_WALL_EXPORT int32_t pose_wall_planar_stop_process(pose_wall_planar_stop* stop, const pose_wall_cloud* cloud,

@@ -106,6 +106,9 @@ const std::vector<PlanarKeyRow>& planar_key_rows() {
        &PlanarSettings::turn_max_deg_s},
       stop_key("planar_deceleration", &pose_wall_planar_stop_settings::deceleration_m_s2,
                translatable("least deceleration by the brakes")),
+      stop_key("planar_acceleration", &pose_wall_planar_stop_settings::acceleration_m_s2,
+               translatable("largest acceleration by the drive. By so much the motion may have changed since it was "
+                            "measured")),
       stop_key(
           "planar_creep", &pose_wall_planar_stop_settings::creep_m_s,
           translatable("speed at which the machine may pass a thing that stands still, however near; 0: not at all")),

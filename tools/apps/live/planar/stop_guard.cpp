@@ -22,18 +22,10 @@ namespace {
 
 constexpr std::int64_t kTellEvery_ns = 100'000'000;
 constexpr double kNsPerS = 1e9;
-constexpr double kSetsOff_m_s = 0.01;  // a direction only: the allowed speed does not depend on it
-// Errors of measured motion that the stop reckons with: five standard deviations of a step of 0.1 s by scans.
-constexpr double kSpeedError_m_s = 0.1, kTurnError_rad_s = 0.03;
+// Longer than motion takes for a frame, and as many as the stop knows.
+constexpr std::size_t kFramesKept = 16;
 // A frame or two may be lost; what is slow for longer is the sensor, or this machine.
 constexpr int kSlowFrames = 5;
-
-// Along forward_axis, of a step in base.
-double along_forward(const pose_wall_config& config, const double* step_m) {
-  const std::string axis = config_text(config, "forward_axis");
-  const double along_m = step_m[axis.back() == 'Y' ? 1 : 0];
-  return axis.front() == '-' ? -along_m : along_m;
-}
 
 // load_config has named the keys of what people can set wrongly.
 std::string refusal_of(const pose_wall_planar_stop_settings& settings) {
@@ -61,10 +53,6 @@ StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell)
       takes_motion_(loaded.planar.motion == "measured"),
       tell_(std::move(tell)),
       block_(POSE_WALL_PLANAR_STOP_BLOCK_MOST) {
-  if (takes_motion_) {
-    settings_.speed_error_m_s = kSpeedError_m_s;
-    settings_.turn_error_rad_s = kTurnError_rad_s;
-  }
   open(*loaded.config.get());
   if (stop_ == nullptr) throw std::runtime_error(refusal_of(settings_));
   begin_answers();
@@ -86,6 +74,7 @@ void StopGuard::open(const pose_wall_config& config) {
   config_ = config;
   stop_ = nullptr;
   stamps_ = StampClock();
+  frames_.clear();
   slow_frames_ = 0;
   const std::int32_t status = pose_wall_planar_stop_open(&config_, &settings_, block_.data(), block_.bytes(), &stop_);
   if (status != POSE_WALL_OK) stop_ = nullptr;
@@ -121,43 +110,27 @@ void StopGuard::confirm() {
   confirmed_ = true;
 }
 
-// Dead reckoning is no measurement.
 void StopGuard::note_motion(const LiveResult& result) {
-  const pose_wall_motion_result& moved = result.publication.motion;
-  std::optional<Measured> measured;
-  double speed_level_m_s = NAN;
-  if (result.publication.has_motion != 0 && moved.along_state == POSE_WALL_ALONG_MEASURED && moved.step_s > 0.0) {
-    const double speed_m_s = along_forward(result.config, moved.step_m) / moved.step_s;
-    const double turn_rad_s = moved.step_rad[2] / moved.step_s;
-    speed_level_m_s = moved.step_protection_level[POSE_WALL_MOTION_ALONG] / moved.step_s;
-    const double turn_level_rad_s = moved.step_protection_level[POSE_WALL_MOTION_YAW] / moved.step_s;
-    // What errs by more than the stop reckons with is no measurement to it.
-    const bool is_good = std::isfinite(speed_m_s) && std::isfinite(turn_rad_s) &&
-                         speed_level_m_s <= settings_.speed_error_m_s && turn_level_rad_s <= settings_.turn_error_rad_s;
-    const bool may_stand = std::abs(speed_m_s) <= speed_level_m_s && std::abs(turn_rad_s) <= turn_level_rad_s;
-    if (is_good) measured = Measured{speed_m_s, turn_rad_s, may_stand, monotonic_ns()};
-  }
+  const pose_wall_publication& told = result.publication;
+  if (!takes_motion_ || told.has_motion == 0 || told.odometry.run == 0) return;
   const std::lock_guard<std::mutex> locked(lock_);
-  measured_ = measured;
-  speed_level_m_s_ = speed_level_m_s;
+  seen_.push_back({told.odometry, told.motion.stamp_ns});
+  if (seen_.size() > kFramesKept) seen_.pop_front();
 }
 
-pose_wall_planar_stop_motion StopGuard::motion_now() const {
-  pose_wall_planar_stop_motion motion{};
-  motion.struct_size = sizeof motion;
-  const std::lock_guard<std::mutex> locked(lock_);
-  const bool is_fresh =
-      measured_ && static_cast<double>(monotonic_ns() - measured_->at_ns) <= settings_.stale_s * kNsPerS;
-  if (!takes_motion_ || !is_fresh) return motion;
-  motion.given = POSE_WALL_PLANAR_STOP_MEASURED;
-  motion.speed_m_s = measured_->speed_m_s;
-  motion.turn_rad_s = measured_->turn_rad_s;
-  if (!measured_->may_stand) return motion;
-  // The noise of a machine that stands is no direction. It is taken to set off ahead; what was measured beside that
-  // widens the sweep.
-  motion.given |= POSE_WALL_PLANAR_STOP_COMMANDED;
-  motion.command_speed_m_s = kSetsOff_m_s;
-  return motion;
+// An odometry comes later than its frame, and the stop waits for none.
+void StopGuard::note_seen() {
+  std::deque<Seen> seen;
+  {
+    const std::lock_guard<std::mutex> locked(lock_);
+    seen.swap(seen_);
+  }
+  for (const Seen& one : seen) {
+    for (const Stamp& frame : frames_) {
+      if (frame.of_sensor_ns != one.stamp_ns || stop_ == nullptr) continue;
+      static_cast<void>(pose_wall_planar_stop_note_odometry(stop_, &one.odometry, frame.placed_ns));
+    }
+  }
 }
 
 // Of three frames in which dust is told from things the last must come within delay_s.
@@ -184,10 +157,12 @@ void StopGuard::answer_frame(const Job& job, StopNews* news) {
   // A clock that went back: nothing that was seen before is as old as it seems.
   if (!placed.is_later && stop_ != nullptr) static_cast<void>(pose_wall_planar_stop_reset(stop_));
   cloud.stamp_ns = placed.ns;
-  const pose_wall_planar_stop_motion motion = motion_now();
+  note_seen();
+  frames_.push_back({job.frame->frame.cloud.stamp_ns, placed.ns});
+  if (frames_.size() > kFramesKept) frames_.pop_front();
   const std::int32_t status =
       stop_ == nullptr ? POSE_WALL_E_ENGINE
-                       : pose_wall_planar_stop_process(stop_, &cloud, &motion, monotonic_ns(), &news->result);
+                       : pose_wall_planar_stop_process(stop_, &cloud, nullptr, monotonic_ns(), &news->result);
   frame_refused_ = status != POSE_WALL_OK || is_slow;
   if (!frame_refused_ && placed.is_later) return;
   refuse(news, POSE_WALL_PLANAR_STOP_R_INVALID);
@@ -297,8 +272,10 @@ PartHealth StopGuard::health() const {
                    : is_stale           ? "stops the machine: frames come late, by their stamps"
                    : is_slow_           ? "stops the machine: frames come slower than planar_period"
                                         : "stops the machine";
-  // What is above the settings' error counts as none.
-  if (takes_motion_) health.add("speed errs by m/s", fmt::format("{:.2f}", speed_level_m_s_));
+  if (takes_motion_) {
+    health.add("speed m/s", fmt::format("{:.2f}", news.result.speed_m_s));
+    health.add("speed errs by m/s", fmt::format("{:.2f}", news.result.speed_error_m_s));
+  }
   health.add("frames answered", answered_);
   health.add("frames lost to slowness", lost_);
   health.add("frames refused", refused_);

@@ -6,8 +6,8 @@
 
 #pragma once
 
-#include <cmath>
 #include <condition_variable>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -40,7 +40,7 @@ class StopGuard final : public StopBoard {
   // A raw frame, with the config whose extrinsic holds for it. From any thread; never waits. Where the frame before
   // still waits, it is lost and counted.
   void take(const std::shared_ptr<const LiveFrame>& frame, const pose_wall_config& config);
-  // What motion measured, for the frames to come. From any thread.
+  // What motion measured in a frame, for those to come. From any thread.
   void note_motion(const LiveResult& result);
 
   // Somebody has looked: close around the machine there is nothing (pose_wall_planar_stop_confirm). It counts only
@@ -62,10 +62,14 @@ class StopGuard final : public StopBoard {
     pose_wall_config config;
     std::int64_t received_ns;
   };
-  struct Measured {
-    double speed_m_s = 0.0, turn_rad_s = 0.0;
-    bool may_stand = false;
-    std::int64_t at_ns = 0;
+  // Where the odometry saw base, by the sensor's stamp.
+  struct Seen {
+    pose_wall_odometry odometry;
+    std::int64_t stamp_ns;
+  };
+  // A frame's stamp by its sensor and by this machine's clock.
+  struct Stamp {
+    std::int64_t of_sensor_ns, placed_ns;
   };
 
   void open(const pose_wall_config& config);
@@ -78,7 +82,7 @@ class StopGuard final : public StopBoard {
   void refuse(StopNews* news, std::uint32_t reason) const;
   void put(const StopNews& news, const Job* job);
   StopNews newest() const;
-  pose_wall_planar_stop_motion motion_now() const;
+  void note_seen();
 
   pose_wall_planar_stop_settings settings_;
   bool takes_motion_;
@@ -88,6 +92,7 @@ class StopGuard final : public StopBoard {
   pose_wall_config config_{};
   pose_wall_planar_stop* stop_ = nullptr;
   StampClock stamps_;
+  std::deque<Stamp> frames_;  // of the last ones, for an odometry that comes later
   std::int64_t told_ns_ = 0, header_stamp_ns_ = 0;
   std::uint32_t first_beat_ = 0;  // the heartbeat of a controller is so far ahead of the rounds
   std::int64_t stamp_ns_ = 0;     // of the newest frame, by its sensor
@@ -97,8 +102,7 @@ class StopGuard final : public StopBoard {
   mutable std::mutex lock_;
   std::condition_variable changed_;
   std::optional<Job> waiting_;
-  std::optional<Measured> measured_;
-  double speed_level_m_s_ = NAN;  // of the newest measured motion; NaN: there is none
+  std::deque<Seen> seen_;  // not yet told to the stop
   bool ending_ = false, confirmed_ = false;
   StopNews newest_;
   bool is_slow_ = false;          // the sensor

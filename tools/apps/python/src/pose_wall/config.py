@@ -86,7 +86,7 @@ OUTSIDE_KEYS = frozenset((
     "planar", "planar_map", "planar_map_whole", "planar_cell", "planar_map_every_s", "planar_tf", "planar_map_frame",
     "planar_odom_frame",
     "planar_motion", "planar_x_min", "planar_x_max", "planar_y_min", "planar_y_max", "planar_floor_z", "planar_height",
-    "planar_clearance", "planar_speed_max", "planar_turn_max_deg", "planar_deceleration", "planar_creep",
+    "planar_clearance", "planar_speed_max", "planar_turn_max_deg", "planar_deceleration", "planar_acceleration", "planar_creep",
     "planar_latency", "planar_period", "planar_stale", "planar_scan_time"))
 
 
