@@ -20,7 +20,7 @@
 namespace pose_wall::test {
 
 enum class Drive { straight, curve, spot, reverse };
-enum class Loss { none, silent, frozen, delayed, covered, dirty };
+enum class Loss { none, silent, frozen, delayed, covered, dirty, part_frozen, losses };
 enum class Kind { clear, person_crosses, person_comes, person_starts, prop, box, muck, boom, dust, puddle, kinds };
 
 inline const char* name_of(Kind kind) {
@@ -37,9 +37,12 @@ struct Plan {
   Kind kind = Kind::clear;
   Loss loss = Loss::none;
   double loss_from_s = 1e9, dirt_to_rad = 0.0;
-  double wish_m_s = 1.0;  // rim speed that the driver wants
+  double frozen_rad = 0.5;  // width of what stays, where a part freezes
+  double wish_m_s = 1.0;    // rim speed that the driver wants
   double lasts_s = 8.0;
   double odometry = 1.0;  // measured over true
+  bool goes_on = false;   // however often the machine stops, until it stands for good
+  double ends_m = 1e9;    // of its way
 };
 
 struct Outcome {
@@ -49,6 +52,10 @@ struct Outcome {
   double top_stop_m_s = 0.0;                                        // at the stop that came at most speed
   std::uint32_t stops = 0, frames = 0;                              // from motion
   std::uint32_t stops_by[POSE_WALL_PLANAR_STOP_REASON_COUNT] = {};  // of these; one may have several reasons
+  double first_metre_s = 1e9, allowed_m = 0.0;                      // while it drove: allowed speed by time
+  // Frames in which it stood, the first seconds apart: by reason, and where the nearest blind place lay.
+  std::uint32_t held = 0, held_by[POSE_WALL_PLANAR_STOP_REASON_COUNT] = {};
+  std::uint32_t blind_ahead = 0, blind_beside = 0, blind_behind = 0;
   Kind touched = Kind::clear;
 };
 
@@ -66,6 +73,7 @@ class StopUnderTest {
     (void)pose_wall_config_set_number(&config, "extrinsic_pitch", sensor.pitch_rad);
     (void)pose_wall_config_set_number(&config, "range_min", 0.3);
     (void)pose_wall_config_set_number(&config, "range_max", 100.0);
+    if (sensor.has_body()) (void)pose_wall_config_set(&config, "body_box_1", box_around(sensor.body_m).c_str());
     if (pose_wall_planar_stop_open(&config, &settings, block_.data(), block_.size(), &stop_) != POSE_WALL_OK) {
       stop_ = nullptr;
     }
@@ -86,6 +94,13 @@ class StopUnderTest {
   }
 
  private:
+  // Returns of the body have noise.
+  static std::string box_around(const std::array<double, 6>& body_m) {
+    constexpr double kNoise_m = 0.05;
+    std::string text;
+    for (std::size_t k = 0; k < 6; ++k) text += std::to_string(body_m[k] + (k % 2 == 0 ? -kNoise_m : kNoise_m)) + " ";
+    return text;
+  }
   AlignedBlock block_;
   std::vector<unsigned char> kept_;
   pose_wall_planar_stop_result kept_result_{};
@@ -122,6 +137,7 @@ class Encounter {
     plan_.world.puddles = event.world.puddles;
     for (Thing& t : plan_.world.things) t.walks_from_s += now_s_, t.walks_until_s += now_s_;
     plan_.loss = event.loss, plan_.loss_from_s = now_s_ + event.loss_from_s, plan_.dirt_to_rad = event.dirt_to_rad;
+    plan_.frozen_rad = event.frozen_rad;
     plan_.kind = event.kind;
     plan_.lasts_s = now_s_ + event.lasts_s;
     out_ = Outcome();
@@ -162,6 +178,9 @@ class Encounter {
 
   // It stands again and nothing comes, or it never starts, or nothing is left that it could drive into.
   bool is_over() const {
+    constexpr double kForGood_s = 10.0;  // where nothing moves
+    if (out_.moved_m >= plan_.ends_m) return true;
+    if (plan_.goes_on) return stood_s_ > kForGood_s;
     if (is_walking(now_s_)) return false;
     if (out_.moved_m > 0.0) return stood_s_ > 0.4 || has_passed_all();
     return now_s_ > settings_.settle_s + settings_.restart_s + 1.0 && stood_s_ > 1.6;
@@ -190,15 +209,18 @@ class Encounter {
     if (lost && plan_.loss == Loss::silent) return;
     const Machine& m = plan_.machine;
     if (!(lost && plan_.loss == Loss::frozen)) {
-      double along = 0.0, across = 0.0;
-      plan_.world.slopes_at(m.x_m, m.y_m, &along, &across);
+      const auto rest = plan_.world.rest_at(m.x_m, m.y_m);
       const double c = std::cos(m.yaw_rad), s = std::sin(m.yaw_rad);
-      const double pitch = -(c * along + s * across) + 0.004 * draw_->normal();
-      const double roll = (-s * along + c * across) + 0.004 * draw_->normal();
+      const double pitch = -(c * rest.along + s * rest.across) + 0.004 * draw_->normal();
+      const double roll = (-s * rest.along + c * rest.across) + 0.004 * draw_->normal();
       if (lost && plan_.loss == Loss::dirty) {
         plan_.sensor.dirt_from_rad = plan_.dirt_to_rad - 0.3, plan_.sensor.dirt_to_rad = plan_.dirt_to_rad;
       }
+      if (lost && plan_.loss == Loss::part_frozen) before_ = scan_.points();
       scan_.take(plan_.sensor, plan_.world, m.x_m, m.y_m, m.yaw_rad, pitch, roll, draw_);
+      if (lost && plan_.loss == Loss::part_frozen) {
+        scan_.keep_some(before_, plan_.dirt_to_rad - plan_.frozen_rad, plan_.dirt_to_rad);
+      }
       if (lost && plan_.loss == Loss::covered) scan_.blind();
     }
     const double delay_s = lost && plan_.loss == Loss::delayed ? 0.04 + 0.5 * (now_s - plan_.loss_from_s) : 0.04;
@@ -226,11 +248,27 @@ class Encounter {
       if (pose_wall_planar_stop_process(stop_->get(), &cloud, &motion, ns(now_s), &result) != POSE_WALL_OK) {
         result.state = POSE_WALL_PLANAR_STOP_STOP;
       }
+      tally(now_s);
       return;
     }
     if (pose_wall_planar_stop_tick(stop_->get(), ns(now_s), &result) != POSE_WALL_OK) {
       result.state = POSE_WALL_PLANAR_STOP_STOP;
     }
+  }
+
+  // What holds the machine, once it could have started.
+  void tally(double now_s) {
+    const auto& r = stop_->result();
+    if (r.state != POSE_WALL_PLANAR_STOP_STOP || now_s < settings_.settle_s + settings_.restart_s) return;
+    ++out_.held;
+    for (std::uint32_t bit = 0; bit < POSE_WALL_PLANAR_STOP_REASON_COUNT; ++bit) {
+      out_.held_by[bit] += (r.reasons >> bit) & 1U;
+    }
+    if (r.nearest_height != POSE_WALL_PLANAR_STOP_UNSEEN) return;
+    const Machine& m = plan_.machine;
+    ++(r.nearest_m[0] > m.front_m  ? out_.blind_ahead
+       : r.nearest_m[0] < m.back_m ? out_.blind_behind
+                                   : out_.blind_beside);
   }
 
   void obey(double now_s) {
@@ -252,7 +290,8 @@ class Encounter {
   void watch(double now_s, double step_s) {
     const Machine& m = plan_.machine;
     out_.moved_m += m.rim_m_s * step_s;
-    if (m.rim_m_s > 0.01) out_.drove_s += step_s;
+    if (m.rim_m_s > 0.01) out_.drove_s += step_s, out_.allowed_m += step_s * stop_->result().allowed_speed_m_s;
+    if (out_.moved_m >= 1.0) out_.first_metre_s = std::fmin(out_.first_metre_s, now_s);
     out_.top_m_s = std::fmax(out_.top_m_s, m.rim_m_s);
     out_.lasted_s = now_s;
     for (const Thing& thing : plan_.world.things) {
@@ -287,6 +326,7 @@ class Encounter {
   StopUnderTest* stop_;
   Draw* draw_;
   Scan scan_;
+  std::vector<float> before_;
   Outcome out_;
   double now_s_ = 0.0, phase_s_ = 0.0, stood_s_ = 0.0;
   double next_frame_s_ = 0.0, stamp_s_ = 0.0, arrives_s_ = 0.0;

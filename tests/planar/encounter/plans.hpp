@@ -156,9 +156,10 @@ inline void clear_start(Plan* plan, const pose_wall_planar_stop_settings& settin
 }
 
 inline void draw_loss(Plan* plan, double until_s, Draw* draw) {
-  plan->loss = static_cast<Loss>(1 + draw->below(5));
+  plan->loss = static_cast<Loss>(1 + draw->below(static_cast<std::uint32_t>(Loss::losses) - 1));
   plan->loss_from_s = draw->within(0.5, until_s);
   plan->dirt_to_rad = draw->within(-0.4, 0.7);
+  plan->frozen_rad = draw->within(0.2, 1.5);  // the stop promises to see 10 degrees of it
 }
 
 inline Plan draw_plan(Draw* draw, const pose_wall_planar_stop_settings& settings) {

@@ -2,7 +2,10 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // pose_wall_planar_stop_trial [--encounters N] [--seed S] [--only K] [--clear HOURS] [--dust HOURS [--density PER_M]]
-// Contacts in drawn encounters, or false stops on a clear road. Exit status 1 if there was a contact.
+//                             [--mount NAME] [--mounts] [--rock] [--table MINUTES]
+// Contacts in drawn encounters, or false stops on a clear road. Exit status 1 if there was a contact. With --mount the
+// machine has a mount of those whose names hold this, and --mounts lists them. With --rock roads have the relief of
+// real rock. The table says what each mount lets the machine do on clear roads.
 
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +13,7 @@
 #include <optional>
 
 #include "planar/encounter/events.hpp"
+#include "planar/encounter/mount_table.hpp"
 #include "planar/stop/settings.hpp"
 
 namespace {
@@ -19,13 +23,19 @@ using namespace pose_wall::test;
 struct Arguments {
   std::uint64_t encounters = 1000, seed = 1, only = 0;
   double clear_h = 0.0, dust_h = 0.0, density_per_m = 0.001;  // hours that pass in the simulator
-  bool has_only = false;
+  double table_min = 0.0;
+  std::vector<Mount> mounts;  // none: drawn ones that suit the stop
+  bool has_only = false, has_rock = false, lists = false;
 };
 
 Arguments arguments_of(int argc, char** argv) {
   Arguments a;
-  for (int k = 1; k + 1 < argc; k += 2) {
-    const char* value = argv[k + 1];
+  for (int k = 1; k < argc; ++k) {
+    const char* value = k + 1 < argc ? argv[k + 1] : "";
+    if (std::strcmp(argv[k], "--rock") == 0) a.has_rock = true;
+    if (std::strcmp(argv[k], "--mounts") == 0) a.lists = true;
+    if (std::strcmp(argv[k], "--mount") == 0) a.mounts = pose_wall::test::mounts_named(value);
+    if (std::strcmp(argv[k], "--table") == 0) a.table_min = std::strtod(value, nullptr);
     if (std::strcmp(argv[k], "--encounters") == 0) a.encounters = std::strtoull(value, nullptr, 10);
     if (std::strcmp(argv[k], "--seed") == 0) a.seed = std::strtoull(value, nullptr, 10);
     if (std::strcmp(argv[k], "--only") == 0) a.only = std::strtoull(value, nullptr, 10), a.has_only = true;
@@ -44,16 +54,30 @@ std::uint64_t seed_of(std::uint64_t seed, std::uint64_t encounter) {
 // So many events begin from one run-up, and every eighth encounter from standstill with all things there already.
 constexpr std::uint64_t kOfOneRunUp = 16, kFromStandstill = 8;
 
+// The mount of an encounter, if any was asked for.
+std::optional<Mount> draw_mount(const Arguments& a, Draw* draw) {
+  if (a.mounts.empty()) return std::nullopt;
+  return a.mounts[draw->below(static_cast<std::uint32_t>(a.mounts.size()))];
+}
+
+void finish(const Arguments& a, const std::optional<Mount>& mount, Plan* plan, Draw* draw) {
+  if (mount.has_value()) pose_wall::test::put_on(*mount, plan);
+  if (a.has_rock) plan->world.rock = std::make_shared<pose_wall::test::Rock>(draw->below(1000000));
+}
+
 class Encounters {
  public:
-  explicit Encounters(const Arguments& a) : arguments_(a), settings_(pose_wall::test::encounter_settings()) {}
+  explicit Encounters(const Arguments& a) : arguments_(a) {}
 
   Outcome run(std::uint64_t k, Plan* plan) {
     Draw draw(seed_of(arguments_.seed, k));
     if (k % kFromStandstill == 0) {
-      *plan = pose_wall::test::draw_plan(&draw, settings_);
+      const std::optional<Mount> mount = draw_mount(arguments_, &draw);
+      const auto settings = mount.has_value() ? settings_of(*mount) : pose_wall::test::encounter_settings();
+      *plan = pose_wall::test::draw_plan(&draw, settings);
+      finish(arguments_, mount, plan, &draw);
       plan->lasts_s = 10.0;
-      Encounter encounter(*plan, settings_, &still_, &draw);
+      Encounter encounter(*plan, settings, &still_, &draw);
       if (arguments_.has_only) encounter.tell_frames();
       return encounter.run();
     }
@@ -70,14 +94,17 @@ class Encounters {
     if (base_.has_value() && which_ == which) return;
     which_ = which;
     Draw draw(seed_of(arguments_.seed + 1000003, which));
+    const std::optional<Mount> mount = draw_mount(arguments_, &draw);
+    settings_ = mount.has_value() ? settings_of(*mount) : pose_wall::test::encounter_settings();
     road_ = pose_wall::test::draw_run_up(&draw, settings_);
+    finish(arguments_, mount, &road_, &draw);
     base_.emplace(road_, settings_, &driven_, &draw);
     base_->run_up(draw.within(4.8, 7.0));
     driven_.keep();
   }
 
   Arguments arguments_;
-  pose_wall_planar_stop_settings settings_;
+  pose_wall_planar_stop_settings settings_{};  // of the run-up
   StopUnderTest still_, driven_;
   Plan road_;
   std::optional<Encounter> base_;
@@ -107,8 +134,9 @@ struct Tally {
 };
 
 void print_contact(Count k, const Plan& plan, const Outcome& out) {
-  std::printf("contact: encounter %llu %s drive %d sensor %d loss %d at %.2f s, %.2f m/s\n", k,
-              pose_wall::test::name_of(plan.kind), static_cast<int>(plan.drive), static_cast<int>(plan.sensor.pattern),
+  std::printf("contact: encounter %llu %s drive %d sensor %s at x %.2f z %.2f m loss %d at %.2f s, %.2f m/s\n", k,
+              pose_wall::test::name_of(plan.kind), static_cast<int>(plan.drive),
+              pose_wall::test::row_of(plan.sensor.pattern).name, plan.sensor.x_m, plan.sensor.z_m,
               static_cast<int>(plan.loss), out.contact_s, out.contact_m_s);
 }
 
@@ -155,14 +183,16 @@ Plan draw_clear(Draw* draw, const pose_wall_planar_stop_settings& settings, doub
 
 // Every stop on such a road is a false one.
 int false_stops(const Arguments& a, bool has_dust) {
-  const pose_wall_planar_stop_settings settings = pose_wall::test::encounter_settings();
   StopUnderTest stop;
   const double hours = has_dust ? a.dust_h : a.clear_h;
   Outcome all;
   std::uint64_t runs = 0, stuck = 0;
   for (std::uint64_t k = a.only; all.lasted_s < hours * 3600.0 && k < 1000000; ++k, ++runs) {
     Draw draw(seed_of(a.seed + 77, k));
-    const Plan plan = draw_clear(&draw, settings, has_dust ? a.density_per_m : 0.0);
+    const std::optional<Mount> mount = draw_mount(a, &draw);
+    const auto settings = mount.has_value() ? settings_of(*mount) : pose_wall::test::encounter_settings();
+    Plan plan = draw_clear(&draw, settings, has_dust ? a.density_per_m : 0.0);
+    finish(a, mount, &plan, &draw);
     Encounter encounter(plan, settings, &stop, &draw);
     if (a.has_only) encounter.tell_stops();
     const Outcome out = encounter.run();
@@ -182,10 +212,23 @@ int false_stops(const Arguments& a, bool has_dust) {
   return 0;
 }
 
+int list_mounts() {
+  for (const Mount& mount : pose_wall::test::mounts_named("")) std::printf("%s\n", mount.name.c_str());
+  return 0;
+}
+
+int table(const Arguments& a) {
+  pose_wall::test::MountTable table(a.table_min, a.seed, a.has_rock);
+  for (const Mount& mount : a.mounts.empty() ? pose_wall::test::mounts_named("") : a.mounts) table.add(mount);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const Arguments a = arguments_of(argc, argv);
+  if (a.lists) return list_mounts();
+  if (a.table_min > 0.0) return table(a);
   if (a.clear_h > 0.0) return false_stops(a, false);
   if (a.dust_h > 0.0) return false_stops(a, true);
   return encounters(a);

@@ -24,6 +24,7 @@
 #include "io/numbers/angles.hpp"
 #include "io/numbers/quantities.hpp"
 #include "io/terminal/text_table.hpp"
+#include "lab/drive/stop_prospect.hpp"
 #include "study/info/wide_text.hpp"
 
 namespace pose_wall::tools {
@@ -163,6 +164,12 @@ void print_memory(const LoadedConfig& loaded) {
                        POSE_WALL_BLOCK_ALIGNMENT));
 }
 
+// Before anybody drives: a mount may be such that the stop can never let the machine go.
+void print_stop_prospect(const LoadedConfig& loaded) {
+  const std::string text = stop_prospect_text(loaded);
+  if (!text.empty()) fmt::print("{}", wrapped(text, 0, kLineWidth));
+}
+
 // What a controller compares with the image's config_crc32.
 void print_crc(const LoadedConfig& loaded) {
   std::uint32_t crc = 0;
@@ -230,6 +237,7 @@ int check_config(const CheckConfigOptions& options) {
   print_unit_doubts(loaded.config);
   print_axes(frames);
   print_results(loaded, frames);
+  print_stop_prospect(loaded);
   print_memory(loaded);
   print_crc(loaded);
   print_values(loaded);
