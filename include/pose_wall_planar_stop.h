@@ -196,10 +196,11 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_reset(pose_wall_planar_stop* sto
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_confirm(pose_wall_planar_stop* stop);
 
 /* Where an odometry saw base at the stamp of a frame: as pose_wall_motion_give fills it for that frame. The frame may
- * be the next one, or one of the last 31 that were processed: an odometry that comes late is not waited for. From it the
- * stop has the way of what it remembers, so that errors of the speed do not add up, and the measured motion. Odometries
- * of other stamps, of frames before one that had an odometry, and of infinite levels have no effect. Fails as reset does
- * and iff: odometry NULL, POSE_WALL_E_INPUT (run 0, a place that is not finite, no unit quaternion, a negative level). */
+ * be the next one, or one of the last 31 that were processed: an odometry that comes late is not waited for. From it
+ * the stop has the way of what it remembers, so that errors of the speed do not add up, and the measured motion.
+ * Odometries of other stamps, of frames before one that had an odometry, and of infinite levels have no effect. Fails
+ * as reset does and iff: odometry NULL, POSE_WALL_E_INPUT (run 0, a place that is not finite, no unit quaternion, a
+ * negative level). */
 POSE_WALL_CHECKED int32_t pose_wall_planar_stop_note_odometry(pose_wall_planar_stop* stop,
                                                               const pose_wall_odometry* odometry, int64_t stamp_ns);
 

@@ -32,9 +32,14 @@ using namespace pose_wall::test;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr auto kStop = static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP);
 
-// Where an odometry saw base in a frame: so far along the road, to within level_m.
-LiveResult seen_at(std::int64_t stamp_ns, double x_m, double level_m) {
+// Where motion saw base in a frame: so far along the road, to within level_m; 0.1 s and step_m after the frame before.
+LiveResult seen_at(const LoadedConfig& loaded, std::int64_t stamp_ns, double x_m, double step_m, double level_m) {
   LiveResult result;
+  result.config = *loaded.config.get();
+  pose_wall_motion_result& moved = result.publication.motion;
+  moved.along_state = POSE_WALL_ALONG_MEASURED;
+  moved.step_s = 0.1;
+  moved.step_m[0] = step_m;
   result.publication.has_motion = 1;
   result.publication.motion.stamp_ns = stamp_ns;
   pose_wall_odometry& odometry = result.publication.odometry;
@@ -292,16 +297,20 @@ class MeasuredStopTest : public StopGuardTest {
     int frames = 0;
     do {
       std::this_thread::sleep_for(std::chrono::milliseconds(100));  // speeds are by the clock of this process
-      show(hall);
+      const std::int64_t period_ns = std::max(kSecond_ns / 10, monotonic_ns() - shown_ns_);
+      shown_ns_ += period_ns;
+      show(hall, period_ns);
       EXPECT_TRUE(becomes_true([&] { return guard_->stop_now().header_stamp_ns == stamp_ns_ + 7; }));
-      x_m_ += speed_m_s * 0.1;
-      guard_->note_motion(seen_at(stamp_ns_, x_m_, level_m));
+      const double step_m = speed_m_s * 1e-9 * static_cast<double>(period_ns);
+      x_m_ += step_m;
+      guard_->note_motion(seen_at(loaded_, stamp_ns_, x_m_, step_m, level_m));
     } while (++frames < kFramesLeast || monotonic_ns() < until_ns);
     return drives();
   }
 
   static constexpr int kFramesLeast = 4;  // three that tell the motion, and one that is answered by it
   double x_m_ = 0.0;
+  std::int64_t shown_ns_ = monotonic_ns();
 };
 
 // With its back to a wall: noise backwards is no drive backwards.
@@ -382,6 +391,19 @@ TEST(StopGuardOf, RefusedSettingsAreNamedWithWhatIsAllowed) {
 }
 
 // Without a motion every motion is assumed.
+// Some frames at 0.2 m/s, each followed by its odometry where it is measured. Speeds are by the clock of this process.
+void drive(StopGuard* guard, const LoadedConfig& loaded, bool is_measured) {
+  constexpr int kFrames = 4;
+  const std::int64_t begin_ns = monotonic_ns();
+  for (int k = 1; k <= kFrames; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    const std::int64_t since_ns = monotonic_ns() - begin_ns;
+    guard->take(hall_frame(since_ns, k), *loaded.config.get());
+    ASSERT_TRUE(becomes_true([&] { return fact(guard->health(), "frames answered") == std::to_string(k); }));
+    if (is_measured) guard->note_motion(seen_at(loaded, since_ns, 0.2e-9 * static_cast<double>(since_ns), 0.02, 0.0));
+  }
+}
+
 TEST(StopGuardOf, MeasuredMotionIsUsedOnlyWhereAskedFor) {
   for (const std::string mode : {"assumed", "measured"}) {
     std::vector<std::string> settings = hall_settings();
@@ -389,13 +411,7 @@ TEST(StopGuardOf, MeasuredMotionIsUsedOnlyWhereAskedFor) {
     const LoadedConfig loaded = load_config("", settings);
     StopGuard guard(loaded, nullptr);
     guard.start();
-    for (int k = 1; k <= 3; ++k) {
-      const std::int64_t stamp_ns = k * kSecond_ns / 10;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));  // speeds are by the clock of this process
-      guard.take(hall_frame(stamp_ns, k), *loaded.config.get());
-      ASSERT_TRUE(becomes_true([&] { return fact(guard.health(), "frames answered") == std::to_string(k); }));
-      guard.note_motion(seen_at(stamp_ns, 0.02 * k, 0.0));
-    }
+    drive(&guard, loaded, true);
     const StopNews news = guard.stop_now();
     EXPECT_EQ((news.result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING) == 0, mode == "measured") << mode;
     const bool is_measured = mode == "measured";
@@ -425,15 +441,13 @@ TEST(StopGuardOf, CommandsCountWhereAskedForAndOneOfTwoUnknownMotionsLeavesAll) 
     CommandBoard commands("test", 10.0);
     StopGuard guard(loaded, nullptr, &commands);
     if (given.is_commanded) commands.take({0.25, 0.0}, monotonic_ns());
-    if (given.is_measured) guard.note_motion(measured_motion(loaded, 0.2, 0.0));
     guard.start();
-    guard.take(hall_frame(kSecond_ns, 1), *loaded.config.get());
-    ASSERT_TRUE(becomes_true([&] { return fact(guard.health(), "frames answered") == "1"; }));
+    drive(&guard, loaded, given.is_measured);
     const StopNews news = guard.stop_now();
     const std::string what =
         std::string(given.mode) + (given.is_commanded ? " commanded" : "") + (given.is_measured ? " measured" : "");
     EXPECT_EQ((news.result.reasons & POSE_WALL_PLANAR_STOP_R_MISSING) == 0, given.is_known) << what;
-    EXPECT_NEAR(news.result.rim_speed_m_s, given.rim_m_s, 1e-6) << what;
+    EXPECT_NEAR(news.result.rim_speed_m_s, given.rim_m_s, 0.02) << what;
     if (given.is_commanded && given.is_measured) {
       EXPECT_EQ(fact(commands.health(monotonic_ns()), "command less measured m/s"), "0.050") << what;
     }

@@ -24,9 +24,9 @@ using pose_wall::planar::MeasuredMotion;
 using pose_wall::planar::Pose2;
 using pose_wall::planar::Way;
 
-constexpr std::int64_t kFrame_ns = 100'000'000;
-constexpr double kFrame_s = 0.1;
-constexpr std::uint32_t kFirst_ms = 1'000'000;
+constexpr std::int64_t kBetweenFrames_ns = 100'000'000;
+constexpr double kBetweenFrames_s = 0.1;
+constexpr std::uint32_t kWayFirst_ms = 1'000'000;
 
 class WayUnderTest {
  public:
@@ -41,8 +41,8 @@ class WayUnderTest {
     ++frames_;
     way_.go(stamp_ns(frames_), ms(frames_), step, error_m);
   }
-  static std::int64_t stamp_ns(int frame) { return 5'000'000'000 + frame * kFrame_ns; }
-  static std::uint32_t ms(int frame) { return kFirst_ms + static_cast<std::uint32_t>(100 * frame); }
+  static std::int64_t stamp_ns(int frame) { return 5'000'000'000 + frame * kBetweenFrames_ns; }
+  static std::uint32_t ms(int frame) { return kWayFirst_ms + static_cast<std::uint32_t>(100 * frame); }
   int frames() const { return frames_; }
   std::uint32_t now_ms() const { return ms(frames_); }
   Way& way() { return way_; }
@@ -127,14 +127,14 @@ class DrawnWay {
   void frame() {
     const double wish = draw_.happens(0.02) ? draw_.within(-0.5, 1.0) : wish_;
     wish_ = wish;
-    const double change = kAcceleration * kFrame_s;
+    const double change = kAcceleration * kBetweenFrames_s;
     const double before = speed_;
     speed_ += std::fmax(-change, std::fmin(change, wish_ - speed_));
     turn_ += std::fmax(-0.02, std::fmin(0.02, draw_.within(-0.1, 0.1) - turn_));
     const double mean = 0.5 * (before + speed_);
-    truth_ = compose(truth_, {mean * kFrame_s, 0.0, turn_ * kFrame_s});
+    truth_ = compose(truth_, {mean * kBetweenFrames_s, 0.0, turn_ * kBetweenFrames_s});
     const double told = mean * draw_.within(0.8, 1.2);
-    test_.go({told * kFrame_s, 0.0, turn_ * kFrame_s}, 0.2 * std::fabs(mean) * kFrame_s + 1e-4);
+    test_.go({told * kBetweenFrames_s, 0.0, turn_ * kBetweenFrames_s}, 0.2 * std::fabs(mean) * kBetweenFrames_s + 1e-4);
     truths_.push_back(truth_);
     if (draw_.happens(0.01)) gap_ = 5 + static_cast<int>(draw_.below(40)), ++run_, drifted_ = Pose2(), drift_ = 0.0;
     if (gap_ > 0) --gap_;

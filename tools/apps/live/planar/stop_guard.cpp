@@ -30,6 +30,13 @@ constexpr double kSlip = 0.2, kTurnError_rad_s = 0.03;
 // A frame or two may be lost; what is slow for longer is the sensor, or this machine.
 constexpr int kSlowFrames = 5;
 
+// Along forward_axis, of a step in base.
+double along_forward(const pose_wall_config& config, const double* step_m) {
+  const std::string axis = config_text(config, "forward_axis");
+  const double along_m = step_m[axis.back() == 'Y' ? 1 : 0];
+  return axis.front() == '-' ? -along_m : along_m;
+}
+
 // load_config has named the keys of what people can set wrongly.
 std::string refusal_of(const pose_wall_planar_stop_settings& settings) {
   pose_wall_planar_fault fault{};
@@ -123,6 +130,14 @@ void StopGuard::confirm() {
 
 void StopGuard::note_motion(const LiveResult& result) {
   const pose_wall_publication& told = result.publication;
+  const pose_wall_motion_result& moved = told.motion;
+  // For the comparison with commands a step is enough.
+  if (commands_ != nullptr && told.has_motion != 0 && moved.along_state == POSE_WALL_ALONG_MEASURED) {
+    const double* const level = moved.step_protection_level;
+    commands_->note_measured(
+        {along_forward(result.config, moved.step_m) / moved.step_s, moved.step_rad[2] / moved.step_s},
+        {level[POSE_WALL_MOTION_ALONG] / moved.step_s, level[POSE_WALL_MOTION_YAW] / moved.step_s}, monotonic_ns());
+  }
   if (!takes_motion_ || told.has_motion == 0 || told.odometry.run == 0) return;
   const std::lock_guard<std::mutex> locked(lock_);
   seen_.push_back({told.odometry, told.motion.stamp_ns});
@@ -144,16 +159,17 @@ void StopGuard::note_seen() {
   }
 }
 
-// The measured motion is that of the odometry. Where both are asked for, a command alone is not trusted.
+// The measured motion is that of the odometry. Where both are asked for, neither is trusted alone: a command that is no
+// number tells the stop that it is missing.
 pose_wall_planar_stop_motion StopGuard::motion_now(bool is_measured) const {
   pose_wall_planar_stop_motion motion{};
   motion.struct_size = sizeof motion;
-  const bool is_asked = takes_command_ && commands_ != nullptr && (is_measured || !takes_motion_);
-  const std::optional<DriveMotion> command = is_asked ? commands_->newest(monotonic_ns()) : std::nullopt;
-  if (!command) return motion;
+  if (!takes_command_) return motion;
+  const std::optional<DriveMotion> command = commands_ != nullptr ? commands_->newest(monotonic_ns()) : std::nullopt;
+  if (command && takes_motion_ && !is_measured) return motion;
   motion.given = POSE_WALL_PLANAR_STOP_COMMANDED;
-  motion.command_speed_m_s = command->speed_m_s;
-  motion.command_turn_rad_s = command->turn_rad_s;
+  motion.command_speed_m_s = command ? command->speed_m_s : NAN;
+  motion.command_turn_rad_s = command ? command->turn_rad_s : NAN;
   return motion;
 }
 
@@ -188,10 +204,6 @@ void StopGuard::answer_frame(const Job& job, StopNews* news) {
   const std::int32_t status =
       stop_ == nullptr ? POSE_WALL_E_ENGINE
                        : pose_wall_planar_stop_process(stop_, &cloud, &motion, monotonic_ns(), &news->result);
-  const pose_wall_planar_stop_result& r = news->result;
-  if (status == POSE_WALL_OK && commands_ != nullptr && std::isfinite(r.speed_m_s)) {
-    commands_->note_measured({r.speed_m_s, r.turn_rad_s}, {r.speed_error_m_s, r.turn_error_rad_s}, monotonic_ns());
-  }
   frame_refused_ = status != POSE_WALL_OK || is_slow;
   if (!frame_refused_ && placed.is_later) return;
   refuse(news, POSE_WALL_PLANAR_STOP_R_INVALID);
