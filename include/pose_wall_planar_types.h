@@ -16,7 +16,7 @@ extern "C" {
 #endif
 
 /* Raised when a struct or function of the planar headers changes incompatibly. */
-#define POSE_WALL_PLANAR_ABI_VERSION 1
+#define POSE_WALL_PLANAR_ABI_VERSION 2
 /* POSE_WALL_PLANAR_ABI_VERSION of the library that is linked. */
 uint32_t pose_wall_planar_abi_version(void);
 

@@ -24,6 +24,7 @@ static_assert(sizeof(void*) != 8 || offsetof(pose_wall_publication, has_motion) 
 
 // How much of the motion's result was written follows from the publication's size.
 inline void write_publication(const pose_wall_publication& whole, std::uint32_t size, pose_wall_publication* to) {
+  // Of the public struct: an older caller's ends within motion, or before it.
   constexpr auto kMotionAt = static_cast<std::uint32_t>(offsetof(pose_wall_publication, motion));
   pose_wall_publication told = whole;
   const bool is_cut = size > kMotionAt && size - kMotionAt < sizeof(told.motion);

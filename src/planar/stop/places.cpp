@@ -18,14 +18,7 @@ constexpr float kNotUnder_m = -0.02F;      // places under the machine are not i
 constexpr auto kPlace_mm = static_cast<std::int32_t>(1000.0 * kPlace_m + 0.5);  // rounded to whole ones
 // A wall's tips stand out by less, the chest of a person with the back to it by more. Along a diagonal in both axes.
 constexpr std::int32_t kAside_mm = 230, kAsideDiagonal_mm = 325;
-constexpr std::uint32_t kFew = 3;  // returns that dust brings to a cell of the sight
-// Of dust: the sweep's thousand places and an hour's 36,000 frames.
-constexpr float kOnceAnHour = 1.0F / (1000.0F * 36000.0F);
 constexpr std::int32_t kAsidePlaces = 3;  // what is so little aside is within as many
-
-std::int32_t place_of(double m) {
-  return static_cast<std::int32_t>(std::floor(m / kPlace_m));
-}
 
 std::uint32_t milliseconds(double s) {
   return static_cast<std::uint32_t>(s * 1000.0 + 0.5);
@@ -54,6 +47,10 @@ void Places::forget() {
   places_.fill(none);
   dust_.forget();
   last_ms_ = 0;
+}
+
+std::int32_t Places::place_of(double m) {
+  return static_cast<std::int32_t>(std::floor(m / kPlace_m));
 }
 
 std::uint32_t Places::index_of(std::int32_t ix, std::int32_t iy) {
@@ -90,91 +87,6 @@ bool Places::is_free(const Place& place, const Way& way, std::uint32_t now_ms) c
          now_ms - place.tall_ms <= delay_ms_;
 }
 
-// Whether rays went through every smallest thing that could have returned there: then it is dust, or thinner than what
-// is found for certain. Where no ray of the frame comes so low, or so high, what was seen before counts.
-bool Places::is_gone_through(const Sight& sight, const Way& way, const Turn2& turn, const Eigen::Vector2d& origin_m,
-                             float x, float y, std::uint32_t now_ms) const {
-  const float range_m = std::sqrt(x * x + y * y);
-  const float ux = x / range_m, uy = y / range_m;
-  // Middles of things that touch the place: round ones from beside it to behind it, and corners of square ones.
-  constexpr float kHalf = 0.70711F;
-  constexpr float kInFront_m = 0.05F;  // with what seen() looks to each side, within the smallest thing
-  constexpr FourFloats kBehind[2] = {{0.0F, kHalf, kHalf, 0.0F}, {1.0F, 1.0F, 1.0F, kHalf}};
-  constexpr FourFloats kAside[2] = {{-1.0F, -kHalf, kHalf, 1.0F}, {0.0F, -1.0F, 1.0F, 0.0F}};
-  for (int k = 0; k < 2; ++k) {
-    const FourFloats behind = kBehind[k] * thing_half_m_, aside = kAside[k] * thing_half_m_;
-    const FourFloats px = x + behind * ux - aside * uy, py = y + behind * uy + aside * ux;
-    // A ray that is low in front of the middle would have hit the thing as well.
-    const FourInts seen = sight.seen(px, py) | sight.seen(px - kInFront_m * ux, py - kInFront_m * uy);
-    for (std::uint32_t lane = 0; lane < kFour; ++lane) {
-      const auto unseen = static_cast<std::uint32_t>(~seen[lane] & Sight::kAll);
-      if (unseen == 0) continue;
-      if (((Sight::kTall | sight.could_see(px[lane], py[lane])) & unseen) != 0) return false;
-      const Eigen::Vector2d at =
-          turn * Eigen::Vector2d(static_cast<double>(px[lane]), static_cast<double>(py[lane])) + origin_m;
-      const Place* const place = known_at(place_of(at.x()), place_of(at.y()));
-      if (place == nullptr) return false;
-      if ((unseen & Sight::kLow) != 0 && !is_remembered(place->low_ms, way, now_ms)) return false;
-      if ((unseen & Sight::kTop) != 0 && !is_remembered(place->top_ms, way, now_ms)) return false;
-    }
-  }
-  return true;
-}
-
-// A few low or high returns are a thing's at once where others of the frame are around them, for the smallest thing is
-// as wide as all places around. Else they are once others were there for two thirds of the delay: with a frame's period
-// of a third, before the delay has passed.
-bool Places::is_wide_or_lasting(Place* place, const Sight::Return& hit, std::uint32_t now_ms) {
-  constexpr std::uint32_t kWide = 4, kMost = 255;
-  const int kind = hit.is_high ? 1 : 0;
-  std::uint32_t first_ms = now_ms, in_frame = hit.returns, in_delay = hit.returns;
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      const Place* const near = known_at(place->ix + dx, place->iy + dy);
-      if (near == nullptr || near->doubt_ms == 0 || now_ms - near->doubt_ms > delay_ms_) continue;
-      if (near->doubt_first_ms < first_ms) first_ms = near->doubt_first_ms;
-      if (near->doubt_ms == now_ms) in_frame += near->doubts_in_frame[kind];
-      in_delay += near->doubts[kind];
-    }
-  }
-  const bool goes_on = place->doubt_ms != 0 && now_ms - place->doubt_ms <= delay_ms_;
-  for (int k = 0; k < 2; ++k) {
-    if (!goes_on) place->doubts[k] = 0;
-    if (place->doubt_ms != now_ms) place->doubts_in_frame[k] = 0;
-  }
-  const auto add = [&](std::uint8_t* count) {
-    const std::uint32_t sum = *count + hit.returns;
-    *count = static_cast<std::uint8_t>(sum < kMost ? sum : kMost);
-  };
-  add(&place->doubts_in_frame[kind]);
-  add(&place->doubts[kind]);
-  place->doubt_first_ms = first_ms;
-  place->doubt_ms = now_ms;
-  return in_frame >= kWide || (3 * (now_ms - first_ms) >= 2 * delay_ms_ && in_delay >= kWide);
-}
-
-// A thin thing returns in frame after frame, a grain of dust once. Of dust as thick as around the place, so many frames
-// in turn would have a return here once in an hour, somewhere in the way.
-bool Places::is_thin_thing(Place* place, std::uint32_t now_ms) {
-  std::uint32_t run = 0;
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      const Place* const near = known_at(place->ix + dx, place->iy + dy);
-      if (near == nullptr || near->dust_ms == 0) continue;
-      if (near->dust_ms == last_ms_ && near->dust_run > run) run = near->dust_run;
-      if (near->dust_ms == now_ms && near->dust_run > run + 1U) run = near->dust_run - 1U;
-    }
-  }
-  constexpr std::uint32_t kRunMost = 255;
-  if (run < kRunMost) ++run;
-  place->dust_ms = now_ms;
-  place->dust_run = static_cast<std::uint8_t>(run);
-  const float by_chance = dust_.share_around(place->ix, place->iy);
-  float all_by_chance = 1.0F;
-  for (std::uint32_t k = 0; k < run; ++k) all_by_chance *= by_chance;
-  return all_by_chance <= kOnceAnHour;
-}
-
 void Places::put_returns(const Sight& sight, const Way& way, const Eigen::Vector2d& sensor_m, std::uint32_t now_ms) {
   const Turn2 turn(way.base().yaw_rad);
   const Eigen::Vector2d origin = turn * sensor_m + way.base().place();
@@ -182,12 +94,7 @@ void Places::put_returns(const Sight& sight, const Way& way, const Eigen::Vector
   sight.each_return([&](const Sight::Return& hit) {
     const Eigen::Vector2d at = turn * Eigen::Vector2d(static_cast<double>(hit.x), static_cast<double>(hit.y)) + origin;
     Place& place = place_at(place_of(at.x()), place_of(at.y()));
-    if (hit.returns <= kFew && is_gone_through(sight, way, turn, origin, hit.x, hit.y, now_ms)) {
-      if (place.dust_ms != now_ms) dust_.add(place.ix, place.iy);
-      if (!is_thin_thing(&place, now_ms)) return;
-    } else if (hit.returns <= kFew && !is_wide_or_lasting(&place, hit, now_ms)) {
-      return;
-    }
+    if (brings_doubt_only(sight, way, turn, origin, hit, &place, now_ms)) return;
     std::uint32_t& last_ms = hit.is_high ? place.thing_high_ms : place.thing_low_ms;
     std::uint32_t& first_ms = hit.is_high ? place.first_ms : place.low_first_ms;
     const bool is_new = last_ms == 0 || now_ms - last_ms > gap_ms_;

@@ -11,15 +11,15 @@
 
 #include "base/containers/arena.hpp"
 #include "place/pose2.hpp"
+#include "planar/stop/dust_rate.hpp"
 #include "planar/stop/sight.hpp"
 #include "planar/stop/sweep.hpp"
 #include "planar/stop/way.hpp"
 
 namespace pose_wall::planar {
 
-constexpr std::uint32_t kPlacesAcross = 160;  // 16 m, in a ring: what falls out at one side comes in at the other
-constexpr double kPlace_m = 0.1;              // a third of the smallest thing
-constexpr std::int32_t kPlacesAround = 79;    // to each side of base
+constexpr double kPlace_m = 0.1;            // a third of the smallest thing
+constexpr std::int32_t kPlacesAround = 79;  // to each side of base
 // From the middle of a place to its corner, and from the middle of a cell of the sight to its own.
 constexpr float kPlaceCorner_m = 0.0707F, kCellCorner_m = 0.0640F;
 
@@ -37,45 +37,6 @@ struct Place {
   std::uint8_t doubts[2], doubts_in_frame[2];  // low and high ones, as long as they go on, and in the last frame
   std::uint8_t dust_run;                       // of frames in turn with such returns around it
   std::uint8_t high_x_mm, high_y_mm;           // where in it the high returns are, in the mean of the last ones
-};
-
-// How thick dust is around each place, from the frames before: in blocks of 0.8 m.
-class DustRate {
- public:
-  void forget() { *this = DustRate(); }
-  // A frame begins.
-  void next() {
-    for (std::uint32_t k = 0; k < kBlocks * kBlocks; ++k) {
-      // It rises at once and falls in a second of frames.
-      constexpr float kStays = 0.9F;
-      const float stays = kStays * rate_[k];
-      rate_[k] = stays > count_[k] ? stays : count_[k];
-      count_[k] = 0.0F;
-    }
-  }
-  void add(std::int32_t ix, std::int32_t iy) { count_[block_of(ix) + kBlocks * block_of(iy)] += 1.0F; }
-  // The chance that a place or one beside it has a return in a frame, by those elsewhere around it. Half of one more
-  // than was seen: rare is not never.
-  float share_around(std::int32_t ix, std::int32_t iy) const {
-    float sum = 0.0F;
-    for (std::uint32_t dy = 0; dy < 3; ++dy) {
-      for (std::uint32_t dx = 0; dx < 3; ++dx) {
-        const std::uint32_t bx = (block_of(ix) + dx + kBlocks - 1) % kBlocks;
-        sum += rate_[bx + kBlocks * ((block_of(iy) + dy + kBlocks - 1) % kBlocks)];
-      }
-    }
-    const float others = (sum > 1.0F ? sum - 1.0F : 0.0F) + 0.5F;
-    const float share = 9.0F * others / static_cast<float>(9 * kBlockPlaces * kBlockPlaces);
-    return share < 1.0F ? share : 1.0F;
-  }
-
- private:
-  static constexpr std::uint32_t kBlockPlaces = 8, kBlocks = kPlacesAcross / kBlockPlaces;
-  static std::uint32_t block_of(std::int32_t place) {
-    constexpr std::uint32_t kOffset = kPlacesAcross * 100000U;  // no machine goes as far: above 0
-    return (static_cast<std::uint32_t>(place) + kOffset) % kPlacesAcross / kBlockPlaces;
-  }
-  float rate_[kBlocks * kBlocks] = {}, count_[kBlocks * kBlocks] = {};
 };
 
 class Places {
@@ -123,10 +84,13 @@ class Places {
   };
   bool find_at(const HazardScene& scene, std::int32_t ix, std::int32_t iy, bool is_near, Hazard* hazard, Count* count);
   bool is_hazard(Place* place, const Way& way, const Eigen::Vector2d& away, std::uint32_t now_ms, Hazard* hazard) const;
+  static std::int32_t place_of(double m);
   static std::uint32_t index_of(std::int32_t ix, std::int32_t iy);
   static bool is_of(const Place& place, std::int32_t ix, std::int32_t iy) {
     return place.ix == static_cast<std::int16_t>(ix) && place.iy == static_cast<std::int16_t>(iy);
   }
+  bool brings_doubt_only(const Sight& sight, const Way& way, const Turn2& turn, const Eigen::Vector2d& origin_m,
+                         const Sight::Return& hit, Place* place, std::uint32_t now_ms);
   Place& place_at(std::int32_t ix, std::int32_t iy);
   const Place* known_at(std::int32_t ix, std::int32_t iy) const;
   bool is_gone_through(const Sight& sight, const Way& way, const Turn2& turn, const Eigen::Vector2d& origin_m, float x,

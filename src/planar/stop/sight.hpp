@@ -76,8 +76,8 @@ class Sight {
   // cell.
   static constexpr unsigned kLowShift = 0, kTallShift = 16, kHighShift = 32, kTopShift = 48;  // bits
 
-  static constexpr std::uint32_t kSliceAzimuths = 8;
-  static constexpr unsigned kCountBits = 5;                             // of a word of returns
+  static constexpr std::uint32_t kSliceAzimuths = 8;  // in which a quarter of any sensor's rays is some
+  static constexpr unsigned kCountBits = 5;           // of a word of returns
   static constexpr std::uint32_t kCountMost = (1U << kCountBits) - 1U;  // what the bits hold
 
   static bool are_zero(const std::uint8_t* eight) {

@@ -20,7 +20,7 @@ constexpr std::uint32_t kMomentFirst_ms = 1000000;  // the first frame's time: t
 constexpr std::uint32_t kMomentMost_ms = 0xF0000000U;  // after 46 days all is forgotten once
 constexpr double kFuture_s = 0.005;                    // a stamp may lie so far ahead of the caller's clock
 constexpr std::uint32_t kClockStandsMost = 100;        // calls with one time: a clock in steps of 16 ms takes some
-constexpr double kStill_m_s = 1e-9;                    // it stands
+constexpr double kStill_m_s = 1e-9;                    // it stands: no drive is as slow
 
 // Without a frame that can be used nothing is known:
 constexpr std::uint32_t kFatal =

@@ -12,8 +12,8 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kOdometryMost_s = 1.0;  // without one for longer, reckoning goes on alone
-constexpr float kUnknown_m = std::numeric_limits<float>::infinity();
+constexpr double kOdometryMost_s = 1.0;                               // without one for longer, reckoning goes on alone
+constexpr float kUnknown_m = std::numeric_limits<float>::infinity();  // of what no bound is known for
 
 double seconds_between(std::int64_t first_ns, std::int64_t second_ns) {
   return kNanosecond_s * (static_cast<double>(second_ns) - static_cast<double>(first_ns));

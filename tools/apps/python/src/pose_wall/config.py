@@ -88,8 +88,7 @@ OUTSIDE_KEYS = frozenset((
     "planar_motion", "planar_command_modbus", "planar_command_ros", "planar_command_can", "planar_command_age",
     "planar_x_min", "planar_x_max", "planar_y_min", "planar_y_max", "planar_floor_z", "planar_height",
     "planar_clearance", "planar_speed_max", "planar_turn_max_deg", "planar_deceleration",
-    "planar_acceleration", "planar_creep",
-    "planar_latency", "planar_period", "planar_stale", "planar_scan_time"))
+    "planar_acceleration", "planar_creep", "planar_latency", "planar_period", "planar_stale", "planar_scan_time"))
 
 
 # Keys of old files, and what to write instead.
