@@ -31,8 +31,8 @@
  *           heartbeat. A clock that was set back is told (INVALID), and all is forgotten as by _reset. That is so where
  *           now_ns goes back by more than 5 ms, or where the stamps of two frames in a row do. The stop then goes on by
  *           itself as after the start: no reset is needed, but someone must look again where the sensor sees nothing.
- * DUST      returns between which most rays pass are doubtful. They count as soon as they persist in one place. That
- *           takes at most delay_s, which is part of TIME. Dense returns count at once. A few returns at a place where
+ * DUST      a few returns are doubtful. They count where four are about one place, in a frame or over delay_s. That
+ *           takes at most delay_s, which is part of TIME. More count at once. A few returns at a place where
  *           rays went through every smallest thing are dust, or thinner than what is found for certain. They count
  *           once they come in more frames in turn than dust as thick as around them would bring in an hour.
  * MEMORY    of places: what was seen low, or of what hangs, is remembered for memory_s, until the errors of the way

@@ -90,8 +90,10 @@ TEST(StopProspect, IsSilentWithoutAStopOrAKnownSensor) {
 }
 
 TEST(StopProspect, CheckConfigPrintsItInBothLanguages) {
-  const Words words = {"check-config",           "-s", "planar=map",      "-s", "sensor=vlp16", "-s", "motion=on", "-s",
-                       "planar_motion=measured", "-s", "extrinsic_z=1.35"};
+  const Words words = {"check-config",           "-s", "planar=map",       "-s",
+                       "sensor=vlp16",           "-s", "motion=on",        "-s",
+                       "planar_motion=measured", "-s", "extrinsic_z=1.35", "-s",
+                       "extrinsic_x=2"};  // at the front, where its rays come low 3.8 m ahead
   const std::string english = command(words).printed;
   EXPECT_TRUE(contains(english, "never permits driving")) << english;
   Words chinese_words = words;

@@ -14,6 +14,10 @@ constexpr std::uint32_t kFew = 3;  // returns that dust brings to a cell of the 
 // Of dust: the sweep's thousand places and an hour's 36,000 frames.
 constexpr float kOnceAnHour = 1.0F / (1000.0F * 36000.0F);
 
+// Returns of a frame around a place: less than the smallest thing brings from 6 m, by a VLP-16's one ring.
+constexpr std::uint32_t kWide = 4;
+constexpr float kFactorialOfWide = 24.0F;  // of the distribution's term
+
 }  // namespace
 
 // Whether rays went through every smallest thing that could have returned there: then it is dust, or thinner than what
@@ -23,6 +27,9 @@ bool Places::is_gone_through(const Sight& sight, const Way& way, const Turn2& tu
   const float range_m = std::sqrt(x * x + y * y);
   const float ux = x / range_m, uy = y / range_m;
   // Middles of things that touch the place: round ones from beside it to behind it, and corners of square ones.
+  const auto is_near_in_memory = [&](std::uint32_t when_ms) {
+    return is_remembered(when_ms, way, now_ms) && way.error_m(when_ms) <= protection_m_;  // else it is of a neighbour
+  };
   constexpr float kHalf = 0.70711F;
   constexpr float kInFront_m = 0.05F;  // with what seen() looks to each side, within the smallest thing
   constexpr FourFloats kBehind[2] = {{0.0F, kHalf, kHalf, 0.0F}, {1.0F, 1.0F, 1.0F, kHalf}};
@@ -40,8 +47,8 @@ bool Places::is_gone_through(const Sight& sight, const Way& way, const Turn2& tu
           turn * Eigen::Vector2d(static_cast<double>(px[lane]), static_cast<double>(py[lane])) + origin_m;
       const Place* const place = known_at(place_of(at.x()), place_of(at.y()));
       if (place == nullptr) return false;
-      if ((unseen & Sight::kLow) != 0 && !is_remembered(place->low_ms, way, now_ms)) return false;
-      if ((unseen & Sight::kTop) != 0 && !is_remembered(place->top_ms, way, now_ms)) return false;
+      if ((unseen & Sight::kLow) != 0 && !is_near_in_memory(place->low_ms)) return false;
+      if ((unseen & Sight::kTop) != 0 && !is_near_in_memory(place->top_ms)) return false;
     }
   }
   return true;
@@ -50,8 +57,7 @@ bool Places::is_gone_through(const Sight& sight, const Way& way, const Turn2& tu
 // A few low or high returns are a thing's at once where others of the frame are around them, for the smallest thing is
 // as wide as all places around. Else they are once others were there for two thirds of the delay: with a frame's period
 // of a third, before the delay has passed.
-bool Places::is_wide_or_lasting(Place* place, const Sight::Return& hit, std::uint32_t now_ms) {
-  constexpr std::uint32_t kWide = 4;    // of the smallest thing: less than it brings from 6 m, by a VLP-16's one ring
+Places::Around Places::look_around(Place* place, const Sight::Return& hit, std::uint32_t now_ms) {
   constexpr std::uint32_t kMost = 255;  // what the counts hold
   const int kind = hit.is_high ? 1 : 0;
   std::uint32_t first_ms = now_ms, in_frame = hit.returns, in_delay = hit.returns;
@@ -77,7 +83,7 @@ bool Places::is_wide_or_lasting(Place* place, const Sight::Return& hit, std::uin
   add(&place->doubts[kind]);
   place->doubt_first_ms = first_ms;
   place->doubt_ms = now_ms;
-  return in_frame >= kWide || (3 * (now_ms - first_ms) >= 2 * delay_ms_ && in_delay >= kWide);
+  return {in_frame >= kWide, 3 * (now_ms - first_ms) >= 2 * delay_ms_ && in_delay >= kWide};
 }
 
 // A thin thing returns in frame after frame, a grain of dust once. Of dust as thick as around the place, so many frames
@@ -106,11 +112,14 @@ bool Places::is_thin_thing(Place* place, std::uint32_t now_ms) {
 bool Places::brings_doubt_only(const Sight& sight, const Way& way, const Turn2& turn, const Eigen::Vector2d& origin_m,
                                const Sight::Return& hit, Place* place, std::uint32_t now_ms) {
   if (hit.returns > kFew) return false;
-  if (!is_gone_through(sight, way, turn, origin_m, hit.x, hit.y, now_ms)) {
-    return !is_wide_or_lasting(place, hit, now_ms);
-  }
+  const bool is_gone = is_gone_through(sight, way, turn, origin_m, hit.x, hit.y, now_ms);
+  const Around around = look_around(place, hit, now_ms);
+  if (!is_gone) return !(around.is_wide || around.is_lasting);
   if (place->dust_ms != now_ms) dust_.add(place->ix, place->iy);
-  return !is_thin_thing(place, now_ms);
+  // So many returns at once come by chance, too, in dust: those of a Poisson process.
+  const float mean = dust_.share_around(place->ix, place->iy);
+  const bool is_no_chance = mean * mean * mean * mean <= kFactorialOfWide * kOnceAnHour;
+  return !(is_thin_thing(place, now_ms) || (around.is_wide && is_no_chance));
 }
 
 }  // namespace pose_wall::planar

@@ -26,6 +26,7 @@ void Moves::open(const StopSettings& settings, const Mount& mount, double radius
 
 void Moves::forget() {
   way_.forget();
+  fast_m_s_ = slow_m_s_ = changing_s_ = 0.0;
   now_ = last_ = Motion{};
 }
 
@@ -93,7 +94,7 @@ double Moves::rim_m_s() const {
 }
 
 double Moves::rim_error_m_s(double rim_m_s) const {
-  return settings_.speed_error_ratio * rim_m_s + now_.speed_error_m_s;
+  return settings_.speed_error_ratio * rim_m_s + settings_.speed_error_m_s;
 }
 
 // The direction is the command's, or the measured one where nothing is commanded. What may stand sets off ahead: its
@@ -117,14 +118,35 @@ SweepMotion Moves::sweep() const {
   sweep.speed_error_ratio = settings_.speed_error_ratio;
   sweep.speed_error_m_s = now_.speed_error_m_s;
   sweep.turn_error_rad_s = now_.turn_error_rad_s;
-  if (!now_.given[kMeasured]) return sweep;
+  if (!now_.given[kMeasured]) {
+    sweep.aside_m_s = fast_m_s_ - slow_m_s_;
+    return sweep;
+  }
   // In the plane of speed and turn by the lever: the part of the measured motion that the direction leaves.
   const double a = sweep.velocity.dot(forward_), b = sweep.turn_rad_m * radius_m_, ab = a * a + b * b;
   const double m = now_.speed_m_s[kMeasured], n = now_.turn_rad_s[kMeasured] * radius_m_;
   const double share = ab > 0.0 ? larger((m * a + n * b) / ab, 0.0) : 0.0;
   sweep.aside_m_s = larger(std::fabs(m - share * a), now_.speed_error_m_s - share * std::fabs(a));
   sweep.turn_error_rad_s += std::fabs(n - share * b) / radius_m_;
+  // Along the arc a faster machine would turn faster, too. An error of the speed alone leaves the arc.
+  if (ab > 0.0) {
+    sweep.aside_m_s += now_.speed_error_m_s * b * b / ab;
+    sweep.turn_error_rad_s += now_.speed_error_m_s * std::fabs(a * b) / (ab * radius_m_);
+  }
   return sweep;
+}
+
+// A machine obeys after latency_s, brakes at least with deceleration_m_s2 and speeds up at most with acceleration_m_s2.
+void Moves::lag_behind(double seconds) {
+  const double told_m_s = now_.given[kCommanded] && now_.is_known
+                              ? rim_of(std::fabs(now_.speed_m_s[kCommanded]), std::fabs(now_.turn_rad_s[kCommanded]))
+                              : 0.0;
+  const bool changes = !(fast_m_s_ == told_m_s && slow_m_s_ == told_m_s);
+  changing_s_ = changes ? changing_s_ + seconds : 0.0;
+  const double obeyed_s = changing_s_ > settings_.latency_s ? seconds : 0.0;
+  fast_m_s_ = larger(told_m_s, fast_m_s_ - settings_.deceleration_m_s2 * obeyed_s);
+  const double may_be_m_s = slow_m_s_ + settings_.acceleration_m_s2 * obeyed_s;
+  slow_m_s_ = may_be_m_s < told_m_s ? may_be_m_s : told_m_s;
 }
 
 // By the mean of the motions at both ends.
@@ -139,6 +161,11 @@ void Moves::go(std::int64_t stamp_ns, std::uint32_t now_ms, double seconds) {
     rim = larger(rim, rim_of(m->speed_m_s[kind], m->turn_rad_s[kind]));
     error_m_s = larger(error_m_s, m->speed_error_m_s), error_rad_s = larger(error_rad_s, m->turn_error_rad_s);
     is_still = is_still && !moves(*m, kind);
+  }
+  lag_behind(seconds);
+  if (!last_.given[kMeasured] || !now_.given[kMeasured]) {
+    error_m_s += fast_m_s_ - slow_m_s_;
+    is_still = is_still && !(fast_m_s_ - slow_m_s_ > kStill);
   }
   last_ = now_;
   if (!is_known) {

@@ -45,6 +45,7 @@ class Moves {
     bool given[kKinds], is_known;
     bool may_stand;  // the measured motion is none but for its errors
   };
+  void lag_behind(double seconds);
   static bool is_sound(double speed_m_s, double turn_rad_s);
   bool moves(const Motion& motion, int kind) const;
   double rim_of(double speed_m_s, double turn_rad_s) const;
@@ -54,6 +55,8 @@ class Moves {
   double radius_m_ = 1.0;
   Way way_;
   Motion now_{}, last_{};
+  // Between these the machine may be that is told its speed: of its fastest point. So long it has not got there.
+  double fast_m_s_ = 0.0, slow_m_s_ = 0.0, changing_s_ = 0.0;
 };
 
 }  // namespace pose_wall::planar

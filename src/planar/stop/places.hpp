@@ -95,7 +95,10 @@ class Places {
   const Place* known_at(std::int32_t ix, std::int32_t iy) const;
   bool is_gone_through(const Sight& sight, const Way& way, const Turn2& turn, const Eigen::Vector2d& origin_m, float x,
                        float y, std::uint32_t now_ms) const;
-  bool is_wide_or_lasting(Place* place, const Sight::Return& hit, std::uint32_t now_ms);
+  struct Around {
+    bool is_wide, is_lasting;
+  };
+  Around look_around(Place* place, const Sight::Return& hit, std::uint32_t now_ms);
   bool is_thin_thing(Place* place, std::uint32_t now_ms);
   bool is_remembered(std::uint32_t when_ms, const Way& way, std::uint32_t now_ms) const;
   bool was_there_with(const Place* near, const Place& place, const Way& way) const;

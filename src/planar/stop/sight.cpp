@@ -61,7 +61,6 @@ void Sight::clear() {
   returns_.fill(0);
   steepest_fall_.fill(0.0F);
   steepest_rise_.fill(0.0F);
-  fours_ = 0;
 }
 
 FourInts azimuths_of(FourFloats x, FourFloats y) {
@@ -151,9 +150,8 @@ void Sight::put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m,
   }
 }
 
-// Where rays go, whatever stops them. A quarter of the rays tells it.
+// Where rays go, whatever stops them.
 void Sight::put_slopes(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those) {
-  if ((++fours_ & 3U) != 0) return;
   const FourFloats slope = fall_m / range_m;
   const std::uint32_t lanes = bits_of(those);
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {

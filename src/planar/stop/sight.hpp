@@ -76,8 +76,9 @@ class Sight {
   // cell.
   static constexpr unsigned kLowShift = 0, kTallShift = 16, kHighShift = 32, kTopShift = 48;  // bits
 
-  static constexpr std::uint32_t kSliceAzimuths = 8;  // in which a quarter of any sensor's rays is some
-  static constexpr unsigned kCountBits = 5;           // of a word of returns
+  static constexpr std::uint32_t kSliceAzimuths =
+      8;                                     // narrow beside the tilt of a mount, and wide enough for any sensor
+  static constexpr unsigned kCountBits = 5;  // of a word of returns
   static constexpr std::uint32_t kCountMost = (1U << kCountBits) - 1U;  // what the bits hold
 
   static bool are_zero(const std::uint8_t* eight) {
@@ -110,7 +111,6 @@ class Sight {
   Span<std::uint8_t> seen_;     // widened over azimuths
   // Of rays in each slice of 5.6 degrees, in metres of height to a metre; not below 0.
   Span<float> steepest_fall_, steepest_rise_;
-  std::uint32_t fours_ = 0;  // of rays, in this frame
   float direction_x_[kAzimuths], direction_y_[kAzimuths];
   Mount mount_;
   float sensor_height_m_ = 0.0F;

@@ -48,20 +48,22 @@ void Way::open(const Machine& machine) {
 void Way::forget() {
   count_ = measured_ = 0;
   waiting_ = Place();
-  now_.own_m = 0.0;
+  now_ = Certainty();
   for (std::uint32_t k = 0; k < kBuckets; ++k) buckets_[k].number = 0;
 }
 
-// Along and across are taken alike: the worse of them.
+// Along and across together: sums, for their differences bound each of the two and both at once. What is as good as
+// infinite tells nothing of its place.
 bool Way::read(const pose_wall_odometry& o, Place* place) {
-  const auto worse = [](const double* values) { return larger(values[0], values[1]); };
+  const auto sum = [](const double* values) { return values[0] + values[1]; };
   place->run = o.run;
   place->position_m = {o.position_m[0], o.position_m[1], o.position_m[2]};
   place->turn = Eigen::Quaterniond(o.quaternion[3], o.quaternion[0], o.quaternion[1], o.quaternion[2]);
-  place->level_m = worse(o.level), place->level_rad = o.level[POSE_WALL_ODOMETRY_DIRECTIONS - 1];
-  place->variance_m2 = worse(o.drift_variance);
+  place->level_m = std::sqrt(o.level[0] * o.level[0] + o.level[1] * o.level[1]),
+  place->level_rad = o.level[POSE_WALL_ODOMETRY_DIRECTIONS - 1];
+  place->variance_m2 = sum(o.drift_variance);
   place->variance_rad2 = o.drift_variance[POSE_WALL_ODOMETRY_DIRECTIONS - 1];
-  place->drift_m = worse(o.drift), place->drift_rad = o.drift[POSE_WALL_ODOMETRY_DIRECTIONS - 1];
+  place->drift_m = sum(o.drift), place->drift_rad = o.drift[POSE_WALL_ODOMETRY_DIRECTIONS - 1];
   constexpr double kFar_m = 1e7, kUnit = 1e-5;  // by the interface
   const bool is_near = place->position_m.allFinite() && place->position_m.squaredNorm() < kFar_m * kFar_m;
   const bool is_turn = std::fabs(place->turn.squaredNorm() - 1.0) < kUnit;
@@ -116,6 +118,7 @@ void Way::leave_odometry() {
   now_.drift_m += 2.0 * now_.own_m;
   now_.own_m = 0.0;
   measured_ = 0;
+  for (std::uint32_t k = 0; k < kFrames; ++k) frames_[k].place.run = 0;
 }
 
 void Way::go(std::int64_t stamp_ns, std::uint32_t now_ms, const Pose2& step, double error_m) {
@@ -154,7 +157,10 @@ bool Way::note(const pose_wall_odometry& odometry, std::int64_t stamp_ns) {
 // The frame stands where the odometry saw it from the frame that was measured before, and all later ones go with it.
 void Way::measure(std::uint32_t number, const Place& place) {
   Frame& frame = frames_[number % kFrames];
-  if (!(place.level_m + place.level_rad < kUnknown_m)) return;
+  constexpr double kMost = 1e6;  // of any error: sums keep millimetres beside it
+  const bool is_told = place.level_m < kMost && place.level_rad < kMost && place.variance_m2 < kMost &&
+                       place.variance_rad2 < kMost && place.drift_m < kMost && place.drift_rad < kMost;
+  if (!is_told) return;
   const bool goes_on = measured_ != 0 && frames_[(measured_ - 1) % kFrames].place.run == place.run;
   const Certainty seen = certainty_of(place);
   if (goes_on) {

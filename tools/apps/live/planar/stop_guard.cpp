@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::int64_t kTellEvery_ns = 100'000'000;
 constexpr double kNsPerS = 1e9;
-// Longer than motion takes for a frame, and as many as the stop knows.
+// Longer than motion takes for a frame, and half of what the stop knows.
 constexpr std::size_t kFramesKept = 16;
 // Without a measurement the drive is trusted to follow its commands to a fifth, for tracks slip, and to turn by no more
 // than this beside them.
@@ -197,9 +197,11 @@ void StopGuard::answer_frame(const Job& job, StopNews* news) {
   // A clock that went back: nothing that was seen before is as old as it seems.
   if (!placed.is_later && stop_ != nullptr) static_cast<void>(pose_wall_planar_stop_reset(stop_));
   cloud.stamp_ns = placed.ns;
-  note_seen();
-  frames_.push_back({job.frame->frame.cloud.stamp_ns, placed.ns});
+  // Frames without stamps cannot be told apart.
+  if (!placed.is_later) frames_.clear();
+  if (job.frame->frame.cloud.stamp_ns != 0) frames_.push_back({job.frame->frame.cloud.stamp_ns, placed.ns});
   if (frames_.size() > kFramesKept) frames_.pop_front();
+  note_seen();
   const pose_wall_planar_stop_motion motion = motion_now(std::isfinite(news->result.speed_m_s));
   const std::int32_t status =
       stop_ == nullptr ? POSE_WALL_E_ENGINE
