@@ -30,7 +30,7 @@ bool Places::is_gone_through(const Sight& sight, const Way& way, const Turn2& tu
   const auto is_near_in_memory = [&](std::uint32_t when_ms) {
     return is_remembered(when_ms, way, now_ms) && way.error_m(when_ms) <= protection_m_;  // else it is of a neighbour
   };
-  constexpr float kHalf = 0.70711F;
+  constexpr float kHalf = 0.70711F;    // sine of 45 degrees
   constexpr float kInFront_m = 0.05F;  // with what seen() looks to each side, within the smallest thing
   constexpr FourFloats kBehind[2] = {{0.0F, kHalf, kHalf, 0.0F}, {1.0F, 1.0F, 1.0F, kHalf}};
   constexpr FourFloats kAside[2] = {{-1.0F, -kHalf, kHalf, 1.0F}, {0.0F, -1.0F, 1.0F, 0.0F}};
