@@ -393,7 +393,7 @@ TEST(StopGuardOf, RefusedSettingsAreNamedWithWhatIsAllowed) {
 // Without a motion every motion is assumed.
 // Some frames at 0.2 m/s, each followed by its odometry where it is measured. Speeds are by the clock of this process.
 void drive(StopGuard* guard, const LoadedConfig& loaded, bool is_measured) {
-  constexpr int kFrames = 4;
+  constexpr int kFrames = 4;  // three that tell the motion, and one that is answered by it
   const std::int64_t begin_ns = monotonic_ns();
   for (int k = 1; k <= kFrames; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

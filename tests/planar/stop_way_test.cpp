@@ -111,7 +111,7 @@ TEST(StopWay, OdometriesThatAreNoneAreRefused) {
 }
 
 // A machine that drives about, with speeds that are off by up to a fifth, and an odometry that comes up to four frames
-// late, is missing for seconds, begins anew, and errs within its levels and drift.
+// late. It is missing for seconds, begins anew, and errs within its levels and drift.
 class DrawnWay {
  public:
   explicit DrawnWay(std::uint64_t seed) : draw_(seed) {}

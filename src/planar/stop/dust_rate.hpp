@@ -11,7 +11,13 @@ namespace pose_wall::planar {
 
 constexpr std::uint32_t kPlacesAcross = 160;  // 16 m, in a ring: what falls out at one side comes in at the other
 
-// How thick dust is around each place, from the frames before: in blocks of 0.8 m.
+// Where in the ring a row or column of places is.
+inline std::uint32_t in_ring(std::int32_t place) {
+  constexpr std::uint32_t kOffset = kPlacesAcross * 100000U;  // no machine goes as far: above 0
+  return (static_cast<std::uint32_t>(place) + kOffset) % kPlacesAcross;
+}
+
+// From the frames before: in blocks of 0.8 m.
 class DustRate {
  public:
   void forget() { *this = DustRate(); }
@@ -44,10 +50,7 @@ class DustRate {
  private:
   static constexpr std::uint32_t kBlockPlaces = 8;  // half a cloud of dust, and ten times the smallest thing's area
   static constexpr std::uint32_t kBlocks = kPlacesAcross / kBlockPlaces;  // as places: a ring
-  static std::uint32_t block_of(std::int32_t place) {
-    constexpr std::uint32_t kOffset = kPlacesAcross * 100000U;  // no machine goes as far: above 0
-    return (static_cast<std::uint32_t>(place) + kOffset) % kPlacesAcross / kBlockPlaces;
-  }
+  static std::uint32_t block_of(std::int32_t place) { return in_ring(place) / kBlockPlaces; }
   float rate_[kBlocks * kBlocks] = {}, count_[kBlocks * kBlocks] = {};
 };
 

@@ -87,8 +87,8 @@ Places::Around Places::look_around(Place* place, const Sight::Return& hit, std::
 }
 
 // A thin thing returns in frame after frame, a grain of dust once. Of dust as thick as around the place, so many frames
-// in turn would have a return here once in an hour, somewhere in the way.
-bool Places::is_thin_thing(Place* place, std::uint32_t now_ms) {
+// in turn would have a return here once in an hour, somewhere in the way. by_chance: that one frame has one.
+bool Places::is_thin_thing(Place* place, float by_chance, std::uint32_t now_ms) {
   std::uint32_t run = 0;
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
@@ -102,7 +102,6 @@ bool Places::is_thin_thing(Place* place, std::uint32_t now_ms) {
   if (run < kRunMost) ++run;
   place->dust_ms = now_ms;
   place->dust_run = static_cast<std::uint8_t>(run);
-  const float by_chance = dust_.share_around(place->ix, place->iy);
   float all_by_chance = 1.0F;
   for (std::uint32_t k = 0; k < run; ++k) all_by_chance *= by_chance;
   return all_by_chance <= kOnceAnHour;
@@ -117,9 +116,9 @@ bool Places::brings_doubt_only(const Sight& sight, const Way& way, const Turn2& 
   if (!is_gone) return !(around.is_wide || around.is_lasting);
   if (place->dust_ms != now_ms) dust_.add(place->ix, place->iy);
   // So many returns at once come by chance, too, in dust: those of a Poisson process.
-  const float mean = dust_.share_around(place->ix, place->iy);
-  const bool is_no_chance = mean * mean * mean * mean <= kFactorialOfWide * kOnceAnHour;
-  return !(is_thin_thing(place, now_ms) || (around.is_wide && is_no_chance));
+  const float by_chance = dust_.share_around(place->ix, place->iy);
+  const bool is_no_chance = by_chance * by_chance * by_chance * by_chance <= kFactorialOfWide * kOnceAnHour;
+  return !(is_thin_thing(place, by_chance, now_ms) || (around.is_wide && is_no_chance));
 }
 
 }  // namespace pose_wall::planar

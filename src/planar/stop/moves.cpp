@@ -68,7 +68,7 @@ void Moves::tell(pose_wall_planar_stop_result* r) const {
       is_told ? settings_.speed_error_ratio * std::fabs(turn_rad_s) + now_.turn_error_rad_s : not_a_number();
 }
 
-bool Moves::moves(const Motion& motion, int kind) const {
+bool Moves::moves(const Motion& motion, int kind) {
   return motion.given[kind] && std::fabs(motion.speed_m_s[kind]) + std::fabs(motion.turn_rad_s[kind]) > kStill;
 }
 

@@ -31,7 +31,7 @@ class Moves {
   // What was measured, or NaN.
   void tell(pose_wall_planar_stop_result* result) const;
   SweepMotion sweep() const;
-  // Speed of the footprint's fastest point, and the error that it may have.
+  // Speed of the footprint's fastest point, and the error that a reading of it is forgiven: the settings' alone.
   double rim_m_s() const;
   double rim_error_m_s(double rim_m_s) const;
   const Way& way() const { return way_; }
@@ -47,7 +47,7 @@ class Moves {
   };
   void lag_behind(double seconds);
   static bool is_sound(double speed_m_s, double turn_rad_s);
-  bool moves(const Motion& motion, int kind) const;
+  static bool moves(const Motion& motion, int kind);
   double rim_of(double speed_m_s, double turn_rad_s) const;
 
   StopSettings settings_;

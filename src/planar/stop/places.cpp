@@ -54,9 +54,7 @@ std::int32_t Places::place_of(double m) {
 }
 
 std::uint32_t Places::index_of(std::int32_t ix, std::int32_t iy) {
-  constexpr std::uint32_t kOffset = kPlacesAcross * 100000U;  // no machine goes as far: above 0
-  const std::uint32_t a = (static_cast<std::uint32_t>(ix) + kOffset) % kPlacesAcross;
-  return a + kPlacesAcross * ((static_cast<std::uint32_t>(iy) + kOffset) % kPlacesAcross);
+  return in_ring(ix) + kPlacesAcross * in_ring(iy);
 }
 
 Place& Places::place_at(std::int32_t ix, std::int32_t iy) {

@@ -99,7 +99,7 @@ class Places {
     bool is_wide, is_lasting;
   };
   Around look_around(Place* place, const Sight::Return& hit, std::uint32_t now_ms);
-  bool is_thin_thing(Place* place, std::uint32_t now_ms);
+  bool is_thin_thing(Place* place, float by_chance, std::uint32_t now_ms);
   bool is_remembered(std::uint32_t when_ms, const Way& way, std::uint32_t now_ms) const;
   bool was_there_with(const Place* near, const Place& place, const Way& way) const;
   bool is_settled(const Place& place, const Way& way) const;

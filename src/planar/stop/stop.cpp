@@ -31,11 +31,6 @@ double nanoseconds_between(std::int64_t first_ns, std::int64_t second_ns) {
   return static_cast<double>(static_cast<std::uint64_t>(second_ns) - static_cast<std::uint64_t>(first_ns));
 }
 
-// Negative for a stamp of the future.
-double age_s_of(std::int64_t stamp_ns, std::int64_t now_ns) {
-  return (static_cast<double>(now_ns) - static_cast<double>(stamp_ns)) * kNanosecond_s;
-}
-
 }  // namespace
 
 void Stop::lay_out(Arena& arena) {
@@ -83,7 +78,7 @@ void Stop::forget() {
 // What is known has ages by this clock. Where it goes back they are lost, and with them all that is known. While it
 // stands still, nothing tells how old a frame is, and the heart does not beat.
 std::uint32_t Stop::heed_clock(std::int64_t now_ns) {
-  const bool is_first = !has_now_, is_set_back = !is_first && age_s_of(now_ns, now_ns_) > kFuture_s;
+  const bool is_first = !has_now_, is_set_back = !is_first && seconds_between(now_ns, now_ns_) > kFuture_s;
   if (is_first || is_set_back || now_ns > now_ns_) {
     has_now_ = true;
     now_ns_ = now_ns;
@@ -132,7 +127,7 @@ pose_wall_planar_stop_result Stop::begun(std::int64_t now_ns) const {
 
 std::uint32_t Stop::frame_reasons(const pose_wall_cloud& cloud, std::int64_t now_ns) {
   std::uint32_t reasons = 0;
-  const double age_s = age_s_of(cloud.stamp_ns, now_ns);
+  const double age_s = seconds_between(cloud.stamp_ns, now_ns);
   if (!(age_s <= settings_.stale_s)) reasons |= POSE_WALL_PLANAR_STOP_R_STALE;
   if (!(age_s >= -kFuture_s)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
   if (frames_ > 0 && !(cloud.stamp_ns > last_ns_)) reasons |= POSE_WALL_PLANAR_STOP_R_INVALID;
@@ -236,7 +231,7 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
   moves_.tell(&r);
   if (!moves_.is_known()) r.reasons |= POSE_WALL_PLANAR_STOP_R_MISSING;
   // A stamp of the future is no last one: all that follow would seem to go back.
-  const bool is_of_future = !(age_s_of(cloud.stamp_ns, now_ns) >= -kFuture_s);
+  const bool is_of_future = !(seconds_between(cloud.stamp_ns, now_ns) >= -kFuture_s);
   const bool goes_on = !is_of_future && (frames_ == 0 || cloud.stamp_ns > last_ns_);
   if (goes_on) {
     if (frames_ == 0) first_ns_ = cloud.stamp_ns;
@@ -265,7 +260,7 @@ void Stop::process(const pose_wall_cloud& cloud, const pose_wall_planar_stop_mot
 void Stop::tick(std::int64_t now_ns, pose_wall_planar_stop_result* result) {
   std::uint32_t reasons = heed_clock(now_ns);
   last_.now_ns = now_ns;
-  const double age_s = age_s_of(last_ns_, now_ns);
+  const double age_s = seconds_between(last_ns_, now_ns);
   if (frames_ == 0 || !(age_s <= settings_.stale_s)) {
     reasons |= POSE_WALL_PLANAR_STOP_R_STALE;
   } else if (!(age_s >= -kFuture_s)) {

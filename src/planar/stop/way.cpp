@@ -15,10 +15,6 @@ namespace {
 constexpr double kOdometryMost_s = 1.0;                               // without one for longer, reckoning goes on alone
 constexpr float kUnknown_m = std::numeric_limits<float>::infinity();  // of what no bound is known for
 
-double seconds_between(std::int64_t first_ns, std::int64_t second_ns) {
-  return kNanosecond_s * (static_cast<double>(second_ns) - static_cast<double>(first_ns));
-}
-
 double root_above(double first, double second) {
   return second > first ? std::sqrt(second - first) : 0.0;
 }
@@ -39,7 +35,6 @@ void Way::lay_out(Arena& arena) {
 
 void Way::open(const Machine& machine) {
   machine_ = machine;
-  now_ = Certainty();
   reckoned_m_ = 0.0;
   base_ = Pose2();
   forget();
@@ -59,7 +54,7 @@ bool Way::read(const pose_wall_odometry& o, Place* place) {
   place->run = o.run;
   place->position_m = {o.position_m[0], o.position_m[1], o.position_m[2]};
   place->turn = Eigen::Quaterniond(o.quaternion[3], o.quaternion[0], o.quaternion[1], o.quaternion[2]);
-  place->level_m = std::sqrt(o.level[0] * o.level[0] + o.level[1] * o.level[1]),
+  place->level_m = std::sqrt(o.level[0] * o.level[0] + o.level[1] * o.level[1]);
   place->level_rad = o.level[POSE_WALL_ODOMETRY_DIRECTIONS - 1];
   place->variance_m2 = sum(o.drift_variance);
   place->variance_rad2 = o.drift_variance[POSE_WALL_ODOMETRY_DIRECTIONS - 1];
@@ -192,16 +187,16 @@ void Way::measure(std::uint32_t number, const Place& place) {
 // The speed between two places of one run is the mean of that time. Since its middle the drive may have changed it.
 MeasuredMotion Way::motion_since(const Frame& before, const Frame& last, double age_s) const {
   const double seconds = seconds_between(before.stamp_ns, last.stamp_ns);
-  const Certainty first = certainty_of(before.place), second = certainty_of(last.place);
+  const Place &first = before.place, &second = last.place;
   const Pose2 moved = between(before.base, last.base);
   const Eigen::Vector2d halfway = Turn2(0.5 * moved.yaw_rad).back(moved.place());
   const double changed_m_s = machine_.acceleration_m_s2 * (0.5 * seconds + age_s);
-  const double place_m = before.place.level_m + last.place.level_m +
+  const double place_m = first.level_m + second.level_m +
                          machine_.sigmas * root_above(first.variance_m2, second.variance_m2) +
-                         larger(last.place.drift_m - before.place.drift_m, 0.0);
-  const double turn_rad = before.place.level_rad + last.place.level_rad +
+                         larger(second.drift_m - first.drift_m, 0.0);
+  const double turn_rad = first.level_rad + second.level_rad +
                           machine_.sigmas * root_above(first.variance_rad2, second.variance_rad2) +
-                          larger(last.place.drift_rad - before.place.drift_rad, 0.0);
+                          larger(second.drift_rad - first.drift_rad, 0.0);
   MeasuredMotion motion;
   motion.speed_m_s = halfway.dot(machine_.forward) / seconds;
   motion.turn_rad_s = moved.yaw_rad / seconds;

@@ -12,10 +12,16 @@
 #include <cstdint>
 
 #include "base/containers/arena.hpp"
+#include "base/math/elementary.hpp"
 #include "place/pose2.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall::planar {
+
+// Negative where the second was first; stamps may be any numbers.
+inline double seconds_between(std::int64_t first_ns, std::int64_t second_ns) {
+  return kNanosecond_s * (static_cast<double>(second_ns) - static_cast<double>(first_ns));
+}
 
 // What an odometry tells of the motion now.
 struct MeasuredMotion {

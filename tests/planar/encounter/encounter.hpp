@@ -96,7 +96,7 @@ class StopUnderTest {
  private:
   // Returns of the body have noise.
   static std::string box_around(const std::array<double, 6>& body_m) {
-    constexpr double kNoise_m = 0.05;
+    constexpr double kNoise_m = 0.05;  // above three deviations of the noisiest sensor that is drawn
     std::string text;
     for (std::size_t k = 0; k < 6; ++k) text += std::to_string(body_m[k] + (k % 2 == 0 ? -kNoise_m : kNoise_m)) + " ";
     return text;

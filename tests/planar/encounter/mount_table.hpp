@@ -122,7 +122,7 @@ class MountTable {
   // The commonest reason other than that of a restart.
   static void print_held(const Outcome& out) {
     const double held = std::fmax(out.held, 1.0);
-    constexpr std::uint32_t kRestart = 11;
+    constexpr std::uint32_t kRestart = 11;  // the bit of POSE_WALL_PLANAR_STOP_R_RESTART, the last one
     for (std::uint32_t bit = 0; bit < kRestart; ++bit) {
       const double share = 100.0 * out.held_by[bit] / held;
       if (share >= 10.0) std::printf(" %s %.0f", pose_wall_planar_stop_reason_name(bit), share);
