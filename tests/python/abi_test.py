@@ -70,7 +70,7 @@ class Layout(unittest.TestCase):
         told = {"pose_wall_value": (pose_wall.Value, {"part": "parts"}, {"reserved"}),
                 "pose_wall_plane": (pose_wall.Plane, {}, set()),
                 "pose_wall_publication": (pose_wall.Publication, {}, {"struct_size", "reserved", "has_motion",
-                                                                       "motion_status", "motion"}),
+                                                                       "motion_status", "motion", "odometry"}),
                 "pose_wall_runtime_times": (pose_wall.Times, {}, set()),
                 "pose_wall_runtime_statistics": (pose_wall.Statistics, {}, {
                     "struct_size", "reserved", "box_written", "box_lost", "box_failed", "box_bytes_written", "sink",

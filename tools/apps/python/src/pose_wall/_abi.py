@@ -749,6 +749,7 @@ pose_wall_publication._fields_ = [
     ("has_motion", c_uint32),
     ("motion_status", c_int32),
     ("motion", pose_wall_motion_result),
+    ("odometry", pose_wall_odometry),
 ]
 
 pose_wall_runtime_options._fields_ = [
