@@ -132,9 +132,88 @@ TEST(StopSweep, WhatMayWalkNeedsRoomForItsWay) {
   Sweep sweep;
   sweep.open(settings);
   sweep.set_motion(arc(settings, 1.0, 0.0), kReaction_s);
-  // 2 m beside: the machine must stand within 2 / 1.6 = 1.25 s, 0.8 s of which it does not brake.
-  EXPECT_NEAR(sweep.speed_of(level_with(sweep, thing_at(0.0, 2.8, 0.2, 1.6))), 0.45, 1.5 / kSweepLevels);
-  EXPECT_EQ(level_with(sweep, thing_at(0.0, 1.0, 0.2, 1.6)), 0U);
+  // 2 m beside the front edge: the machine must stand within 2 / 1.6 = 1.25 s, 0.8 s of which it does not brake.
+  EXPECT_NEAR(sweep.speed_of(level_with(sweep, thing_at(2.25, 2.8, 0.2, 1.6))), 0.45, 1.5 / kSweepLevels);
+  EXPECT_EQ(level_with(sweep, thing_at(2.25, 1.0, 0.2, 1.6)), 0U);
+}
+
+TEST(StopSweep, WhoWalksIsNotTouchedByWhatSlidesAlongOrRecedes) {
+  const StopSettings settings = default_settings<StopTable>();
+  Sweep sweep;
+  sweep.open(settings);
+  sweep.set_motion(arc(settings, 1.0, 0.0), kReaction_s);
+  for (const auto& at : {thing_at(-1.5, 1.0, 0.2, 1.6), thing_at(-3.0, 0.0, 0.2, 1.6)}) {
+    EXPECT_EQ(level_with(sweep, at), kSweepLevels);
+  }
+  // The way that somebody has to walk to the front edge counts from where they are.
+  EXPECT_LT(level_with(sweep, thing_at(1.25, 1.0, 0.2, 1.6)), kSweepLevels);
+  // Backwards the other edge is the one that touches.
+  sweep.set_motion(arc(settings, -1.0, 0.0), kReaction_s);
+  EXPECT_EQ(level_with(sweep, thing_at(-3.0, 0.0, 0.2, 1.6)), 0U);
+  EXPECT_EQ(level_with(sweep, thing_at(3.0, 0.0, 0.2, 1.6)), kSweepLevels);
+  // In a turn to the left the tail swings to the right.
+  sweep.set_motion(arc(settings, 1.0, 0.25), kReaction_s);
+  EXPECT_EQ(level_with(sweep, thing_at(-2.0, -1.0, 0.2, 1.6)), 0U);
+  EXPECT_GT(level_with(sweep, thing_at(-2.0, 1.0, 0.2, 1.6)), 0U);
+}
+
+TEST(StopSweep, WithoutAKnownMotionWhoWalksIsTouchedByEverySide) {
+  const StopSettings settings = default_settings<StopTable>();
+  Sweep sweep;
+  sweep.open(settings);
+  SweepMotion motion;
+  motion.any = true;
+  sweep.set_motion(motion, kReaction_s);
+  for (const auto& at : {thing_at(-4.4, 0.0, 0.2, 1.6), thing_at(4.4, 0.0, 0.2, 1.6), thing_at(0.0, -2.9, 0.2, 1.6)}) {
+    EXPECT_EQ(level_with(sweep, at), 0U);
+  }
+}
+
+// From points of the rim that move outwards, along a whole arc in steps of a centimetre.
+double least_to_advancing(const StopSettings& s, const SweepMotion& motion, double path_m, double x, double y) {
+  double least = 1e9, at_x = 0.0, at_y = 0.0, yaw = 0.0;
+  const int steps = static_cast<int>(std::ceil(path_m / 0.01));
+  for (int k = 0; k <= steps; ++k) {
+    const double c = std::cos(yaw), n = std::sin(yaw), qx = c * (x - at_x) + n * (y - at_y);
+    const double qy = c * (y - at_y) - n * (x - at_x);
+    for (std::uint32_t e = 0; e < s.corners; ++e) {
+      const double *a = s.corner_m[e], *b = s.corner_m[(e + 1) % s.corners];
+      const double ex = b[0] - a[0], ey = b[1] - a[1];
+      for (double share = 0.0; share <= 1.0; share += 0.02) {
+        const double px = a[0] + share * ex, py = a[1] + share * ey;
+        const double outwards = (ey * (motion.velocity.x() - motion.turn_rad_m * py) -
+                                 ex * (motion.velocity.y() + motion.turn_rad_m * px)) /
+                                std::hypot(ex, ey);
+        if (outwards > 0.01 / s.speed_max_m_s) least = std::fmin(least, std::hypot(qx - px, qy - py));
+      }
+    }
+    const double step = path_m / std::fmax(steps, 1), middle = yaw + 0.5 * motion.turn_rad_m * step;
+    at_x += step * (std::cos(middle) * motion.velocity.x() - std::sin(middle) * motion.velocity.y());
+    at_y += step * (std::sin(middle) * motion.velocity.x() + std::cos(middle) * motion.velocity.y());
+    yaw += motion.turn_rad_m * step;
+  }
+  return least;
+}
+
+TEST(StopSweep, WhoWalksKeepsTheirWayFromAllThatMovesOutwards) {
+  Draw draw(12);
+  constexpr double kMargin_m = 0.2, kWalks_m_s = 1.6;
+  std::uint32_t limited = 0;
+  for (int k = 0; k < 400; ++k) {
+    const StopSettings settings = default_settings<StopTable>();
+    Sweep sweep;
+    sweep.open(settings);
+    const SweepMotion motion = arc(settings, draw.within(-1.0, 1.0), draw.within(-1.0, 1.0));
+    sweep.set_motion(motion, kReaction_s);
+    const double x = draw.within(-5.0, 5.0), y = draw.within(-4.0, 4.0);
+    const std::uint32_t level = level_with(sweep, thing_at(x, y, kMargin_m, kWalks_m_s));
+    if (level == 0) continue;
+    limited += level < kSweepLevels ? 1U : 0U;
+    const double speed = sweep.speed_of(level), time_s = kReaction_s + speed / settings.deceleration_m_s2;
+    EXPECT_GT(least_to_advancing(settings, motion, path_of(settings, speed), x, y), kMargin_m + kWalks_m_s * time_s)
+        << k;
+  }
+  EXPECT_GT(limited, 40U);
 }
 
 TEST(StopSweep, WithoutAKnownMotionEveryDirectionCounts) {

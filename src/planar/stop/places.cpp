@@ -15,10 +15,6 @@ namespace {
 constexpr std::int16_t kNowhere = 0x7FFF;  // of a place that is none of the ground's
 constexpr float kInside_m = 0.1F;          // so far inside the footprint nothing but the machine can be
 constexpr float kNotUnder_m = -0.02F;      // places under the machine are not in its way
-constexpr auto kPlace_mm = static_cast<std::int32_t>(1000.0 * kPlace_m + 0.5);  // rounded to whole ones
-// A wall's tips stand out by less, the chest of a person with the back to it by more. Along a diagonal in both axes.
-constexpr std::int32_t kAside_mm = 230, kAsideDiagonal_mm = 325;
-constexpr std::int32_t kAsidePlaces = 3;  // what is so little aside is within as many
 
 std::uint32_t milliseconds(double s) {
   return static_cast<std::uint32_t>(s * 1000.0 + 0.5);
@@ -97,7 +93,7 @@ void Places::put_returns(const Sight& sight, const Way& way, const Eigen::Vector
     std::uint32_t& first_ms = hit.is_high ? place.first_ms : place.low_first_ms;
     const bool is_new = last_ms == 0 || now_ms - last_ms > gap_ms_;
     if (is_new) first_ms = now_ms;
-    if (is_new && hit.is_high) place.long_ms = 0;
+    if (is_new && hit.is_high) place.wall_ms = 0;
     last_ms = now_ms;
     if (!hit.is_high) return;
     const auto x_mm = static_cast<std::int32_t>((at.x() - place.ix * kPlace_m) * 1000.0);
@@ -185,99 +181,10 @@ void Places::confirm(const Way& way, const Sweep& sweep, std::uint32_t now_ms) {
   });
 }
 
-// Whether the one was remembered when the other was last seen. The memory of a wall ends place by place: what is left
-// of it behind the machine is still part of it.
-bool Places::was_there_with(const Place* near, const Place& place, const Way& way) const {
-  if (near == nullptr || near->thing_high_ms == 0) return false;
-  const bool was_seen_before = near->thing_high_ms < place.thing_high_ms;
-  if (!was_seen_before) return true;
-  return place.thing_high_ms - near->thing_high_ms <= memory_ms_ &&
-         way.error_m(near->thing_high_ms, place.thing_high_ms) <= drift_most_m_;
-}
-
-// It, or a neighbour, was there for long. What went out of sight then is taken to be still there.
-bool Places::is_settled(const Place& place, const Way& way) const {
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      const Place* const near = known_at(place.ix + dx, place.iy + dy);
-      if (was_there_with(near, place, way) && near->thing_high_ms - near->first_ms >= settle_ms_) return true;
-    }
-  }
-  return false;
-}
-
-// Whether a thing goes on so many steps along an axis: there, a place more or less far, and little aside of the line.
-bool Places::goes_on(const Place& place, const Way& way, const std::int32_t* axis, std::int32_t times) const {
-  const std::int32_t along_x = axis[0] > 0 ? 1 : 0, along_y = axis[1] > 0 ? 1 : axis[1] < 0 ? -1 : 0;
-  const bool is_diagonal = along_x * along_y != 0;
-  const std::int32_t along_most = is_diagonal ? 2 : 1, aside_most_mm = is_diagonal ? kAsideDiagonal_mm : kAside_mm;
-  for (std::int32_t dy = -kAsidePlaces; dy <= kAsidePlaces; ++dy) {
-    for (std::int32_t dx = -kAsidePlaces; dx <= kAsidePlaces; ++dx) {
-      const std::int32_t along = dx * along_x + dy * along_y;
-      if (along > along_most || along < -along_most) continue;
-      const Place* const near = known_at(place.ix + times * axis[0] + dx, place.iy + times * axis[1] + dy);
-      if (!was_there_with(near, place, way) || near->thing_high_ms - near->first_ms < settle_ms_) continue;
-      const std::int32_t x_mm = kPlace_mm * (near->ix - place.ix) + near->high_x_mm - place.high_x_mm;
-      const std::int32_t y_mm = kPlace_mm * (near->iy - place.iy) + near->high_y_mm - place.high_y_mm;
-      const std::int32_t aside_mm = x_mm * along_y - y_mm * along_x;
-      if (aside_mm <= aside_most_mm && aside_mm >= -aside_most_mm) return true;
-    }
-  }
-  return false;
-}
-
-// Whether it goes on in a line: half a metre to both sides, or a metre to one, along any of four axes. The face of a
-// wall does, with the tips of its rock. A person does not, even with the back to a wall.
-bool Places::is_long(const Place& place, const Way& way) const {
-  constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};  // half a metre in places
-  for (const auto& axis : kAxes) {
-    const auto goes_on = [&](std::int32_t times) { return this->goes_on(place, way, axis, times); };
-    const bool ahead = goes_on(1), behind = goes_on(-1);
-    if ((ahead && behind) || (ahead && goes_on(2)) || (behind && goes_on(-2))) return true;
-  }
-  return false;
-}
-
 // A high thing is gone where rays pass and nothing returned for the delay.
 void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const {
   const bool may_go = place->thing_high_ms != 0 && now_ms - place->thing_high_ms > delay_ms_;
   if (may_go && sight.passed_high(x, y)) place->thing_high_ms = 0;
-}
-
-// Whether what came into sight with it is smaller than a person: a tip of rock beside others.
-bool Places::came_alone(const Place& place) const {
-  constexpr std::int32_t kAround = 2;       // a person is 0.3 m wide
-  constexpr std::uint32_t kPlacesMost = 3;  // of which a person fills more
-  std::uint32_t count = 0;
-  for (std::int32_t dy = -kAround; dy <= kAround; ++dy) {
-    for (std::int32_t dx = -kAround; dx <= kAround; ++dx) {
-      const Place* const near = known_at(place.ix + dx, place.iy + dy);
-      if (near == nullptr || near->thing_high_ms == 0) continue;
-      const std::uint32_t apart_ms =
-          near->first_ms > place.first_ms ? near->first_ms - place.first_ms : place.first_ms - near->first_ms;
-      if (apart_ms < settle_ms_) ++count;
-    }
-  }
-  return count <= kPlacesMost;
-}
-
-// A wall: long and settled, or right behind such a place as seen from the sensor, or a small new part beside one. For
-// so long as a thing needs to settle it stays one: where neighbours go out of sight, nothing new was seen. `away`: from
-// the sensor to it, on the ground.
-bool Places::is_wall(Place* place, const Way& way, const Eigen::Vector2d& away, std::uint32_t now_ms) const {
-  const auto is_known = [&](const Place& p) { return p.long_ms != 0 && now_ms - p.long_ms <= settle_ms_; };
-  const bool is_fresh = place->long_ms != 0 && 2 * (now_ms - place->long_ms) < settle_ms_;
-  if (!is_fresh && is_settled(*place, way) && is_long(*place, way)) place->long_ms = now_ms;
-  if (is_known(*place)) return true;
-  const bool is_tip = came_alone(*place);
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      const Place* const near = known_at(place->ix + dx, place->iy + dy);
-      const bool is_beside = is_tip || dx * away.x() + dy * away.y() < 0.0;
-      if (is_beside && was_there_with(near, *place, way) && is_known(*near)) return true;
-    }
-  }
-  return false;
 }
 
 // What a place is to the sweep: false if it is free.
@@ -298,9 +205,9 @@ bool Places::is_hazard(Place* place, const Way& way, const Eigen::Vector2d& away
   hazard->kind =
       static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) + (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
   if (!is_high) return true;
-  if (is_wall(place, way, away, now_ms)) return true;
+  if (is_wall(place, away, now_ms) || !fits_person(*place, away)) return true;
   hazard->approach_m_s = approach_m_s_;
-  hazard->sooner_s = is_settled(*place, way) ? sooner_s_ : 0.0F;
+  hazard->sooner_s = has_stood_here(*place, away) ? sooner_s_ : 0.0F;
   return true;
 }
 

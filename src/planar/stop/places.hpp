@@ -33,7 +33,7 @@ struct Place {
   std::uint32_t low_first_ms;                  // likewise of the low ones
   std::uint32_t doubt_first_ms, doubt_ms;      // a few returns
   std::uint32_t dust_ms;                       // returns of dust or of a thin thing
-  std::uint32_t long_ms;                       // last part of something long that stands still
+  std::uint32_t wall_ms;                       // last part of a wall
   std::uint8_t doubts[2], doubts_in_frame[2];  // low and high ones, as long as they go on, and in the last frame
   std::uint8_t dust_run;                       // of frames in turn with such returns around it
   std::uint8_t high_x_mm, high_y_mm;           // where in it the high returns are, in the mean of the last ones
@@ -71,8 +71,7 @@ class Places {
   template <typename Visit>
   void each_around(const Way& way, const Eigen::Vector2d& middle_m, double half_m, const Visit& visit) const;
   void let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const;
-  bool came_alone(const Place& place) const;
-  bool is_wall(Place* place, const Way& way, const Eigen::Vector2d& away, std::uint32_t now_ms) const;
+  bool is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const;
   // What find_hazards looks from.
   struct HazardScene {
     const Sight& sight;
@@ -101,10 +100,15 @@ class Places {
   Around look_around(Place* place, const Sight::Return& hit, std::uint32_t now_ms);
   bool is_thin_thing(Place* place, float by_chance, std::uint32_t now_ms);
   bool is_remembered(std::uint32_t when_ms, const Way& way, std::uint32_t now_ms) const;
-  bool was_there_with(const Place* near, const Place& place, const Way& way) const;
-  bool is_settled(const Place& place, const Way& way) const;
-  bool goes_on(const Place& place, const Way& way, const std::int32_t* axis, std::int32_t times) const;
-  bool is_long(const Place& place, const Way& way) const;
+  bool was_seen_with(const Place& near, const Place& place) const;
+  Eigen::Vector2d body_behind(const Place& place, const Eigen::Vector2d& away) const;
+  bool fits_person(const Place& place, const Eigen::Vector2d& away) const;
+  bool came_into_sight(const Place& place, const Eigen::Vector2d& away) const;
+  bool has_stood(const Place& place, const Eigen::Vector2d& away) const;
+  bool has_stood_here(const Place& place, const Eigen::Vector2d& away) const;
+  enum class Line { none, deeper, flush };
+  Line line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* axis, std::int32_t times) const;
+  bool is_in_line(const Place& place, const Eigen::Vector2d& away) const;
   bool is_free(const Place& place, const Way& way, std::uint32_t now_ms) const;
 
   Span<Place> places_;

@@ -11,9 +11,10 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kStepLeast_m = 0.1;  // of the rim, between slices
-constexpr float kNearer_m = 0.01F;    // a place within its margin may come nearer by less than this
-constexpr float kFar_m = 1e9F;        // further than anything
+constexpr double kStepLeast_m = 0.1;   // of the rim, between slices
+constexpr float kNearer_m = 0.01F;     // a place within its margin may come nearer by less than this
+constexpr float kFar_m = 1e9F;         // further than anything
+constexpr double kTowards_m_s = 0.01;  // a surface that moves outwards more slowly does not touch, it is touched
 
 }  // namespace
 
@@ -44,6 +45,28 @@ void Sweep::open(const StopSettings& settings) {
 void Sweep::set_motion(const SweepMotion& motion, double reaction_s) {
   set_levels(motion, reaction_s);
   set_slices(motion);
+  set_advancing(motion);
+}
+
+// Who walks cannot be touched by surfaces that slide along or recede. Outward speed is linear along an edge.
+void Sweep::set_advancing(const SweepMotion& motion) {
+  const double least = kTowards_m_s / top_m_s_;
+  advancing_count_ = 0;
+  for (std::uint32_t e = 0; e < edges_; ++e) {
+    const double nx = static_cast<double>(normal_x_[e]), ny = static_cast<double>(normal_y_[e]);
+    const std::uint32_t next = e + 1 < edges_ ? e + 1 : 0;
+    const auto outward_at = [&](std::uint32_t corner) {
+      return nx * (motion.velocity.x() - motion.turn_rad_m * corner_y_[corner]) +
+             ny * (motion.velocity.y() + motion.turn_rad_m * corner_x_[corner]);
+    };
+    const auto along = [&](std::uint32_t corner) { return nx * corner_y_[corner] - ny * corner_x_[corner]; };
+    const double first = outward_at(e) - least, last = outward_at(next) - least;
+    if (!motion.any && first <= 0.0 && last <= 0.0) continue;
+    double from_m = along(e), to_m = along(next);
+    if (!motion.any && first < 0.0) from_m += (to_m - from_m) * first / (first - last);
+    if (!motion.any && last < 0.0) to_m = along(e) + (to_m - along(e)) * first / (first - last);
+    advancing_[advancing_count_++] = {e, static_cast<float>(from_m), static_cast<float>(to_m)};
+  }
 }
 
 void Sweep::set_levels(const SweepMotion& motion, double reaction_s) {
@@ -145,38 +168,79 @@ FourFloats Sweep::least_until(const Four& four, std::uint32_t slices, FourFloats
   return least;
 }
 
-// Accepted if inside: a distance that is no number is not clear.
-bool Sweep::is_clear(float least_m, float now_m, const Hazard& hazard, std::uint32_t level) const {
-  if (level == 0) return true;
-  const bool may_pass = hazard.sooner_s > 0.0F && speed_of(level) <= creeping_m_s_;
-  const float walk_m = may_pass ? 0.0F : hazard.approach_m_s * (time_[level] - hazard.sooner_s);
-  const float margin_m = hazard.margin_m + growth_[level] + walk_m;
-  // A place that was not seen, beside the way: what counts is that the machine does not go there.
-  if (hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN && least_m >= now_m - kNearer_m && !any_) return true;
-  // Already within the margin of a thing that stands still: slowly, and not nearer.
-  const bool is_beside = now_m <= hazard.margin_m + growth_[1] && !(walk_m > 0.0F) && !any_;
-  if (is_beside) return least_m >= now_m - kNearer_m + (growth_[level] - growth_[1]);
-  return least_m > margin_m;
+// To the parts of the rim that move outwards, at a slice: no more than that.
+FourFloats Sweep::ahead_at(const Four& four, std::uint32_t slice, FourFloats (*bounds)[kSegmentBounds]) const {
+  const FourFloats dx = four.x - x_[slice], dy = four.y - y_[slice];
+  const FourFloats qx = cosine_[slice] * dx + sine_[slice] * dy, qy = cosine_[slice] * dy - sine_[slice] * dx;
+  FourFloats least = all_four(kFar_m);
+  for (std::uint32_t k = 0; k < advancing_count_; ++k) {
+    const Advancing& part = advancing_[k];
+    const FourFloats out = normal_x_[part.edge] * qx + normal_y_[part.edge] * qy - offset_[part.edge];
+    const FourFloats along = normal_x_[part.edge] * qy - normal_y_[part.edge] * qx;
+    FourFloats* const bound = bounds[k];
+    bound[0] = out, bound[1] = -out, bound[2] = part.from_m - along, bound[3] = along - part.to_m;
+    least = smaller_of(least, larger_of(larger_of(bound[0], bound[1]), larger_of(bound[2], bound[3])));
+  }
+  return least;
 }
 
-float Sweep::least_of(const Hazard& hazard, std::uint32_t slices) const {
+FourFloats Sweep::ahead_until(const Four& four, std::uint32_t slices) const {
+  FourFloats before[kSweepEdges][kSegmentBounds], here[kSweepEdges][kSegmentBounds];
+  FourFloats least = ahead_at(four, 0, before);
+  for (std::uint32_t k = 1; k <= slices; ++k) {
+    ahead_at(four, k, here);
+    for (std::uint32_t part = 0; part < advancing_count_; ++part) {
+      FourFloats between = all_four(-kFar_m);
+      for (std::uint32_t j = 0; j < kSegmentBounds; ++j) {
+        between = larger_of(between, smaller_of(before[part][j], here[part][j]));
+        before[part][j] = here[part][j];
+      }
+      least = smaller_of(least, between);
+    }
+  }
+  return least;
+}
+
+// Accepted if inside: a distance that is no number is not clear.
+bool Sweep::is_clear(const Nearness& near, const Hazard& hazard, std::uint32_t level) const {
+  if (level == 0) return true;
+  const float margin_m = hazard.margin_m + growth_[level];
+  // A place that was not seen, beside the way: what counts is that the machine does not go there.
+  if (hazard.kind == POSE_WALL_PLANAR_STOP_UNSEEN && near.least_m >= near.now_m - kNearer_m && !any_) return true;
+  const bool may_pass = hazard.sooner_s > 0.0F && speed_of(level) <= creeping_m_s_;
+  const float walk_m = may_pass ? 0.0F : hazard.approach_m_s * (time_[level] - hazard.sooner_s);
+  if (walk_m > 0.0F && !(near.ahead_m > margin_m + walk_m)) return false;
+  // Already within the margin: slowly, and not nearer.
+  const bool is_beside = near.now_m <= hazard.margin_m + growth_[1] && !any_;
+  if (is_beside) return near.least_m >= near.now_m - kNearer_m + (growth_[level] - growth_[1]);
+  return near.least_m > margin_m;
+}
+
+Sweep::Nearness Sweep::nearness_of(const Hazard& hazard, std::uint32_t slices) const {
+  const Four four{all_four(hazard.x_m), all_four(hazard.y_m)};
   FourFloats now;
-  return least_until({all_four(hazard.x_m), all_four(hazard.y_m)}, slices, &now)[0];
+  const float least_m = least_until(four, slices, &now)[0];
+  return {least_m, now[0], hazard.approach_m_s > 0.0F ? ahead_until(four, slices)[0] : kFar_m};
 }
 
 std::uint32_t Sweep::highest_level(Span<const Hazard> hazards, std::int32_t* limiting) const {
   std::uint32_t level = top_level_;
   *limiting = -1;
   for (std::uint32_t first = 0; first < hazards.size() && level > 0; first += kFour) {
+    const Four four = lanes_of(hazards, first);
     FourFloats now;
-    const FourFloats least = least_until(lanes_of(hazards, first), slices_of_[level], &now);
-    for (std::uint32_t lane = 0; lane < kFour && first + lane < hazards.size(); ++lane) {
-      const Hazard& hazard = hazards[first + lane];
-      float here = least[lane];
-      while (level > 0 && !is_clear(here, now[lane], hazard, level)) {
+    const FourFloats least = least_until(four, slices_of_[level], &now);
+    const std::uint32_t end =
+        first + kFour < hazards.size() ? first + kFour : static_cast<std::uint32_t>(hazards.size());
+    bool may_walk = false;
+    for (std::uint32_t k = first; k < end; ++k) may_walk = may_walk || hazards[k].approach_m_s > 0.0F;
+    const FourFloats ahead = may_walk ? ahead_until(four, slices_of_[level]) : all_four(kFar_m);
+    for (std::uint32_t k = first; k < end; ++k) {
+      Nearness near{least[k - first], now[k - first], ahead[k - first]};
+      while (level > 0 && !is_clear(near, hazards[k], level)) {
         --level;
-        here = least_of(hazard, slices_of_[level]);
-        *limiting = static_cast<std::int32_t>(first + lane);
+        near = nearness_of(hazards[k], slices_of_[level]);
+        *limiting = static_cast<std::int32_t>(k);
       }
     }
   }
@@ -185,7 +249,7 @@ std::uint32_t Sweep::highest_level(Span<const Hazard> hazards, std::int32_t* lim
 
 double Sweep::path_to(const Hazard& hazard) const {
   for (std::uint32_t k = 0; k <= slices_; ++k) {
-    if (!(least_of(hazard, k) > hazard.margin_m)) return k > 0 ? (k - 1) * step_m_ : 0.0;
+    if (!(nearness_of(hazard, k).least_m > hazard.margin_m)) return k > 0 ? (k - 1) * step_m_ : 0.0;
   }
   return std::numeric_limits<double>::infinity();
 }

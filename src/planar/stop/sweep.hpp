@@ -72,19 +72,35 @@ class Sweep {
   double radius_m() const { return radius_m_; }
 
  private:
+  static constexpr std::uint32_t kSegmentBounds = 4;  // half planes whose largest distance is no more than a segment's
   struct Four;
   static float larger_of_two(float a, float b) { return a > b ? a : b; }
   void set_levels(const SweepMotion& motion, double reaction_s);
   void set_slices(const SweepMotion& motion);
   Four lanes_of(Span<const Hazard> hazards, std::uint32_t first) const;
-  bool is_clear(float least_m, float now_m, const Hazard& hazard, std::uint32_t level) const;
+  void set_advancing(const SweepMotion& motion);
+  // How near a hazard comes until a level's standstill: to the footprint, to where that is now, and to what of its rim
+  // moves outwards.
+  struct Nearness {
+    float least_m, now_m, ahead_m;
+  };
+  bool is_clear(const Nearness& near, const Hazard& hazard, std::uint32_t level) const;
   FourFloats distances(const Four& four, std::uint32_t slice, FourFloats* edges) const;
   FourFloats least_until(const Four& four, std::uint32_t slices, FourFloats* now) const;
-  float least_of(const Hazard& hazard, std::uint32_t slices) const;
+  FourFloats ahead_at(const Four& four, std::uint32_t slice, FourFloats (*bounds)[kSegmentBounds]) const;
+  FourFloats ahead_until(const Four& four, std::uint32_t slices) const;
+  Nearness nearness_of(const Hazard& hazard, std::uint32_t slices) const;
 
   std::uint32_t edges_ = 0, slices_ = 0, top_level_ = 0;
   bool any_ = false;
   float normal_x_[kSweepEdges], normal_y_[kSweepEdges], offset_[kSweepEdges];
+  // The parts of edges that move outwards: from where to where along the edge, in metres.
+  struct Advancing {
+    std::uint32_t edge;
+    float from_m, to_m;
+  };
+  Advancing advancing_[kSweepEdges];
+  std::uint32_t advancing_count_ = 0;
   double corner_x_[kSweepEdges], corner_y_[kSweepEdges];
   double radius_m_ = 0.0, top_m_s_ = 0.0, deceleration_ = 1.0, scan_s_ = 0.0, approach_m_s_ = 0.0;
   double creeping_m_s_ = 0.0, step_m_ = 0.1;

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What the stop takes for walls and what for people: rock, bends, niches, and people who come out of them.
+
+#include <gtest/gtest.h>
+
+#include "planar/encounter/mount_table.hpp"
+
+namespace {
+
+using namespace pose_wall::test;
+
+constexpr std::int64_t kWatch_ns = 100000000;
+
+// A machine that stands in a road and wants to go straight ahead.
+class Watching {
+ public:
+  explicit Watching(World world) : world_(std::move(world)), sensor_(Pattern::os1_64, 2.0, 1.5, 0.0, 0.28, 1.0, 1024) {
+    stop_.open(sensor_, encounter_settings());
+    EXPECT_EQ(pose_wall_planar_stop_confirm(stop_.get()), POSE_WALL_OK);
+    motion_.struct_size = sizeof(motion_);
+    motion_.given = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
+    motion_.command_speed_m_s = 0.05;
+  }
+  const pose_wall_planar_stop_result& frame() {
+    scan_.take(sensor_, world_, 0.0, 0.0, 0.0, 0.0, 0.0, &draw_);
+    stamp_ns_ += kWatch_ns;
+    const pose_wall_cloud cloud = scan_.cloud(stamp_ns_);
+    EXPECT_EQ(pose_wall_planar_stop_process(stop_.get(), &cloud, &motion_, stamp_ns_ + 1000000, &stop_.result()),
+              POSE_WALL_OK);
+    return stop_.result();
+  }
+  World& world() { return world_; }
+
+ private:
+  World world_;
+  Sensor sensor_;
+  Scan scan_;
+  Draw draw_{5};
+  StopUnderTest stop_;
+  pose_wall_planar_stop_motion motion_{};
+  std::int64_t stamp_ns_ = 1000000000;
+};
+
+bool is_nearing(const pose_wall_planar_stop_result& r) {
+  return (r.reasons & POSE_WALL_PLANAR_STOP_R_NEARING) != 0;
+}
+
+World road_of(double half_width_m) {
+  World world;
+  world.half_width_m = half_width_m, world.wall_wave_m = 0.02;
+  return world;
+}
+
+Thing box(double x_m, double y_m, double half_x_m, double half_y_m) {
+  return {x_m, y_m, 0.0, half_x_m, half_y_m, -0.1, 3.0};
+}
+
+// Walls behind the machine and round the bend come into sight all the time.
+TEST(StopWall, BendsAreDriven) {
+  for (const char* name : {"vlp16-front-1.35-10", "os1_64-front-1.35-15"}) {
+    const pose_wall::test::Mount mount = mounts_named(name).front();
+    for (const std::uint64_t seed : {22U, 23U}) {
+      Draw draw(seed);
+      const Plan plan = clear_road(mount, Road::curve, false, false, &draw);
+      StopUnderTest stop;
+      const pose_wall_planar_stop_settings settings = settings_of(mount);
+      const Outcome out = Encounter(plan, settings, &stop, &draw).run();
+      EXPECT_LE(out.stops, 2U) << name << " " << seed;
+      EXPECT_GT(out.moved_m, 50.0) << name << " " << seed;
+    }
+  }
+}
+
+// Blocks of rock are as deep as people are thick.
+TEST(StopWall, ARoadOfRockIsDriven) {
+  const pose_wall::test::Mount mount = mounts_named("os1_64-front-1.35-15").front();
+  constexpr std::uint64_t kKinds = 4;  // of rock, by the seed
+  double moved_m = 0.0;
+  std::uint32_t stops = 0;
+  for (std::uint64_t seed = 0; seed < kKinds; ++seed) {
+    Draw draw(seed + 31);
+    Plan plan = clear_road(mount, Road::straight, false, false, &draw);
+    plan.world.rock = std::make_shared<Rock>(seed);
+    plan.lasts_s = 30.0;
+    StopUnderTest stop;
+    const pose_wall_planar_stop_settings settings = settings_of(mount);
+    const Outcome out = Encounter(plan, settings, &stop, &draw).run();
+    stops += out.stops, moved_m += out.moved_m;
+  }
+  EXPECT_LE(stops, 4U);
+  EXPECT_GT(moved_m, 85.0);  // of 4 runs of 27 m at most
+}
+
+// Who stands in a niche is of the rock as long as they are in it. They count once they stand out of its line, before
+// they can reach the front edge until the machine stands.
+TEST(StopWall, WhoComesOutOfANicheCountsBeforeTheyAreNear) {
+  constexpr double kHalfWidth_m = 2.8, kDeep_m = 0.5, kRadius_m = 0.2, kLine_m = kHalfWidth_m - kDeep_m;
+  constexpr double kNiche_m = 4.0, kHalfNiche_m = 0.4, kBlock_m = 1.5;
+  for (const double walks_m_s : {0.3, 1.0, 1.6}) {
+    World world = road_of(kHalfWidth_m);
+    for (const double side : {-1.0, 1.0}) {
+      world.things.push_back(
+          box(kNiche_m + side * (kHalfNiche_m + kBlock_m), kHalfWidth_m - 0.5 * kDeep_m, kBlock_m, 0.5 * kDeep_m));
+    }
+    world.things.push_back(round_thing(kNiche_m, kHalfWidth_m - kRadius_m - 0.05, kRadius_m, -0.1, 1.8));
+    Watching watching(world);
+    for (int k = 0; k < 40; ++k) watching.frame();
+    Thing& person = watching.world().things.back();
+    std::uint32_t counted = 0;
+    while (person.y_m > 1.0) {
+      person.y_m -= 0.1 * walks_m_s;
+      const auto& result = watching.frame();
+      constexpr double kChest_m = 0.23,
+                       kPlaces_m = 0.2;  // what the line gives away; places of the rock and of the person
+      if (kLine_m - (person.y_m - kRadius_m) < kChest_m + kPlaces_m + 0.1 * walks_m_s) continue;
+      ++counted;
+      // From a stop that is known to stand: in 0.45 s + v / a, as far as it has driven then.
+      const double v_m_s = result.stop_speed_m_s, drives_m = 0.45 * v_m_s + 0.5 * v_m_s * v_m_s;
+      const double ahead_m = std::fmax(kNiche_m - 2.25 - drives_m, 0.0);
+      EXPECT_LE(1.6 * (0.45 + v_m_s), std::hypot(ahead_m, person.y_m - 0.6) - kRadius_m)
+          << walks_m_s << " " << person.y_m;
+    }
+    EXPECT_GT(counted, 3U);
+  }
+}
+
+TEST(StopWall, PeopleWhoComeAbreastAreNoWall) {
+  World world = road_of(3.0);
+  for (const double y : {-0.9, -0.45, 0.0, 0.45, 0.9}) world.things.push_back(round_thing(9.0, y, 0.2, -0.1, 1.8));
+  Watching watching(world);
+  for (int k = 0; k < 40; ++k) watching.frame();  // they may be a wall as long as they stand
+  for (int k = 0; k < 45; ++k) {
+    for (Thing& person : watching.world().things) person.x_m -= 0.1;
+    const auto& result = watching.frame();
+    if (k < 20) continue;  // further than 7 m away
+    EXPECT_TRUE(is_nearing(result)) << k;
+  }
+}
+
+// From standstill in an unknown road, where all is seen.
+TEST(StopWall, TheFirstMetreTakesNoMoreThanThreeSeconds) {
+  for (const char* name : {"vlp16-front-1.35-10", "os1_64-front-1.35-15", "os0_128-front-1.35-15"}) {
+    const pose_wall::test::Mount mount = mounts_named(name).front();
+    Draw draw(9);
+    Plan plan = clear_road(mount, Road::straight, false, false, &draw);
+    plan.lasts_s = 6.0;
+    StopUnderTest stop;
+    const pose_wall_planar_stop_settings settings = settings_of(mount);
+    EXPECT_LE(Encounter(plan, settings, &stop, &draw).run().first_metre_s, 3.0) << name;
+  }
+}
+
+}  // namespace
