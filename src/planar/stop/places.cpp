@@ -76,8 +76,15 @@ bool Places::is_thing(const Place& place, const Way& way, std::uint32_t now_ms) 
   return is_remembered(place.thing_low_ms, way, now_ms) || is_remembered(place.thing_high_ms, way, now_ms);
 }
 
+// Low things do not come by themselves, and nobody brings one to a place that is watched: of the time since it was seen
+// free low, the part without a watch counts.
+bool Places::is_low_free(const Place& place, const Way& way) const {
+  const std::uint32_t unwatched_ms = place.watched_ms > place.low_ms ? place.watched_ms - place.low_ms : 0;
+  return place.low_ms != 0 && unwatched_ms <= memory_ms_ && way.error_m(place.low_ms) <= drift_most_m_;
+}
+
 bool Places::is_free(const Place& place, const Way& way, std::uint32_t now_ms) const {
-  return is_remembered(place.low_ms, way, now_ms) && is_remembered(place.top_ms, way, now_ms) && place.tall_ms != 0 &&
+  return is_low_free(place, way) && is_remembered(place.top_ms, way, now_ms) && place.tall_ms != 0 &&
          now_ms - place.tall_ms <= delay_ms_;
 }
 
@@ -146,7 +153,10 @@ void Places::put_seen(const Sight& sight, const Way& way, const Eigen::Vector2d&
   const Sight::Bounds& in = sight.seen_within();
   const auto put = [&](std::int32_t ix, std::int32_t iy, std::int32_t seen) {
     Place& place = place_at(ix, iy);
-    if ((seen & Sight::kTall) != 0) place.tall_ms = now_ms;
+    if ((seen & Sight::kTall) != 0) {
+      if (place.tall_ms == 0 || now_ms - place.tall_ms > delay_ms_) place.watched_ms = now_ms;
+      place.tall_ms = now_ms;
+    }
     if ((seen & Sight::kTop) != 0) place.top_ms = now_ms;
     if ((seen & Sight::kLow) == 0) return;
     place.low_ms = now_ms;

@@ -27,6 +27,7 @@ struct Place {
   std::int16_t ix, iy;                         // which place of the ground this is
   std::uint32_t low_ms;                        // seen free low; 0: never
   std::uint32_t tall_ms;                       // seen free of people
+  std::uint32_t watched_ms;                    // since then it was, again and again
   std::uint32_t top_ms;                        // seen free of what hangs
   std::uint32_t thing_low_ms, thing_high_ms;   // last return; 0: none, or seen gone
   std::uint32_t first_ms;                      // of the high returns that go on until now
@@ -109,6 +110,7 @@ class Places {
   enum class Line { none, deeper, flush };
   Line line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* axis, std::int32_t times) const;
   bool is_in_line(const Place& place, const Eigen::Vector2d& away) const;
+  bool is_low_free(const Place& place, const Way& way) const;
   bool is_free(const Place& place, const Way& way, std::uint32_t now_ms) const;
 
   Span<Place> places_;
