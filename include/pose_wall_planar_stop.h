@@ -87,8 +87,9 @@ POSE_WALL_CHECKED int32_t pose_wall_planar_stop_settings_check(const pose_wall_p
                                                                pose_wall_planar_fault* fault);
 
 /* The machine's motion, each part with its bit. Give both the measured motion and the command under way: the stop
- * covers all between them. Where no measured one is given, that of the odometry counts (_note_odometry), with its own
- * levels. Without any the stop assumes every motion that the settings allow. Speeds are along forward_axis,
+ * covers all between them. Turn only once the stop has answered that command: people beside the machine count for
+ * what moves towards them. Where no measured motion is given, that of the odometry counts (_note_odometry), with its
+ * own levels. Without any the stop assumes every motion that the settings allow. Speeds are along forward_axis,
  * negative backwards; turns are to the left. */
 enum pose_wall_planar_stop_given { POSE_WALL_PLANAR_STOP_MEASURED = 1, POSE_WALL_PLANAR_STOP_COMMANDED = 2 };
 typedef struct pose_wall_planar_stop_motion {

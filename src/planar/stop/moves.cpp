@@ -120,7 +120,12 @@ SweepMotion Moves::sweep() const {
   sweep.turn_error_rad_s = now_.turn_error_rad_s;
   if (!now_.given[kMeasured]) {
     sweep.aside_m_s = fast_m_s_ - slow_m_s_;
+    sweep.may_go_on = sweep.aside_m_s > kStill;
     return sweep;
+  }
+  if (!now_.may_stand) {
+    sweep.measured_m_s = now_.speed_m_s[kMeasured] * forward_;
+    sweep.measured_turn_rad_s = now_.turn_rad_s[kMeasured];
   }
   // In the plane of speed and turn by the lever: the part of the measured motion that the direction leaves.
   const double a = sweep.velocity.dot(forward_), b = sweep.turn_rad_m * radius_m_, ab = a * a + b * b;

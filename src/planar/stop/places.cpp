@@ -215,9 +215,9 @@ bool Places::is_hazard(Place* place, const Way& way, const Eigen::Vector2d& away
   hazard->kind =
       static_cast<std::uint32_t>((is_low ? POSE_WALL_PLANAR_STOP_LOW : 0) + (is_high ? POSE_WALL_PLANAR_STOP_HIGH : 0));
   if (!is_high) return true;
-  if (is_wall(place, away, now_ms) || !fits_person(*place, away)) return true;
+  if (is_wall(place, away, now_ms)) return true;
   hazard->approach_m_s = approach_m_s_;
-  hazard->sooner_s = has_stood_here(*place, away) ? sooner_s_ : 0.0F;
+  hazard->sooner_s = is_settled(*place) ? sooner_s_ : 0.0F;
   return true;
 }
 

@@ -102,13 +102,14 @@ class Places {
   bool is_thin_thing(Place* place, float by_chance, std::uint32_t now_ms);
   bool is_remembered(std::uint32_t when_ms, const Way& way, std::uint32_t now_ms) const;
   bool was_seen_with(const Place& near, const Place& place) const;
-  Eigen::Vector2d body_behind(const Place& place, const Eigen::Vector2d& away) const;
-  bool fits_person(const Place& place, const Eigen::Vector2d& away) const;
+  const Place* under_body(const Place& place, const Eigen::Vector2d& away) const;
+  bool walked_in(const Place& place, const Eigen::Vector2d& away) const;
   bool came_into_sight(const Place& place, const Eigen::Vector2d& away) const;
   bool has_stood(const Place& place, const Eigen::Vector2d& away) const;
-  bool has_stood_here(const Place& place, const Eigen::Vector2d& away) const;
+  bool is_settled(const Place& place) const;
   enum class Line { none, deeper, flush };
   Line line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* axis, std::int32_t times) const;
+  bool came_alone(const Place& place) const;
   bool is_in_line(const Place& place, const Eigen::Vector2d& away) const;
   bool is_low_free(const Place& place, const Way& way) const;
   bool is_free(const Place& place, const Way& way, std::uint32_t now_ms) const;

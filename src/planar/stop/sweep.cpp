@@ -48,24 +48,32 @@ void Sweep::set_motion(const SweepMotion& motion, double reaction_s) {
   set_advancing(motion);
 }
 
-// Who walks cannot be touched by surfaces that slide along or recede. Outward speed is linear along an edge.
+// Who walks cannot be touched by surfaces that slide along or recede, neither as the machine moves now nor as it will.
 void Sweep::set_advancing(const SweepMotion& motion) {
-  const double least = kTowards_m_s / top_m_s_;
+  const bool is_every = motion.any || motion.may_go_on;
   advancing_count_ = 0;
   for (std::uint32_t e = 0; e < edges_; ++e) {
-    const double nx = static_cast<double>(normal_x_[e]), ny = static_cast<double>(normal_y_[e]);
     const std::uint32_t next = e + 1 < edges_ ? e + 1 : 0;
-    const auto outward_at = [&](std::uint32_t corner) {
-      return nx * (motion.velocity.x() - motion.turn_rad_m * corner_y_[corner]) +
-             ny * (motion.velocity.y() + motion.turn_rad_m * corner_x_[corner]);
+    const double nx = static_cast<double>(normal_x_[e]), ny = static_cast<double>(normal_y_[e]);
+    const double from_m = nx * corner_y_[e] - ny * corner_x_[e], to_m = nx * corner_y_[next] - ny * corner_x_[next];
+    Advancing part{e, static_cast<float>(to_m), static_cast<float>(from_m)};  // of no length yet
+    // Outward speed is linear along an edge.
+    const auto add = [&](const Eigen::Vector2d& velocity, double turn, double least) {
+      const auto over_at = [&](std::uint32_t corner) {
+        return nx * (velocity.x() - turn * corner_y_[corner]) + ny * (velocity.y() + turn * corner_x_[corner]) - least;
+      };
+      const double first = over_at(e), last = over_at(next);
+      if (first <= 0.0 && last <= 0.0) return;
+      const double zero_m = from_m + (to_m - from_m) * first / (first - last);
+      const auto begins_m = static_cast<float>(first < 0.0 ? zero_m : from_m);
+      const auto ends_m = static_cast<float>(last < 0.0 ? zero_m : to_m);
+      if (begins_m < part.from_m) part.from_m = begins_m;
+      if (ends_m > part.to_m) part.to_m = ends_m;
     };
-    const auto along = [&](std::uint32_t corner) { return nx * corner_y_[corner] - ny * corner_x_[corner]; };
-    const double first = outward_at(e) - least, last = outward_at(next) - least;
-    if (!motion.any && first <= 0.0 && last <= 0.0) continue;
-    double from_m = along(e), to_m = along(next);
-    if (!motion.any && first < 0.0) from_m += (to_m - from_m) * first / (first - last);
-    if (!motion.any && last < 0.0) to_m = along(e) + (to_m - along(e)) * first / (first - last);
-    advancing_[advancing_count_++] = {e, static_cast<float>(from_m), static_cast<float>(to_m)};
+    add(motion.velocity, motion.turn_rad_m, kTowards_m_s / top_m_s_);
+    add(motion.measured_m_s, motion.measured_turn_rad_s, kTowards_m_s);
+    if (is_every) part.from_m = static_cast<float>(from_m), part.to_m = static_cast<float>(to_m);
+    if (part.from_m < part.to_m) advancing_[advancing_count_++] = part;
   }
 }
 
@@ -248,8 +256,10 @@ std::uint32_t Sweep::highest_level(Span<const Hazard> hazards, std::int32_t* lim
 }
 
 double Sweep::path_to(const Hazard& hazard) const {
+  const Four four{all_four(hazard.x_m), all_four(hazard.y_m)};
   for (std::uint32_t k = 0; k <= slices_; ++k) {
-    if (!(nearness_of(hazard, k).least_m > hazard.margin_m)) return k > 0 ? (k - 1) * step_m_ : 0.0;
+    FourFloats now;
+    if (!(least_until(four, k, &now)[0] > hazard.margin_m)) return k > 0 ? (k - 1) * step_m_ : 0.0;
   }
   return std::numeric_limits<double>::infinity();
 }

@@ -26,11 +26,14 @@ constexpr double kSweepReach_m = 7.8;                                     // pla
 
 // The motion that a sweep is about: every motion s * twist + deviation, s from 0 to the rim speed.
 struct SweepMotion {
-  Eigen::Vector2d velocity = Eigen::Vector2d::UnitX();    // of base, for a rim speed of 1 m/s
-  double turn_rad_m = 0.0;                                // likewise
-  double speed_error_ratio = 0.0, speed_error_m_s = 0.0;  // along the arc: it may be so much faster
-  double turn_error_rad_s = 0.0, aside_m_s = 0.0;         // deviation from the arc
-  bool any = false;                                       // every motion up to the top speed
+  Eigen::Vector2d velocity = Eigen::Vector2d::UnitX();     // of base, for a rim speed of 1 m/s
+  double turn_rad_m = 0.0;                                 // likewise
+  double speed_error_ratio = 0.0, speed_error_m_s = 0.0;   // along the arc: it may be so much faster
+  double turn_error_rad_s = 0.0, aside_m_s = 0.0;          // deviation from the arc
+  Eigen::Vector2d measured_m_s = Eigen::Vector2d::Zero();  // what it does now, where that is known
+  double measured_turn_rad_s = 0.0;
+  bool may_go_on = false;  // a change of the command is under way: the machine may move as it was told before
+  bool any = false;        // every motion up to the top speed
 };
 
 // A place in the way: thing or blind.

@@ -19,55 +19,54 @@ constexpr std::int32_t kChest_mm = 230, kChestDiagonal_mm = 325;
 constexpr std::int32_t kDeep_mm = 500, kDeepDiagonal_mm = 707;
 constexpr std::int32_t kDeepPlaces = 5;  // as many of 0.1 m
 constexpr double kAcross2 = 0.2 * 0.2;   // sine, squared: of a line that points at the sensor no side is the deeper one
-constexpr double kBody_m = 0.5e-3 * kChest_mm;  // from a chest's front to its middle
+constexpr double kBody_m = 0.115;        // from a chest's front to its middle
+constexpr double kSomething_m = 1e-6;    // a place at the sensor has no direction
 
 }  // namespace
 
-// Whether it was still seen when the other last was. Who walks leaves places behind them, where nobody sees them gone.
+// Whether it was there and still seen when the other last was. Who walks leaves places behind them, where nobody sees
+// them gone.
 bool Places::was_seen_with(const Place& near, const Place& place) const {
-  return near.thing_high_ms != 0 && near.thing_high_ms + delay_ms_ >= place.thing_high_ms;
+  return near.thing_high_ms != 0 && near.first_ms <= place.thing_high_ms &&
+         near.thing_high_ms + delay_ms_ >= place.thing_high_ms;
 }
 
-// Where the middle of a body would be whose front returned at a place: what is in sight returns there.
-Eigen::Vector2d Places::body_behind(const Place& place, const Eigen::Vector2d& away) const {
-  const Eigen::Vector2d in_place_m(0.001 * place.high_x_mm, 0.001 * place.high_y_mm);
-  return kPlace_m * Eigen::Vector2d(place.ix, place.iy) + in_place_m + kBody_m / away.norm() * away;
+// The ground under the middle of a body whose front returned at a place: what is in sight returns there.
+const Place* Places::under_body(const Place& place, const Eigen::Vector2d& away) const {
+  const Eigen::Vector2d front_m(kPlace_m * place.ix + 0.001 * place.high_x_mm,
+                                kPlace_m * place.iy + 0.001 * place.high_y_mm);
+  const Eigen::Vector2d middle_m = front_m + kBody_m / (away.norm() + kSomething_m) * away;
+  return known_at(place_of(middle_m.x()), place_of(middle_m.y()));
 }
 
-// False where rays passed through the body that would have returned there, since it last did: a tip of rock. A body may
-// have its middle beside the place that is right behind the return.
-bool Places::fits_person(const Place& place, const Eigen::Vector2d& away) const {
-  const Eigen::Vector2d body_m = body_behind(place, away);
-  for (std::int32_t dy = -1; dy <= 1; ++dy) {
-    for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      const Place* const at = known_at(place_of(body_m.x()) + dx, place_of(body_m.y()) + dy);
-      const bool is_itself = at == &place;
-      if (!is_itself && (at == nullptr || at->tall_ms < place.thing_high_ms)) return true;
-    }
-  }
-  return false;
-}
-
-// Whether nobody can have walked there in sight: its ground was hidden until now. People who come out of hiding are on
-// ground that was seen as soon as they have made a step.
+// Whether it came into sight with its ground: nobody was seen there, and nobody gone.
 bool Places::came_into_sight(const Place& place, const Eigen::Vector2d& away) const {
-  const Eigen::Vector2d body_m = body_behind(place, away);
-  const Place* const body = known_at(place_of(body_m.x()), place_of(body_m.y()));
-  return body == nullptr || body->tall_ms == 0;
+  const Place* const ground = under_body(place, away);
+  return ground == nullptr || ground->tall_ms == 0;
 }
 
-// Known to stand: for long, or, of what came into sight with its ground, for two thirds of the delay.
+// Whether it came onto ground that was watched until then. Rock comes into sight as its ground does, or with rays
+// beside it that still pass.
+bool Places::walked_in(const Place& place, const Eigen::Vector2d& away) const {
+  const Place* const ground = under_body(place, away);
+  if (ground == nullptr || ground->tall_ms == 0 || ground->tall_ms >= place.first_ms) return false;
+  return place.first_ms - ground->tall_ms <= gap_ms_;
+}
+
+// Whether it may be of a line: it stood for long, or, of what came into sight with its ground, for two thirds of the
+// delay.
 bool Places::has_stood(const Place& place, const Eigen::Vector2d& away) const {
   const std::uint32_t stood_ms = place.thing_high_ms - place.first_ms;
   return stood_ms >= settle_ms_ || (3 * stood_ms >= 2 * delay_ms_ && came_into_sight(place, away));
 }
 
-// It, or what it touches: surfaces change places as they are seen from elsewhere.
-bool Places::has_stood_here(const Place& place, const Eigen::Vector2d& away) const {
+// Whether it stood for long, or what it touches did: surfaces change places as they are seen from elsewhere.
+bool Places::is_settled(const Place& place) const {
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
       const Place* const near = known_at(place.ix + dx, place.iy + dy);
-      if (near != nullptr && was_seen_with(*near, place) && has_stood(*near, away)) return true;
+      if (near == nullptr || !was_seen_with(*near, place)) continue;
+      if (near->thing_high_ms - near->first_ms >= settle_ms_) return true;
     }
   }
   return false;
@@ -109,8 +108,8 @@ Places::Line Places::line_on(const Place& place, const Eigen::Vector2d& away, co
 // Whether it is in a line along any of four axes: with half a metre to both sides, or flush for a metre to one, without
 // a gap in which a person would fit.
 bool Places::is_in_line(const Place& place, const Eigen::Vector2d& away) const {
-  constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};  // half a metre in places
-  constexpr std::int32_t kHalves[4][2] = {{3, 0}, {0, 3}, {2, 2}, {2, -2}};
+  constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};    // half a metre in places
+  constexpr std::int32_t kHalves[4][2] = {{3, 0}, {0, 3}, {2, 2}, {2, -2}};  // of these, where a gap would be
   for (std::size_t k = 0; k < 4; ++k) {
     const auto on = [&](const std::int32_t* axis, std::int32_t times) { return line_on(place, away, axis, times); };
     const auto is_flush = [&](std::int32_t side) {
@@ -123,18 +122,37 @@ bool Places::is_in_line(const Place& place, const Eigen::Vector2d& away) const {
   return false;
 }
 
-// A wall: in a line of things that stood, or right behind such a place. For so long as a thing needs to settle it stays
-// one: where neighbours go out of sight, nothing new was seen.
+// Whether what came into sight with it is smaller than a person: a tip of rock, or dust, beside others.
+bool Places::came_alone(const Place& place) const {
+  constexpr std::int32_t kAround = 2;       // a person is 0.3 m wide
+  constexpr std::uint32_t kPlacesMost = 3;  // of which a person fills more
+  std::uint32_t count = 0;
+  for (std::int32_t dy = -kAround; dy <= kAround; ++dy) {
+    for (std::int32_t dx = -kAround; dx <= kAround; ++dx) {
+      const Place* const near = known_at(place.ix + dx, place.iy + dy);
+      if (near == nullptr || near->thing_high_ms == 0) continue;
+      const std::uint32_t apart_ms =
+          near->first_ms > place.first_ms ? near->first_ms - place.first_ms : place.first_ms - near->first_ms;
+      if (apart_ms < settle_ms_) ++count;
+    }
+  }
+  return count <= kPlacesMost;
+}
+
+// A wall: in a line of things that stood, and nobody who walked there in sight; or right behind such a place. For so
+// long as a thing needs to settle it stays one: where neighbours go out of sight, nothing new was seen.
 bool Places::is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const {
   const auto is_known = [&](const Place& p) { return p.wall_ms != 0 && now_ms - p.wall_ms <= settle_ms_; };
   const bool is_fresh = place->wall_ms != 0 && 2 * (now_ms - place->wall_ms) < settle_ms_;
-  if (!is_fresh && is_in_line(*place, away)) place->wall_ms = now_ms;
+  const bool may_stand = is_settled(*place) || !walked_in(*place, away);
+  if (!is_fresh && may_stand && is_in_line(*place, away)) place->wall_ms = now_ms;
   if (is_known(*place)) return true;
+  const bool is_tip = came_alone(*place);
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      if (!(dx * away.x() + dy * away.y() < 0.0)) continue;
+      if (!is_tip && !(dx * away.x() + dy * away.y() < 0.0)) continue;
       const Place* const near = known_at(place->ix + dx, place->iy + dy);
-      if (near != nullptr && was_seen_with(*near, *place) && is_known(*near)) return true;
+      if (near != nullptr && near->thing_high_ms + delay_ms_ >= place->thing_high_ms && is_known(*near)) return true;
     }
   }
   return false;
