@@ -108,7 +108,13 @@ class Places {
   bool has_stood(const Place& place, const Eigen::Vector2d& away) const;
   bool is_settled(const Place& place) const;
   enum class Line { none, deeper, flush };
-  Line line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* axis, std::int32_t times) const;
+  struct LineAxis {
+    std::int32_t along_x, along_y, along_most;  // a step, and so many places more or less, in sums of both axes
+    std::int32_t chest_mm, deep_mm, to_sensor;  // the sign of what is nearer to the sensor
+  };
+  static LineAxis line_axis(const Eigen::Vector2d& away, const std::int32_t* axis);
+  Line line_with(const Place& place, const Place& near, const Eigen::Vector2d& away, const LineAxis& axis) const;
+  Line line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* step, std::int32_t times) const;
   bool came_alone(const Place& place) const;
   bool is_in_line(const Place& place, const Eigen::Vector2d& away) const;
   bool is_low_free(const Place& place, const Way& way) const;

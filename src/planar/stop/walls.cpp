@@ -72,34 +72,42 @@ bool Places::is_settled(const Place& place) const {
   return false;
 }
 
-// How a line of things goes on so many steps along an axis: there, or a place more or less far. The place does not
-// stand out of it, or is deeper.
-Places::Line Places::line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* axis,
-                             std::int32_t times) const {
-  const std::int32_t along_x = axis[0] > 0 ? 1 : 0, along_y = axis[1] > 0 ? 1 : axis[1] < 0 ? -1 : 0;
-  const bool is_diagonal = along_x * along_y != 0;
-  const std::int32_t along_most = is_diagonal ? 2 : 1, chest_mm = is_diagonal ? kChestDiagonal_mm : kChest_mm;
-  const double across = away.x() * along_y - away.y() * along_x;
+// An axis of a line: how much a place may stand out of it or lie deeper, and to which side the sensor is.
+Places::LineAxis Places::line_axis(const Eigen::Vector2d& away, const std::int32_t* axis) {
+  const std::int32_t x = axis[0] > 0 ? 1 : 0, y = axis[1] > 0 ? 1 : axis[1] < 0 ? -1 : 0;
+  const bool is_diagonal = x * y != 0;
+  const double across = away.x() * y - away.y() * x;
   const bool is_across = across * across > kAcross2 * away.squaredNorm() * (is_diagonal ? 2.0 : 1.0);
+  const std::int32_t chest_mm = is_diagonal ? kChestDiagonal_mm : kChest_mm;
   const std::int32_t deep_mm = !is_across ? chest_mm : is_diagonal ? kDeepDiagonal_mm : kDeep_mm;
-  const std::int32_t to_sensor = across > 0.0 ? -1 : 1;
+  return {x, y, is_diagonal ? 2 : 1, chest_mm, deep_mm, across > 0.0 ? -1 : 1};
+}
+
+// How a place goes with another one that may be of its line: the place does not stand out, or is deeper.
+Places::Line Places::line_with(const Place& place, const Place& near, const Eigen::Vector2d& away,
+                               const LineAxis& axis) const {
+  const std::int32_t x_mm = kPlace_mm * (near.ix - place.ix) + near.high_x_mm - place.high_x_mm;
+  const std::int32_t y_mm = kPlace_mm * (near.iy - place.iy) + near.high_y_mm - place.high_y_mm;
+  const std::int32_t deeper_mm = axis.to_sensor * (x_mm * axis.along_y - y_mm * axis.along_x);
+  if (deeper_mm > axis.deep_mm || deeper_mm < -axis.chest_mm) return Line::none;
+  const Eigen::Vector2d away_there = away + Eigen::Vector2d(0.001 * x_mm, 0.001 * y_mm);
+  if (!was_seen_with(near, place) || !has_stood(near, away_there)) return Line::none;
+  return deeper_mm <= axis.chest_mm ? Line::flush : Line::deeper;
+}
+
+// How a line goes on so many steps along an axis: there, or a place more or less far.
+Places::Line Places::line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* step,
+                             std::int32_t times) const {
+  const LineAxis axis = line_axis(away, step);
   Line line = Line::none;
   for (std::int32_t dy = -kDeepPlaces; dy <= kDeepPlaces; ++dy) {
     for (std::int32_t dx = -kDeepPlaces; dx <= kDeepPlaces; ++dx) {
-      const std::int32_t along = dx * along_x + dy * along_y;
-      if (along > along_most || along < -along_most) continue;
-      const Place* const near = known_at(place.ix + times * axis[0] + dx, place.iy + times * axis[1] + dy);
-      if (near == nullptr) continue;
-      const std::int32_t x_mm = kPlace_mm * (near->ix - place.ix) + near->high_x_mm - place.high_x_mm;
-      const std::int32_t y_mm = kPlace_mm * (near->iy - place.iy) + near->high_y_mm - place.high_y_mm;
-      const std::int32_t deeper_mm = to_sensor * (x_mm * along_y - y_mm * along_x);
-      if (deeper_mm > deep_mm || deeper_mm < -chest_mm) continue;
-      const bool is_flush = deeper_mm <= chest_mm;
-      if (!is_flush && line == Line::deeper) continue;
-      const Eigen::Vector2d away_there = away + Eigen::Vector2d(0.001 * x_mm, 0.001 * y_mm);
-      if (!was_seen_with(*near, place) || !has_stood(*near, away_there)) continue;
-      if (is_flush) return Line::flush;
-      line = Line::deeper;
+      const std::int32_t along = dx * axis.along_x + dy * axis.along_y;
+      if (along > axis.along_most || along < -axis.along_most) continue;
+      const Place* const near = known_at(place.ix + times * step[0] + dx, place.iy + times * step[1] + dy);
+      const Line found = near == nullptr ? Line::none : line_with(place, *near, away, axis);
+      if (found == Line::flush) return found;
+      if (found == Line::deeper) line = found;
     }
   }
   return line;
