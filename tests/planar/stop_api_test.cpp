@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "planar/encounter/plans.hpp"
+#include "planar/encounter/standing.hpp"
 #include "pose_wall_planar.h"
 #include "support/aligned_block.hpp"
 
@@ -16,85 +16,8 @@ namespace {
 
 using namespace pose_wall::test;
 
-constexpr std::int64_t kFrame_ns = 100000000;
-
-// A machine that stands in a road, with a stop that is asked for straight ahead.
-class Standing {
- public:
-  explicit Standing(World world, double confirm_m = 2.5, double memory_s = 60.0) : world_(std::move(world)), draw_(3) {
-    sensor_ = Sensor(Pattern::os1_64, 2.0, 1.5, 0.0, 0.28, 1.0, 1024);
-    pose_wall_planar_stop_settings settings = encounter_settings();
-    settings.confirm_m = confirm_m;
-    settings.memory_s = memory_s;
-    stop_.open(sensor_, settings);
-    confirm();
-    motion_.struct_size = sizeof(motion_);
-    motion_.given = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
-    motion_.command_speed_m_s = 0.05;
-  }
-
-  void confirm() { EXPECT_EQ(pose_wall_planar_stop_confirm(stop_.get()), POSE_WALL_OK); }
-  void take() { scan_.take(sensor_, world_, x_m_, 0.0, 0.0, 0.0, 0.0, &draw_); }
-  pose_wall_planar_stop_result frame() {
-    take();
-    return again();
-  }
-  // The last cloud once more, with a new stamp.
-  pose_wall_planar_stop_result again() {
-    stamp_ns_ += kFrame_ns;
-    const pose_wall_cloud cloud = scan_.cloud(stamp_ns_);
-    EXPECT_EQ(pose_wall_planar_stop_process(stop_.get(), &cloud, &motion_, stamp_ns_ + 1000000, &stop_.result()),
-              POSE_WALL_OK);
-    return stop_.result();
-  }
-  pose_wall_planar_stop_result frames(int count) {
-    for (int k = 0; k < count; ++k) frame();
-    return stop_.result();
-  }
-  // Straight ahead, or back where metres are negative; then it stands again.
-  void drive(double metres) {
-    constexpr int kFrames = 30;
-    constexpr double kFrame_s = 1e-9 * kFrame_ns;
-    for (int k = 0; k <= kFrames; ++k) {
-      const double before_m_s = motion_.speed_m_s;
-      motion_.speed_m_s = k < kFrames ? metres / (kFrames * kFrame_s) : 0.0;
-      x_m_ += 0.5 * (before_m_s + motion_.speed_m_s) * kFrame_s;
-      frame();
-    }
-  }
-  // The clock of stamps and calls.
-  void set_clock(std::int64_t by_ns) { stamp_ns_ += by_ns; }
-  pose_wall_planar_stop_result tick_after(std::int64_t after_ns) {
-    EXPECT_EQ(pose_wall_planar_stop_tick(stop_.get(), stamp_ns_ + after_ns, &stop_.result()), POSE_WALL_OK);
-    return stop_.result();
-  }
-
-  World& world() { return world_; }
-  Scan& scan() { return scan_; }
-  Sensor& sensor() { return sensor_; }
-  StopUnderTest& stop() { return stop_; }
-  pose_wall_planar_stop_motion& motion() { return motion_; }
-  std::int64_t stamp_ns() const { return stamp_ns_; }
-
- private:
-  World world_;
-  double x_m_ = 0.0;
-  Draw draw_;
-  Sensor sensor_;
-  Scan scan_;
-  StopUnderTest stop_;
-  pose_wall_planar_stop_motion motion_{};
-  std::int64_t stamp_ns_ = 1000000000;
-};
-
-World road() {
-  World world;
-  world.half_width_m = 3.0, world.wall_wave_m = 0.02;
-  return world;
-}
-
 TEST(StopApi, AClearRoadBecomesGoAndAPersonAheadStops) {
-  Standing standing(road());
+  Standing standing(plain_road());
   const auto clear = standing.frames(30);
   EXPECT_EQ(clear.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_GO));
   EXPECT_DOUBLE_EQ(clear.allowed_speed_m_s, 1.0);
@@ -115,7 +38,7 @@ TEST(StopApi, AClearRoadBecomesGoAndAPersonAheadStops) {
 }
 
 TEST(StopApi, TheSmallestThingStopsAndIsCalledLow) {
-  Standing standing(road());
+  Standing standing(plain_road());
   standing.frames(30);
   standing.world().things.push_back(round_thing(2.25 + 1.3, 0.3, 0.15, -0.1, 0.27));
   const auto result = standing.frames(3);
@@ -131,7 +54,7 @@ TEST(StopApi, ALowThingBelowTheRaysOutlastsItsMemoryAndALook) {
   constexpr double kMemory_s = 4.0, kConfirm_m = 2.5, kThing_m = 2.25 + 1.8, kDrive_m = 1.4;
   constexpr int kForgotten = 45, kSettled = 30;  // frames that take longer than the memory, and for walls to settle
   for (const bool is_there : {false, true}) {
-    Standing standing(road(), kConfirm_m, kMemory_s);
+    Standing standing(plain_road(), kConfirm_m, kMemory_s);
     if (is_there) standing.world().things.push_back(round_thing(kThing_m, 0.3, 0.15, -0.1, 0.27));
     const auto far = standing.frames(kSettled);
     EXPECT_EQ((far.reasons & POSE_WALL_PLANAR_STOP_R_LOW) != 0, is_there);
@@ -158,7 +81,7 @@ TEST(StopApi, ALowThingBelowTheRaysOutlastsItsMemoryAndALook) {
 // Who has stood for long may walk off at any moment, even with the back to a wall. A wall does not.
 TEST(StopApi, APersonWhoStandsBesideTheWayKeepsTheMachineSlow) {
   for (const double y : {1.7, 2.75}) {
-    World world = road();
+    World world = plain_road();
     world.things.push_back(round_thing(1.8 + 0.77 * y, y, 0.2, -0.1, 1.7));
     Standing standing(world);
     const auto result = standing.frames(40);
@@ -172,7 +95,7 @@ TEST(StopApi, APersonWhoStandsBesideTheWayKeepsTheMachineSlow) {
 // However thin, and with the back flush to the wall: a chest stands out by more than a wall's tips.
 TEST(StopApi, APersonFlushWithTheWallMayWalkOff) {
   for (const double radius : {0.17, 0.2, 0.25}) {
-    World world = road();
+    World world = plain_road();
     world.half_width_m = 2.4;
     world.things.push_back(round_thing(4.0, 2.4 - radius, radius, -0.1, 1.7));
     Standing standing(world);
@@ -187,7 +110,7 @@ TEST(StopApi, APersonFlushWithTheWallMayWalkOff) {
 
 // Who stands for long between others who only pass by is no wall.
 TEST(StopApi, PassersByMakeNoWallOfAPerson) {
-  World world = road();
+  World world = plain_road();
   world.things.push_back(round_thing(4.5, 1.7, 0.2, -0.1, 1.7));
   Standing standing(world);
   const double alone_m_s = standing.frames(40).stop_speed_m_s;
@@ -252,7 +175,7 @@ TEST(StopApi, ARoughRoadIsNoPerson) {
 }
 
 TEST(StopApi, SilenceStops) {
-  Standing standing(road());
+  Standing standing(plain_road());
   standing.frames(30);
   EXPECT_EQ(standing.tick_after(200000000).state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_GO));
   const auto stale = standing.tick_after(260000000);
@@ -263,14 +186,14 @@ TEST(StopApi, SilenceStops) {
 }
 
 TEST(StopApi, BeforeTheFirstFrameItIsStopped) {
-  Standing standing(road());
+  Standing standing(plain_road());
   const auto result = standing.tick_after(1);
   EXPECT_EQ(result.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
   EXPECT_NE(result.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
 }
 
 TEST(StopApi, AFrozenFrameAnOldOneAndOneOfTheFutureStop) {
-  Standing standing(road());
+  Standing standing(plain_road());
   standing.frames(30);
   const auto frozen = standing.again();
   EXPECT_EQ(frozen.state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
@@ -295,7 +218,7 @@ TEST(StopApi, AFrozenFrameAnOldOneAndOneOfTheFutureStop) {
 constexpr std::uint32_t kStop = POSE_WALL_PLANAR_STOP_STOP, kGo = POSE_WALL_PLANAR_STOP_GO;
 
 TEST(StopApi, TheHeartDoesNotBeatWhileTheClockStandsAndThenItStops) {
-  Standing standing(road());
+  Standing standing(plain_road());
   const std::uint32_t beat = standing.frames(30).heartbeat;
   for (int k = 1; k < 100; ++k) {  // a clock in coarse steps
     const auto result = standing.tick_after(1000000);
@@ -314,7 +237,7 @@ TEST(StopApi, TheHeartDoesNotBeatWhileTheClockStandsAndThenItStops) {
 TEST(StopApi, AClockThatIsSetBackIsToldAndTheStopGoesOnByItselfWithoutOldKnowledge) {
   constexpr std::int64_t kHour_ns = 3600 * std::int64_t{1000000000};
   for (const bool ticks : {false, true}) {
-    Standing standing(road());
+    Standing standing(plain_road());
     ASSERT_EQ(standing.frames(30).state, kGo);
     standing.set_clock(-kHour_ns);
     const auto told = ticks ? standing.tick_after(1000000) : standing.frame();
@@ -331,7 +254,7 @@ TEST(StopApi, AClockThatIsSetBackIsToldAndTheStopGoesOnByItselfWithoutOldKnowled
 }
 
 TEST(StopApi, StampsThatGoBackAloneAreOneLateFrameOrAClock) {
-  Standing standing(road());
+  Standing standing(plain_road());
   ASSERT_EQ(standing.frames(30).state, kGo);
   const auto at = [&](std::int64_t stamp_ns) {
     standing.take();
@@ -356,17 +279,17 @@ TEST(StopApi, StampsThatGoBackAloneAreOneLateFrameOrAClock) {
 }
 
 TEST(StopApi, ACoveredSensorADirtySectorAndALongPuddleAreBlind) {
-  Standing covered(road());
+  Standing covered(plain_road());
   covered.frames(30);
   covered.sensor().dropout = 1.1;
   EXPECT_EQ(covered.frame().state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_STOP_STOP));
-  Standing dirty(road());
+  Standing dirty(plain_road());
   dirty.frames(30);
   dirty.sensor().dirt_from_rad = -0.1, dirty.sensor().dirt_to_rad = 0.2;
   const auto blind = dirty.frames(5);
   EXPECT_NE(blind.reasons & POSE_WALL_PLANAR_STOP_R_BLIND, 0U);
   EXPECT_LT(blind.stop_speed_m_s, 0.1);
-  World wet = road();
+  World wet = plain_road();
   wet.puddles.push_back({2.8, 7.0, -1.0, 1.0, false});
   Standing puddle(wet, 0.5);  // from 2.75 m on nobody has looked either
   const auto before = puddle.frames(30);
@@ -375,7 +298,7 @@ TEST(StopApi, ACoveredSensorADirtySectorAndALongPuddleAreBlind) {
 }
 
 TEST(StopApi, ATurnAndTheWayBackAreBlindForASensorInFront) {
-  Standing standing(road());
+  Standing standing(plain_road());
   standing.frames(30);
   standing.motion().command_speed_m_s = 0.0, standing.motion().command_turn_rad_s = 0.1;
   EXPECT_NE(standing.frames(2).reasons & POSE_WALL_PLANAR_STOP_R_BLIND, 0U);
@@ -385,7 +308,7 @@ TEST(StopApi, ATurnAndTheWayBackAreBlindForASensorInFront) {
 }
 
 TEST(StopApi, WithoutAMotionItStops) {
-  Standing standing(road());
+  Standing standing(plain_road());
   standing.frames(30);
   standing.motion().given = 0;
   const auto result = standing.frame();
@@ -397,7 +320,7 @@ TEST(StopApi, WithoutAMotionItStops) {
 }
 
 TEST(StopApi, TooFastStops) {
-  World world = road();
+  World world = plain_road();
   world.things.push_back(round_thing(2.25 + 1.2, 0.0, 0.2, -0.1, 0.9));
   Standing standing(world);
   standing.frames(40);
@@ -409,7 +332,7 @@ TEST(StopApi, TooFastStops) {
 
 // Sparse returns through which rays pass: here and there they are dust, in one place they are a thing after the delay.
 TEST(StopApi, DustIsNoThingAndAThinThingIsOneAfterTheDelay) {
-  World dusty = road();
+  World dusty = plain_road();
   Standing dust(dusty);
   dust.frames(30);
   const auto frame_with = [&](Standing* standing, double x, double y) {
@@ -437,7 +360,7 @@ TEST(StopApi, DustIsNoThingAndAThinThingIsOneAfterTheDelay) {
     things += (result.reasons & POSE_WALL_PLANAR_STOP_R_THING) != 0 ? 1U : 0U;
   }
   EXPECT_EQ(things, 0U);
-  Standing thin(road());
+  Standing thin(plain_road());
   thin.frames(30);
   int frames = 0;
   while (frames < 10) {
@@ -448,7 +371,7 @@ TEST(StopApi, DustIsNoThingAndAThinThingIsOneAfterTheDelay) {
 }
 
 TEST(StopApi, GarbageGivesNoNumberThatIsNoneAndNeverGo) {
-  Standing standing(road());
+  Standing standing(plain_road());
   standing.frames(30);
   Draw draw(1);
   for (int k = 0; k < 50; ++k) {
@@ -466,16 +389,16 @@ TEST(StopApi, GarbageGivesNoNumberThatIsNoneAndNeverGo) {
 }
 
 TEST(StopApi, RefusedCallsChangeNothing) {
-  Standing standing(road());
+  Standing standing(plain_road());
   const auto before = standing.frames(5);
   auto& result = standing.stop().result();
-  const pose_wall_cloud good = standing.scan().cloud(standing.stamp_ns() + kFrame_ns);
+  const pose_wall_cloud good = standing.scan().cloud(standing.stamp_ns() + Standing::kFrame_ns);
   const auto status_with = [&](auto change) {
     pose_wall_cloud cloud = good;
     pose_wall_planar_stop_motion motion = standing.motion();
     change(cloud, motion);
-    return pose_wall_planar_stop_process(standing.stop().get(), &cloud, &motion, standing.stamp_ns() + kFrame_ns,
-                                         &result);
+    return pose_wall_planar_stop_process(standing.stop().get(), &cloud, &motion,
+                                         standing.stamp_ns() + Standing::kFrame_ns, &result);
   };
   EXPECT_EQ(status_with([](auto& c, auto&) { c.struct_size = 1; }), POSE_WALL_E_STRUCT_SIZE);
   EXPECT_EQ(status_with([](auto& c, auto&) { c.x.type = POSE_WALL_FIELD_UINT8; }), POSE_WALL_E_CLOUD_FIELD);
@@ -520,7 +443,7 @@ TEST(StopApi, TheSameFramesGiveTheSameBitsWhateverTheBlockHeld) {
     (void)pose_wall_config_set_number(&config, "extrinsic_pitch", 0.5);
     pose_wall_planar_stop* stop = nullptr;
     EXPECT_EQ(pose_wall_planar_stop_open(&config, nullptr, block.data(), block.size(), &stop), POSE_WALL_OK);
-    World world = road();
+    World world = plain_road();
     world.things.push_back(round_thing(5.0, 0.5, 0.2, -0.1, 1.7));
     Sensor sensor(Pattern::vlp16, 0.0, 1.5, 0.0, 0.5, 1.25, 900);
     Scan scan;
@@ -531,7 +454,7 @@ TEST(StopApi, TheSameFramesGiveTheSameBitsWhateverTheBlockHeld) {
       pose_wall_planar_stop_result result{};
       result.struct_size = sizeof(result);
       const pose_wall_planar_stop_motion motion{sizeof(motion), 1, 0.2, 0.01, 0.0, 0.0};
-      const pose_wall_cloud cloud = scan.cloud((k + 1) * kFrame_ns);
+      const pose_wall_cloud cloud = scan.cloud((k + 1) * Standing::kFrame_ns);
       EXPECT_EQ(pose_wall_planar_stop_process(stop, &cloud, &motion, cloud.stamp_ns, &result), POSE_WALL_OK);
       for (const double number :
            {result.stop_speed_m_s, result.floor_height_m, result.floor_slope[0], result.nearest_distance_m,

@@ -6,51 +6,14 @@
 #include <gtest/gtest.h>
 
 #include "planar/encounter/mount_table.hpp"
+#include "planar/encounter/standing.hpp"
 
 namespace {
 
 using namespace pose_wall::test;
 
-constexpr std::int64_t kWatch_ns = 100000000;
-
-// A machine that stands in a road and wants to go straight ahead.
-class Watching {
- public:
-  explicit Watching(World world) : world_(std::move(world)), sensor_(Pattern::os1_64, 2.0, 1.5, 0.0, 0.28, 1.0, 1024) {
-    stop_.open(sensor_, encounter_settings());
-    EXPECT_EQ(pose_wall_planar_stop_confirm(stop_.get()), POSE_WALL_OK);
-    motion_.struct_size = sizeof(motion_);
-    motion_.given = POSE_WALL_PLANAR_STOP_MEASURED | POSE_WALL_PLANAR_STOP_COMMANDED;
-    motion_.command_speed_m_s = 0.05;
-  }
-  const pose_wall_planar_stop_result& frame() {
-    scan_.take(sensor_, world_, 0.0, 0.0, 0.0, 0.0, 0.0, &draw_);
-    stamp_ns_ += kWatch_ns;
-    const pose_wall_cloud cloud = scan_.cloud(stamp_ns_);
-    EXPECT_EQ(pose_wall_planar_stop_process(stop_.get(), &cloud, &motion_, stamp_ns_ + 1000000, &stop_.result()),
-              POSE_WALL_OK);
-    return stop_.result();
-  }
-  World& world() { return world_; }
-
- private:
-  World world_;
-  Sensor sensor_;
-  Scan scan_;
-  Draw draw_{5};
-  StopUnderTest stop_;
-  pose_wall_planar_stop_motion motion_{};
-  std::int64_t stamp_ns_ = 1000000000;
-};
-
 bool is_nearing(const pose_wall_planar_stop_result& r) {
   return (r.reasons & POSE_WALL_PLANAR_STOP_R_NEARING) != 0;
-}
-
-World road_of(double half_width_m) {
-  World world;
-  world.half_width_m = half_width_m, world.wall_wave_m = 0.02;
-  return world;
 }
 
 Thing box(double x_m, double y_m, double half_x_m, double half_y_m) {
@@ -96,24 +59,25 @@ TEST(StopWall, ARoadOfRockIsDriven) {
 // Who stands in a niche is of the rock as long as they are in it. They count once they stand out of its line, before
 // they can reach the front edge until the machine stands.
 TEST(StopWall, WhoComesOutOfANicheCountsBeforeTheyAreNear) {
+  // As deep as a wall's line allows, wide enough for a person, and in the sensor's sight, which ends 57 degrees aside.
   constexpr double kHalfWidth_m = 2.8, kDeep_m = 0.5, kRadius_m = 0.2, kLine_m = kHalfWidth_m - kDeep_m;
-  constexpr double kNiche_m = 4.0, kHalfNiche_m = 0.4, kBlock_m = 1.5;
+  constexpr double kNiche_m = 4.0, kHalfNiche_m = 0.4, kBlock_m = 1.5;  // blocks longer than a line's metre
   for (const double walks_m_s : {0.3, 1.0, 1.6}) {
-    World world = road_of(kHalfWidth_m);
+    World world = plain_road(kHalfWidth_m);
     for (const double side : {-1.0, 1.0}) {
       world.things.push_back(
           box(kNiche_m + side * (kHalfNiche_m + kBlock_m), kHalfWidth_m - 0.5 * kDeep_m, kBlock_m, 0.5 * kDeep_m));
     }
     world.things.push_back(round_thing(kNiche_m, kHalfWidth_m - kRadius_m - 0.05, kRadius_m, -0.1, 1.8));
-    Watching watching(world);
-    for (int k = 0; k < 40; ++k) watching.frame();
-    Thing& person = watching.world().things.back();
+    Standing standing(world);
+    standing.frames(40);
+    Thing& person = standing.world().things.back();
     std::uint32_t counted = 0;
     while (person.y_m > 1.0) {
       person.y_m -= 0.1 * walks_m_s;
-      const auto& result = watching.frame();
-      constexpr double kChest_m = 0.23,
-                       kPlaces_m = 0.2;  // what the line gives away; places of the rock and of the person
+      const auto result = standing.frame();
+      // What the line gives away, and a place of the rock and one of the person.
+      constexpr double kChest_m = 0.23, kPlaces_m = 0.2;
       if (kLine_m - (person.y_m - kRadius_m) < kChest_m + kPlaces_m + 0.1 * walks_m_s) continue;
       ++counted;
       // From a stop that is known to stand: in 0.45 s + v / a, as far as it has driven then.
@@ -127,13 +91,13 @@ TEST(StopWall, WhoComesOutOfANicheCountsBeforeTheyAreNear) {
 }
 
 TEST(StopWall, PeopleWhoComeAbreastAreNoWall) {
-  World world = road_of(3.0);
+  World world = plain_road();
   for (const double y : {-0.9, -0.45, 0.0, 0.45, 0.9}) world.things.push_back(round_thing(9.0, y, 0.2, -0.1, 1.8));
-  Watching watching(world);
-  for (int k = 0; k < 40; ++k) watching.frame();  // they may be a wall as long as they stand
+  Standing standing(world);
+  standing.frames(40);  // they may be a wall as long as they stand
   for (int k = 0; k < 45; ++k) {
-    for (Thing& person : watching.world().things) person.x_m -= 0.1;
-    const auto& result = watching.frame();
+    for (Thing& person : standing.world().things) person.x_m -= 0.1;
+    const auto result = standing.frame();
     if (k < 20) continue;  // further than 7 m away
     EXPECT_TRUE(is_nearing(result)) << k;
   }

@@ -80,7 +80,7 @@ bool Places::is_thing(const Place& place, const Way& way, std::uint32_t now_ms) 
 // free low, the part without a watch counts.
 bool Places::is_low_free(const Place& place, const Way& way) const {
   const std::uint32_t unwatched_ms = place.watched_ms > place.low_ms ? place.watched_ms - place.low_ms : 0;
-  return place.low_ms != 0 && unwatched_ms <= memory_ms_ && way.error_m(place.low_ms) <= drift_most_m_;
+  return is_remembered(place.low_ms, way, place.low_ms + unwatched_ms);
 }
 
 bool Places::is_free(const Place& place, const Way& way, std::uint32_t now_ms) const {

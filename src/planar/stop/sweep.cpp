@@ -147,13 +147,18 @@ Sweep::Four Sweep::lanes_of(Span<const Hazard> hazards, std::uint32_t first) con
   return four;
 }
 
+// Places as base sees them at a slice.
+Sweep::Four Sweep::from_slice(const Four& four, std::uint32_t slice) const {
+  const FourFloats dx = four.x - x_[slice], dy = four.y - y_[slice];
+  return {cosine_[slice] * dx + sine_[slice] * dy, cosine_[slice] * dy - sine_[slice] * dx};
+}
+
 // To each edge at a slice; returns the largest.
 FourFloats Sweep::distances(const Four& four, std::uint32_t slice, FourFloats* edges) const {
-  const FourFloats dx = four.x - x_[slice], dy = four.y - y_[slice];
-  const FourFloats qx = cosine_[slice] * dx + sine_[slice] * dy, qy = cosine_[slice] * dy - sine_[slice] * dx;
+  const Four q = from_slice(four, slice);
   FourFloats most = all_four(-kFar_m);
   for (std::uint32_t e = 0; e < edges_; ++e) {
-    edges[e] = normal_x_[e] * qx + normal_y_[e] * qy - offset_[e];
+    edges[e] = normal_x_[e] * q.x + normal_y_[e] * q.y - offset_[e];
     most = larger_of(most, edges[e]);
   }
   return most;
@@ -178,13 +183,12 @@ FourFloats Sweep::least_until(const Four& four, std::uint32_t slices, FourFloats
 
 // To the parts of the rim that move outwards, at a slice: no more than that.
 FourFloats Sweep::ahead_at(const Four& four, std::uint32_t slice, FourFloats (*bounds)[kSegmentBounds]) const {
-  const FourFloats dx = four.x - x_[slice], dy = four.y - y_[slice];
-  const FourFloats qx = cosine_[slice] * dx + sine_[slice] * dy, qy = cosine_[slice] * dy - sine_[slice] * dx;
+  const Four q = from_slice(four, slice);
   FourFloats least = all_four(kFar_m);
   for (std::uint32_t k = 0; k < advancing_count_; ++k) {
     const Advancing& part = advancing_[k];
-    const FourFloats out = normal_x_[part.edge] * qx + normal_y_[part.edge] * qy - offset_[part.edge];
-    const FourFloats along = normal_x_[part.edge] * qy - normal_y_[part.edge] * qx;
+    const FourFloats out = normal_x_[part.edge] * q.x + normal_y_[part.edge] * q.y - offset_[part.edge];
+    const FourFloats along = normal_x_[part.edge] * q.y - normal_y_[part.edge] * q.x;
     FourFloats* const bound = bounds[k];
     bound[0] = out, bound[1] = -out, bound[2] = part.from_m - along, bound[3] = along - part.to_m;
     least = smaller_of(least, larger_of(larger_of(bound[0], bound[1]), larger_of(bound[2], bound[3])));

@@ -88,6 +88,7 @@ class Sweep {
     float least_m, now_m, ahead_m;
   };
   bool is_clear(const Nearness& near, const Hazard& hazard, std::uint32_t level) const;
+  Four from_slice(const Four& four, std::uint32_t slice) const;
   FourFloats distances(const Four& four, std::uint32_t slice, FourFloats* edges) const;
   FourFloats least_until(const Four& four, std::uint32_t slices, FourFloats* now) const;
   FourFloats ahead_at(const Four& four, std::uint32_t slice, FourFloats (*bounds)[kSegmentBounds]) const;

@@ -147,23 +147,26 @@ bool Places::came_alone(const Place& place) const {
   return count <= kPlacesMost;
 }
 
-// A wall: in a line of things that stood, and nobody who walked there in sight; or right behind such a place. For so
-// long as a thing needs to settle it stays one: where neighbours go out of sight, nothing new was seen.
+// A wall: in a line of things that stood, and nobody who walked there in sight; or right behind such a place; or a
+// small part beside one. For so long as a thing needs to settle it stays one: where neighbours go out of sight, nothing
+// new was seen.
 bool Places::is_wall(Place* place, const Eigen::Vector2d& away, std::uint32_t now_ms) const {
   const auto is_known = [&](const Place& p) { return p.wall_ms != 0 && now_ms - p.wall_ms <= settle_ms_; };
   const bool is_fresh = place->wall_ms != 0 && 2 * (now_ms - place->wall_ms) < settle_ms_;
-  const bool may_stand = is_settled(*place) || !walked_in(*place, away);
-  if (!is_fresh && may_stand && is_in_line(*place, away)) place->wall_ms = now_ms;
+  const auto may_stand = [&] { return is_settled(*place) || !walked_in(*place, away); };
+  if (!is_fresh && may_stand() && is_in_line(*place, away)) place->wall_ms = now_ms;
   if (is_known(*place)) return true;
-  const bool is_tip = came_alone(*place);
+  bool is_beside = false;
   for (std::int32_t dy = -1; dy <= 1; ++dy) {
     for (std::int32_t dx = -1; dx <= 1; ++dx) {
-      if (!is_tip && !(dx * away.x() + dy * away.y() < 0.0)) continue;
       const Place* const near = known_at(place->ix + dx, place->iy + dy);
-      if (near != nullptr && near->thing_high_ms + delay_ms_ >= place->thing_high_ms && is_known(*near)) return true;
+      // What hides a place may have come into sight long after it: the same wall, seen from elsewhere.
+      if (near == nullptr || near->thing_high_ms + delay_ms_ < place->thing_high_ms || !is_known(*near)) continue;
+      if (dx * away.x() + dy * away.y() < 0.0) return true;
+      is_beside = true;
     }
   }
-  return false;
+  return is_beside && came_alone(*place);
 }
 
 }  // namespace pose_wall::planar
