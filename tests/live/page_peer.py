@@ -7,6 +7,7 @@ nothing hold up nobody. By HTTP nothing can be changed. What is malformed gets a
 
 usage: page_peer.py ROOT POSE_WALL POSE_WALLD [SCREENSHOT_PREFIX]"""
 
+import contextlib
 import http.client
 import json
 import os
@@ -15,6 +16,7 @@ import re
 import shutil
 import socket
 import sys
+import tempfile
 import time
 import unittest
 
@@ -106,8 +108,10 @@ class Http(unittest.TestCase):
     def test_nothing_can_be_changed(self):
         for method in ("POST", "PUT", "DELETE", "PATCH", "OPTIONS"):
             self.assertEqual(self.ask(method, "/", body="x")[0].status, 405, method)
-        for path in ("/x", "/../etc/passwd", "/%2e%2e/etc/passwd", "/page.js/..", "//"):
+        for path in ("/x", "/../etc/passwd", "/%2e%2e/etc/passwd"):
             self.assertEqual(self.ask("GET", path)[0].status, 404, path)
+        for path in ("/page.js/..", "//"):
+            self.assertEqual(self.ask("GET", path)[1], self.ask("GET", "/")[1], "another name of the page itself")
         self.assertEqual(self.ask("GET", "/", {"Host": "evil.example"})[0].status, 421, "a name pointed here")
         self.assertEqual(self.ask("GET", "/", {"Host": f"localhost:{self.port}"})[0].status, 200)
         self.assertEqual(self.ask("GET", "/page.js", {"Range": "bytes=" + ",".join(["0-"] * 900)})[0].status, 416)
@@ -150,6 +154,53 @@ class Http(unittest.TestCase):
         for viewer in viewers:
             viewer.close()
         self.assertTrue(live_peer.becomes_true(self.nobody_looks))
+
+
+class SlowClients(unittest.TestCase):
+    """Who is slow, idle or silent takes nothing from the others, and holds up no stop."""
+
+    SLOW = 60
+
+    def test_they_cost_nobody_anything(self):
+        port = live_peer.free_port()
+        with tempfile.TemporaryDirectory() as folder:
+            daemon = live_peer.Program(*words(port, "--set", f"recording={folder}"))
+            self.addCleanup(daemon.kill)
+            self.assertTrue(daemon.says("runtime: measures"), daemon.log())
+            slow = [socket.create_connection(("127.0.0.1", port), 10) for _ in range(self.SLOW)]
+            for connection in slow:
+                self.addCleanup(connection.close)
+                connection.sendall(b"GET /health HTTP/1.1\r\nHost: 127")  # and then a byte now and then
+            greedy = socket.create_connection(("127.0.0.1", port), 10)  # asks for much and takes nothing
+            self.addCleanup(greedy.close)
+            greedy.sendall(b"GET /page.js HTTP/1.1\r\nHost: localhost\r\n\r\n" * 20)
+            idle = http.client.HTTPConnection("127.0.0.1", port, timeout=10)  # a monitor between two looks
+            self.addCleanup(idle.close)
+            took_s = []
+            for _ in range(20):
+                for connection in slow:
+                    with contextlib.suppress(OSError):  # ended, as it may be
+                        connection.send(b".")
+                began = time.monotonic()
+                idle.request("GET", "/health")
+                self.assertEqual(idle.getresponse().read()[:1], b"{")
+                took_s.append(time.monotonic() - began)
+                time.sleep(0.1)
+            print(f"/health beside {self.SLOW} slow clients: {1000 * sorted(took_s)[10]:.1f} ms in the middle, "
+                  f"{1000 * max(took_s):.0f} at most")
+            self.assertIsNotNone(idle.sock, "it stays connected")
+            self.assertTrue(daemon.stops_by_itself(), daemon.log())
+            recording = sorted(pathlib.Path(folder).glob("*.mcap"))[-1]
+            self.assertEqual(recording.read_bytes()[-8:], b"\x89MCAP0\r\n", "it is whole")
+
+    def test_a_request_that_never_ends_is_ended(self):
+        port = live_peer.free_port()
+        with live_peer.running(*words(port)) as daemon:
+            self.assertTrue(daemon.says("runtime: measures"), daemon.log())
+            with socket.create_connection(("127.0.0.1", port), 10) as half:
+                half.sendall(b"GET / HTTP/1.1\r\nHost: ")
+                half.settimeout(live_peer.PATIENCE_S)
+                self.assertIn(half.recv(100)[:12], (b"", b"HTTP/1.1 408", b"HTTP/1.1 403"), "it is not waited for")
 
 
 class Failing(unittest.TestCase):

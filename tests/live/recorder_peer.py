@@ -151,11 +151,11 @@ class Recorder(unittest.TestCase):
         (rows, status), (frames, _) = measured(file), measured(road / "frames")
         self.assertEqual(status, 0, "a whole file has no fault")
         numbers = {row["stamp_ns"]: [row[name] for name in row if name.endswith("_raw")] for row in rows}
-        self.assertGreater(len(numbers), 10)
         of_frames = {row["stamp_ns"]: [row[name] for name in row if name.endswith("_raw")] for row in frames}
-        for stamp_ns, values in numbers.items():
-            self.assertEqual(len(values), 7)
-            self.assertEqual(values, of_frames[stamp_ns])
+        self.assertGreater(len(of_frames), 10)
+        self.assertEqual(len(next(iter(numbers.values()))), 7)
+        self.assertEqual(set(numbers), set(of_frames), "without a pace all is kept, however slow the disk is")
+        self.assertEqual(numbers, of_frames)
         if HAS_READER:
             read = read_by_others([file])[0]
             self.assertTrue(read["whole"])

@@ -17,7 +17,7 @@ packages_to_survey="libembree-dev libassimp-dev"
 # Optional: the edges of pose_walld; a build without them says so when one is asked for.
 # shellcheck disable=SC2034
 packages_to_live="linux-libc-dev libmodbus-dev libpaho-mqtt-dev libcpp-httplib-dev libssl-dev libbrotli-dev zlib1g-dev
-  pkg-config libroscpp-dev libtopic-tools-dev cyclonedds-dev cyclonedds-tools"
+  libwebsockets-dev pkg-config libroscpp-dev libtopic-tools-dev cyclonedds-dev cyclonedds-tools"
 # Peers of the edges that others wrote.
 # shellcheck disable=SC2034
 packages_to_test_live="python3-pymodbus python3-serial-asyncio mosquitto mosquitto-clients python3-rosmaster

@@ -20,6 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kLook = std::chrono::milliseconds(50);
+// A recording waits so long for a disk, and no longer: a stop within a second must not wait for it.
+constexpr auto kDiskStall = std::chrono::milliseconds(500);
 
 void log_lines(const std::string& part, const std::string& text) {
   std::istringstream lines(text);
@@ -35,6 +37,22 @@ std::string facts_text(const PartHealth& part) {
 
 }  // namespace
 
+// What the source hands its frames to. Who waits for the worker waits for those who keep its results as well, or a
+// recording that is replayed without a pace would be kept with holes.
+class Daemon::Taker final : public FrameTaker {
+ public:
+  explicit Taker(Daemon& daemon) : daemon_(daemon) {}
+  void take(LiveFrame frame) override { daemon_.runtime_.take(std::move(frame)); }
+  void set_extrinsic(const std::optional<Extrinsic>& extrinsic) override { daemon_.runtime_.set_extrinsic(extrinsic); }
+  void wait_idle() override {
+    daemon_.runtime_.wait_idle();
+    for (const auto& sink : daemon_.sinks_) sink->wait_for_room(kDiskStall);
+  }
+
+ private:
+  Daemon& daemon_;
+};
+
 Daemon::Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& replay)
     : loaded_(loaded),
       runtime_(
@@ -45,7 +63,8 @@ Daemon::Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& repl
               if (sink->wants_points()) return true;
             }
             return false;
-          }) {
+          }),
+      taker_(std::make_unique<Taker>(*this)) {
   make_planar();
   make_edges(replay);
 }
@@ -70,6 +89,8 @@ void Daemon::make_planar() {
 
 void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
   const LiveSettings& live = loaded_.live;
+  // First, for sinks end in this order: what is kept is on the disk before a network can hold anything up.
+  if (!live.recording.empty()) add(make_recorder(loaded_, *this));
   if (replay) {
     source_ = make_replay_source(*replay);
   } else if (live.source == "udp") {
@@ -83,7 +104,6 @@ void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
   if (commands_ && loaded_.planar.command_can != 0.0) add(make_can_commands(loaded_, *commands_));
   if (!live.mqtt.empty()) add(make_mqtt_sink(loaded_, *this));
   if (!live.http.empty()) add(make_page_sink(loaded_, *this, guard_.get()));
-  if (!live.recording.empty()) add(make_recorder(loaded_, *this));
 }
 
 void Daemon::add(std::unique_ptr<Sink> sink) {
@@ -135,7 +155,7 @@ void Daemon::start() {
   if (guard_) guard_->start();
   if (roadway_) roadway_->start();
   runtime_.start();
-  source_->start(runtime_);
+  source_->start(*taker_);
 }
 
 void Daemon::stop() {
@@ -167,7 +187,8 @@ void Daemon::look_around(std::atomic<bool>& looked) {
   if (runtime_.is_alive() && (!guard_ || guard_->is_alive())) service_.alive();
 }
 
-void Daemon::run(const std::atomic<bool>& stop_asked, std::atomic<bool>& looked) {
+void Daemon::run(const std::atomic<bool>& stop_asked, std::atomic<bool>& looked,
+                 const std::function<void()>& is_through) {
   log_start();
   start();
   service_.ready();
@@ -182,10 +203,12 @@ void Daemon::run(const std::atomic<bool>& stop_asked, std::atomic<bool>& looked)
     std::this_thread::sleep_for(kLook);
   }
   service_.stopping();
-  const std::string failure = stop_asked ? "" : source_->failure();
+  const bool was_asked = stop_asked;
+  if (!was_asked) is_through();
+  const std::string failure = was_asked ? "" : source_->failure();
   // What failed stands in the source's line of status.
   if (failure.empty()) {
-    log_line(Grade::kGood, "pose_walld", stop_asked ? "stops, as asked" : "the recording is through");
+    log_line(Grade::kGood, "pose_walld", was_asked ? "stops, as asked" : "the recording is through");
   }
   log_status();
   stop();

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,13 +30,16 @@ class Daemon final : public HealthBoard {
   ~Daemon() override { stop(); }
 
   // Until `stop` is true, or a recording is through. `looked` is true where somebody has looked around the machine
-  // (StopGuard::confirm); it becomes false as it is heeded. Throws what the starts of source and sinks throw, and
-  // std::runtime_error for a recording that could not be played to its end or holds no cloud.
-  void run(const std::atomic<bool>& stop, std::atomic<bool>& looked);
+  // (StopGuard::confirm); it becomes false as it is heeded. is_through: called once where a recording is, before the
+  // parts end. Throws what the starts of source and sinks throw, and std::runtime_error for a recording that could not
+  // be played to its end or holds no cloud.
+  void run(const std::atomic<bool>& stop, std::atomic<bool>& looked, const std::function<void()>& is_through);
 
   std::vector<PartHealth> all() const override;
 
  private:
+  class Taker;
+
   void make_planar();
   void make_edges(const std::optional<ReplayPlan>& replay);
   void add(std::unique_ptr<Sink> sink);
@@ -50,6 +54,7 @@ class Daemon final : public HealthBoard {
   LoadedConfig loaded_;
   LiveRuntime runtime_;
   std::unique_ptr<CommandBoard> commands_;  // where a key names a place that they come from
+  std::unique_ptr<FrameTaker> taker_;
   std::unique_ptr<Source> source_;
   std::unique_ptr<StopGuard> guard_;  // where the key `planar` is on
   std::unique_ptr<SinkThread> roadway_;

@@ -30,6 +30,8 @@ namespace {
 constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2;
 // A clean stop takes a fraction of it; a sink that hangs in a dead disk must not keep the machine from its restart.
 constexpr auto kStopAtMost = std::chrono::seconds(1);
+// At the end of a recording nobody waits, and twenty clouds of 3 MB may be on their way to a slow disk.
+constexpr auto kEndAtMost = std::chrono::seconds(10);
 constexpr auto kLookForEnd = std::chrono::milliseconds(10);
 
 struct Words {
@@ -39,7 +41,7 @@ struct Words {
   ReplayPlan replay;
 };
 
-// Signals become a wish in a thread of its own; after it the stop must come within kStopAtMost.
+// Signals become a wish in a thread of its own; after it the stop must come in time.
 class StopSignals {
  public:
   StopSignals() {
@@ -60,6 +62,11 @@ class StopSignals {
   }
 
   const std::atomic<bool>& asked() const { return asked_; }
+  // The recording is through: all ends as if somebody had asked for it.
+  void ask_at_end() {
+    at_most_ = kEndAtMost;
+    pthread_kill(thread_.native_handle(), SIGTERM);
+  }
   // By SIGUSR1: somebody has looked around the machine.
   std::atomic<bool>& looked() { return looked_; }
 
@@ -70,15 +77,18 @@ class StopSignals {
     if (done_) return;
     asked_ = true;
     // Further signals hurry nothing and cancel nothing.
-    const auto until = std::chrono::steady_clock::now() + kStopAtMost;
+    const std::chrono::seconds at_most = at_most_;
+    const auto until = std::chrono::steady_clock::now() + at_most;
     while (!done_ && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(kLookForEnd);
     if (done_) return;
-    log_line(Grade::kBad, "pose_walld", "a part does not stop within a second; the process ends without it");
+    log_line(Grade::kBad, "pose_walld",
+             fmt::format("a part does not stop within {} s; the process ends without it", at_most.count()));
     _exit(kExitFailed);
   }
 
   sigset_t signals_{};
   std::atomic<bool> asked_{false}, looked_{false}, done_{false};
+  std::atomic<std::chrono::seconds> at_most_{kStopAtMost};
   std::thread thread_;
 };
 
@@ -91,7 +101,7 @@ int run(Words words) {
   if (!words.replay.inputs.empty()) replay = words.replay;
   StopSignals signals;
   Daemon daemon(loaded, replay);
-  daemon.run(signals.asked(), signals.looked());
+  daemon.run(signals.asked(), signals.looked(), [&signals] { signals.ask_at_end(); });
   return kExitDone;
 }
 

@@ -58,7 +58,14 @@ void SinkThread::run() {
     if (roadway) sink_->take_roadway(*roadway);
     locked.lock();
     if (result) ++taken_;
+    taken_one_.notify_all();
   }
+}
+
+void SinkThread::wait_for_room(std::chrono::milliseconds at_most) {
+  if (sink_->backlog() == 1) return;  // it wants the newest alone
+  std::unique_lock<std::mutex> locked(lock_);
+  taken_one_.wait_for(locked, at_most, [this] { return ending_ || waiting_.size() < sink_->backlog(); });
 }
 
 void SinkThread::stop() {

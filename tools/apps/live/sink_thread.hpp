@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <memory>
@@ -30,6 +31,8 @@ class SinkThread {
   // Where the one before still waits, it is lost and counted.
   void post(const std::shared_ptr<const StopNews>& news) { put(&stop_news_, news); }
   void post(const std::shared_ptr<const RoadwayNews>& news) { put(&roadway_news_, news); }
+  // Waits until the next result would cost none that the sink was to keep, or the time is up.
+  void wait_for_room(std::chrono::milliseconds at_most);
   // Takes what waits, then ends the thread and the sink. May be called twice.
   void stop();
 
@@ -56,7 +59,7 @@ class SinkThread {
   std::unique_ptr<Sink> sink_;
   std::thread thread_;
   mutable std::mutex lock_;
-  std::condition_variable changed_;
+  std::condition_variable changed_, taken_one_;
   std::deque<std::shared_ptr<const LiveResult>> waiting_;
   bool ending_ = false;
   std::shared_ptr<const StopNews> stop_news_;

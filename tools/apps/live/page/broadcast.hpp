@@ -6,12 +6,10 @@
 #pragma once
 
 #include <array>
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
-#include <vector>
 
 namespace pose_wall::tools::live {
 
@@ -24,13 +22,10 @@ class Broadcast {
   using Seen = std::array<std::uint64_t, kKinds>;
 
   void post(Kind kind, std::string event);
-  // The events that this viewer has not seen, which it then has; waits until there is one or time is up (none) or `end`
-  // was called (none).
-  std::vector<std::shared_ptr<const std::string>> next(Seen* seen, int timeout_ms);
+  // The first kind's event that this viewer has not seen, which it then has; none: nothing is new.
+  std::shared_ptr<const std::string> next(Seen* seen) const;
   // All but the hello.
   void forget_frames();
-  void end();
-  bool is_ending() const;
 
  private:
   struct Newest {
@@ -39,10 +34,8 @@ class Broadcast {
   };
 
   mutable std::mutex lock_;
-  std::condition_variable changed_;
   std::array<Newest, kKinds> newest_;
   std::uint64_t posted_ = 0;
-  bool ending_ = false;
 };
 
 }  // namespace pose_wall::tools::live

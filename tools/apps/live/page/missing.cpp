@@ -8,7 +8,7 @@
 namespace pose_wall::tools::live {
 
 std::unique_ptr<Sink> make_page_sink(const LoadedConfig&, const HealthBoard&, const StopBoard*) {
-  throw EdgeMissing("this build has no page: install libcpp-httplib-dev, configure and build again");
+  throw EdgeMissing("this build has no page: install libwebsockets-dev, configure and build again");
 }
 
 }  // namespace pose_wall::tools::live

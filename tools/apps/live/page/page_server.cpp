@@ -3,18 +3,12 @@
 
 // The page as a sink: a small web server, read-only, for a few viewers at once.
 
-#include <Eigen/Core>  // before httplib.h, which brings macros of the resolver that Eigen's names collide with
-
 #include <fmt/format.h>
-#include <httplib.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <chrono>
 #include <cstring>
 #include <mutex>
-#include <thread>
 
 #include "apps/live/clocks.hpp"
 #include "apps/live/edges.hpp"
@@ -23,21 +17,16 @@
 #include "apps/live/page/events.hpp"
 #include "apps/live/page/roadway_events.hpp"
 #include "apps/live/result_json.hpp"
+#include "apps/live/web/web_server.hpp"
 #include "io/config_file/key_table.hpp"
 #include "study/report/assets.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
 
-// Each viewer takes a thread; some are left for those who only ask once.
-constexpr std::size_t kViewersMost = 16, kThreads = kViewersMost + 4;
-// A viewer that takes nothing for so long is cut off; its browser comes back by itself.
-constexpr int kWriteTimeout_us = 400'000;
-// Of a request: whoever is slower holds a thread for nothing.
-constexpr int kReadTimeout_s = 5;
-constexpr std::size_t kRequestMost = 4096;  // a body is never wanted
+constexpr std::size_t kViewersMost = 16;  // each takes a frame's events ten times a second
 // A viewer hears something at least so often, so that one that is gone is noticed.
-constexpr int kWait_ms = 500;
+constexpr std::int64_t kSilentMost_ns = 500'000'000;
 // Ten publications of silence.
 constexpr std::int64_t kOld_ns = 1'000'000'000;
 // As /diagnostics of ROS.
@@ -48,14 +37,8 @@ constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'none'";
 
-// "localhost:8080", "[::1]:8080".
-std::string host_of(const std::string& header) {
-  if (!header.empty() && header.front() == '[') return header.substr(1, header.find(']') - 1);
-  return header.substr(0, header.rfind(':'));
-}
-
-std::string text(std::string_view view) {
-  return std::string(view);
+WebAnswer json(int status, const std::string& content) {
+  return web_answer(status, "application/json", content + "\n");
 }
 
 class PageServer final : public Sink {
@@ -66,22 +49,24 @@ class PageServer final : public Sink {
         stop_(stop),
         line_(stop_settings_of(loaded.planar), config_text(*loaded.config.get(), "forward_axis")),
         place_(*parse_host_port(loaded.live.http)),
-        assets_(report::live_assets()) {}
+        server_(place_, {{"content-security-policy", kPolicy},
+                         {"x-content-type-options", "nosniff"},
+                         {"referrer-policy", "no-referrer"},
+                         {"cache-control", "no-store"}}) {}
   ~PageServer() override { stop(); }
 
   void start() override {
     prepare();
-    if (!server_.bind_to_port(place_.host, place_.port)) {
-      throw std::runtime_error(
-          fmt::format("http: cannot listen at {}: the port is taken, not allowed, or the address is not this machine's",
-                      loaded_.live.http));
+    try {
+      server_.start();
+    } catch (const std::exception& fault) {
+      throw std::runtime_error(fmt::format("http: {}", fault.what()));
     }
     log_line(Grade::kGood, part(),
              fmt::format("http://{} shows the page; {}", loaded_.live.http,
                          is_loopback(place_.host) ? "only this machine reaches it"
                                                   : "everybody who reaches this address may look, nobody can change"));
-    broadcast_.post(Broadcast::kHello, hello_event(loaded_));
-    thread_ = std::thread([this] { server_.listen_after_bind(); });
+    tell(Broadcast::kHello, hello_event(loaded_));
   }
 
   void take(const LiveResult& result) override {
@@ -94,12 +79,12 @@ class PageServer final : public Sink {
     }
     tell_new_config(result.config);
     if (viewers_ == 0) return;
-    broadcast_.post(Broadcast::kFrame, frame_event(result));
+    tell(Broadcast::kFrame, frame_event(result));
   }
 
   bool wants_planar() const override { return stop_ != nullptr; }
   void take_stop(const StopNews& news) override {
-    if (viewers_ > 0) broadcast_.post(Broadcast::kStop, stop_event(news, line_));
+    if (viewers_ > 0) tell(Broadcast::kStop, stop_event(news, line_));
   }
   void take_roadway(const RoadwayNews& news) override {
     {
@@ -108,16 +93,12 @@ class PageServer final : public Sink {
     }
     if (viewers_ == 0) return;
     if (news.map && map_told_.exchange(news.map->version) != news.map->version) {
-      broadcast_.post(Broadcast::kMap, map_event(*news.map));
+      tell(Broadcast::kMap, map_event(*news.map));
     }
-    broadcast_.post(Broadcast::kRoadway, roadway_event(news));
+    tell(Broadcast::kRoadway, roadway_event(news));
   }
 
-  void stop() override {
-    broadcast_.end();
-    server_.stop();
-    if (thread_.joinable()) thread_.join();
-  }
+  void stop() override { server_.stop(); }
 
   PartHealth health() const override {
     PartHealth health;
@@ -126,7 +107,7 @@ class PageServer final : public Sink {
     health.add("viewers", static_cast<std::uint64_t>(viewers_.load()));
     health.add("viewers turned away", turned_away_.load());
     health.add("events sent", sent_.load());
-    health.add("viewers cut off", cut_off_.load());
+    health.add("viewers cut off", server_.cut_off());
     return health;
   }
 
@@ -140,122 +121,88 @@ class PageServer final : public Sink {
   void tell_new_config(const pose_wall_config& config) {
     if (std::memcmp(&config, loaded_.config.get(), sizeof config) == 0) return;
     *loaded_.config.get() = config;
-    broadcast_.post(Broadcast::kHello, hello_event(loaded_));
+    tell(Broadcast::kHello, hello_event(loaded_));
+  }
+
+  void tell(Broadcast::Kind kind, std::string event) {
+    broadcast_.post(kind, std::move(event));
+    server_.wake();
   }
 
   void prepare() {
-    server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-    // The library's own options let a second server take the same port, and neither would know.
-    server_.set_socket_options([](int file) {
-      const int on = 1;
-      setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    });
-    server_.set_read_timeout(kReadTimeout_s, 0);
-    server_.set_write_timeout(0, kWriteTimeout_us);
-    server_.set_payload_max_length(kRequestMost);
-    server_.set_keep_alive_max_count(20);
-    server_.set_default_headers({{"Content-Security-Policy", kPolicy},
-                                 {"X-Content-Type-Options", "nosniff"},
-                                 {"Referrer-Policy", "no-referrer"},
-                                 {"Cache-Control", "no-store"}});
-    server_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& answer) {
-      return is_allowed(request, &answer) ? httplib::Server::HandlerResponse::Unhandled
-                                          : httplib::Server::HandlerResponse::Handled;
-    });
-    const auto give = [this](const char* path, std::string content, const char* type) {
-      server_.Get(path, [content = std::move(content), type](const httplib::Request&, httplib::Response& answer) {
-        answer.set_content(content, type);
-      });
+    const report::Assets assets = report::live_assets();
+    const auto give = [this](const char* path, std::string_view content, const char* type) {
+      const auto shared = std::make_shared<const std::string>(content);
+      server_.get(path, [shared, type] { return web_answer(200, type, shared); });
     };
-    give("/", text(assets_.html), "text/html; charset=utf-8");
-    give("/page.css", text(assets_.style), "text/css; charset=utf-8");
-    give("/page.js", text(assets_.script), "text/javascript; charset=utf-8");
-    server_.Get("/events", [this](const httplib::Request&, httplib::Response& answer) { view(&answer); });
-    server_.Get("/state.json", [this](const httplib::Request&, httplib::Response& answer) { tell_state(&answer); });
-    server_.Get("/planar.json", [this](const httplib::Request&, httplib::Response& answer) { tell_planar(&answer); });
-    server_.Get("/map.png", [this](const httplib::Request&, httplib::Response& answer) { give_map(&answer); });
-    server_.Get("/health", [this](const httplib::Request&, httplib::Response& answer) { tell_health(&answer); });
+    give("/", assets.html, "text/html; charset=utf-8");
+    give("/page.css", assets.style, "text/css; charset=utf-8");
+    give("/page.js", assets.script, "text/javascript; charset=utf-8");
+    server_.get("/events", [this] { return view(); });
+    server_.get("/state.json", [this] { return state(); });
+    server_.get("/planar.json", [this] { return planar(); });
+    server_.get("/map.png", [this] { return map(); });
+    server_.get("/health", [this] { return health_of_all(); });
   }
 
-  // Nothing but reading; and on loopback only under this machine's own names, or a page of somebody else's whose name
-  // is pointed here could read it (DNS rebinding).
-  bool is_allowed(const httplib::Request& request, httplib::Response* answer) const {
-    if (request.method != "GET" && request.method != "HEAD") {
-      answer->status = 405;
-      answer->set_header("Allow", "GET, HEAD");
-      answer->set_content("only GET and HEAD: nothing can be changed here\n", "text/plain");
-      return false;
-    }
-    // One small request could ask for the page a thousand times.
-    if (request.has_header("Range")) {
-      answer->status = 416;
-      answer->set_content("parts are not given\n", "text/plain");
-      return false;
-    }
-    if (is_loopback(place_.host) && !is_loopback(host_of(request.get_header_value("Host")))) {
-      answer->status = 421;
-      answer->set_content("ask for localhost or 127.0.0.1\n", "text/plain");
-      return false;
-    }
-    return true;
-  }
+  // What one viewer is sent.
+  class View final : public WebStream {
+   public:
+    explicit View(PageServer& page) : page_(page) {}
+    ~View() override { page_.forget_viewer(); }
 
-  void view(httplib::Response* answer) {
-    if (viewers_.fetch_add(1) >= kViewersMost) {
-      --viewers_;
+    std::shared_ptr<const std::string> next() override {
+      static const auto kAlive = std::make_shared<const std::string>(": here\n\n");
+      page_.tell_health_now_and_then();
+      std::shared_ptr<const std::string> news = page_.broadcast_.next(&seen_);
+      if (news) ++page_.sent_;
+      const std::int64_t now_ns = monotonic_ns();
+      if (!news && now_ns - said_ns_ >= kSilentMost_ns) news = kAlive;
+      if (news) said_ns_ = now_ns;
+      return news;
+    }
+
+   private:
+    PageServer& page_;
+    Broadcast::Seen seen_{};
+    std::int64_t said_ns_ = 0;
+  };
+
+  WebAnswer view() {
+    if (viewers_ >= kViewersMost) {
       ++turned_away_;
-      answer->status = 503;
-      answer->set_header("Retry-After", "5");
-      answer->set_content(fmt::format("{} viewers look already\n", kViewersMost), "text/plain");
-      return;
+      WebAnswer answer = web_answer(503, "text/plain", fmt::format("{} viewers look already\n", kViewersMost));
+      answer.headers.emplace_back("retry-after", "5");
+      return answer;
     }
-    const auto seen = std::make_shared<Broadcast::Seen>();
-    answer->set_chunked_content_provider(
-        "text/event-stream",
-        [this, seen](std::size_t, httplib::DataSink& sink) { return send_news(seen.get(), &sink); },
-        [this](bool) {
-          // Who comes later must not see what was live when the last one left.
-          if (--viewers_ > 0) return;
-          broadcast_.forget_frames();
-          map_told_ = 0;
-        });
+    ++viewers_;
+    WebAnswer answer;
+    answer.type = "text/event-stream";
+    answer.stream = std::make_unique<View>(*this);
+    return answer;
   }
 
-  // By the threads of the viewers, for a worker that hangs publishes nothing; one of those that come at once tells it.
+  // Who comes later must not see what was live when the last one left.
+  void forget_viewer() {
+    if (--viewers_ > 0) return;
+    broadcast_.forget_frames();
+    map_told_ = 0;
+  }
+
+  // By the server's thread, for a worker that hangs publishes nothing.
   void tell_health_now_and_then() {
-    std::int64_t last_ns = health_last_ns_;
     const std::int64_t now_ns = monotonic_ns();
-    if (now_ns - last_ns < kHealthEvery_ns || !health_last_ns_.compare_exchange_strong(last_ns, now_ns)) return;
-    broadcast_.post(Broadcast::kHealth, health_event(board_.all()));
+    if (now_ns - health_last_ns_ < kHealthEvery_ns) return;
+    health_last_ns_ = now_ns;
+    tell(Broadcast::kHealth, health_event(board_.all()));
   }
 
-  // One round for one viewer; false at its end.
-  bool send_news(Broadcast::Seen* seen, httplib::DataSink* sink) {
-    const auto news = broadcast_.next(seen, kWait_ms);
-    if (broadcast_.is_ending()) return false;
-    static const std::string kAlive = ": here\n\n";
-    tell_health_now_and_then();
-    if (news.empty()) return sink->write(kAlive.data(), kAlive.size());
-    for (const auto& event : news) {
-      if (!sink->write(event->data(), event->size())) {
-        ++cut_off_;
-        return false;
-      }
-      ++sent_;
-    }
-    return true;
-  }
-
-  void tell_state(httplib::Response* answer) {
+  WebAnswer state() {
     const std::lock_guard<std::mutex> locked(newest_lock_);
-    if (!has_newest_) {
-      answer->status = 503;
-      answer->set_content("{\"error\": \"nothing was published yet\"}\n", "application/json");
-      return;
-    }
+    if (!has_newest_) return json(503, R"({"error": "nothing was published yet"})");
     // Silence is published, too: what is older was left by a worker that hangs.
-    if (monotonic_ns() - newest_.publication.published_ns > kOld_ns) answer->status = 503;
-    answer->set_content(result_json(newest_) + "\n", "application/json");
+    const bool is_old = monotonic_ns() - newest_.publication.published_ns > kOld_ns;
+    return json(is_old ? 503 : 200, result_json(newest_));
   }
 
   std::shared_ptr<const RoadwayNews> newest_roadway() {
@@ -263,32 +210,30 @@ class PageServer final : public Sink {
     return newest_roadway_;
   }
 
-  void tell_planar(httplib::Response* answer) {
-    if (stop_ == nullptr) {
-      answer->status = 404;
-      answer->set_content("{\"error\": \"the key planar is off\"}\n", "application/json");
-      return;
-    }
+  WebAnswer planar() {
+    if (stop_ == nullptr) return json(404, R"({"error": "the key planar is off"})");
     const std::shared_ptr<const RoadwayNews> roadway = newest_roadway();
-    answer->set_content(fmt::format("{{\"stop\": {}, \"roadway\": {}}}\n", stop_json(stop_->stop_now(), line_),
-                                    roadway ? roadway_json(*roadway) : "null"),
-                        "application/json");
+    return json(200, fmt::format(R"({{"stop": {}, "roadway": {}}})", stop_json(stop_->stop_now(), line_),
+                                 roadway ? roadway_json(*roadway) : "null"));
   }
 
-  void give_map(httplib::Response* answer) {
+  // A picture takes long beside the other answers, so one serves until the map changes.
+  WebAnswer map() {
     const std::shared_ptr<const RoadwayNews> roadway = newest_roadway();
-    if (roadway && roadway->map) return answer->set_content(map_png(*roadway->map), "image/png");
-    answer->status = 404;
-    answer->set_content("there is no map\n", "text/plain");
+    if (!roadway || !roadway->map) return web_answer(404, "text/plain", "there is no map\n");
+    if (!picture_ || picture_version_ != roadway->map->version) {
+      picture_ = std::make_shared<const std::string>(map_png(*roadway->map));
+      picture_version_ = roadway->map->version;
+    }
+    return web_answer(200, "image/png", picture_);
   }
 
   // For monitors: the runtime comes first.
-  void tell_health(httplib::Response* answer) {
+  WebAnswer health_of_all() const {
     const std::vector<PartHealth> parts = board_.all();
     const bool is_bad =
         std::any_of(parts.begin(), parts.end(), [](const PartHealth& part) { return part.grade >= Grade::kBad; });
-    answer->status = is_bad ? 503 : 200;
-    answer->set_content(health_json(parts) + "\n", "application/json");
+    return json(is_bad ? 503 : 200, health_json(parts));
   }
 
   LoadedConfig loaded_;
@@ -296,18 +241,18 @@ class PageServer final : public Sink {
   const StopBoard* stop_;
   const StopLine line_;
   HostPort place_;
-  report::Assets assets_;
-  httplib::Server server_;
   Broadcast broadcast_;
-  std::thread thread_;
   std::atomic<std::size_t> viewers_{0};
-  std::atomic<std::uint64_t> turned_away_{0}, sent_{0}, cut_off_{0};
-  std::atomic<std::int64_t> health_last_ns_{-kHealthEvery_ns};
+  std::atomic<std::uint64_t> turned_away_{0}, sent_{0};
+  std::int64_t health_last_ns_ = -kHealthEvery_ns;  // of the server's thread, as the picture
+  std::shared_ptr<const std::string> picture_;
+  std::uint64_t picture_version_ = 0;
   std::mutex newest_lock_;
   LiveResult newest_;
   bool has_newest_ = false;
   std::shared_ptr<const RoadwayNews> newest_roadway_;
   std::atomic<std::uint64_t> map_told_{0};  // version that the viewers have
+  WebServer server_;                        // last: its streams know the others
 };
 
 }  // namespace

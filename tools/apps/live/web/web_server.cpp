@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+#include "apps/live/web/web_server.hpp"
+
+#include <fmt/format.h>
+#include <libwebsockets.h>
+#include <netdb.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+
+namespace pose_wall::tools::live {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Connections at once: ten times what sixteen viewers, their browsers' spare connections and monitors take.
+constexpr unsigned kConnectionsMost = 512;
+constexpr unsigned short kHeaderBytesMost = 4096;  // of a request: a browser's are below 1,000
+// Whoever is slower with a request, or takes nothing of an answer for so long, holds a descriptor for nothing. Links
+// under ground lose packets for a second or two.
+constexpr int kTimeout_s = 5;
+constexpr lws_usec_t kWakeEvery_us = 500'000;  // a viewer that is gone is noticed by what it does not take
+constexpr std::size_t kPieceBytes = 65536;     // of an answer, between those to others
+constexpr std::size_t kHeadBytes = 2048;       // of an answer: the usual headers take 500
+
+std::string header(lws* connection, lws_token_indexes which) {
+  const int length = lws_hdr_total_length(connection, which);
+  if (length <= 0) return "";
+  std::string text(static_cast<std::size_t>(length) + 1, '\0');  // the copy ends with 0
+  if (lws_hdr_copy(connection, text.data(), length + 1, which) < 0) return "";
+  text.resize(static_cast<std::size_t>(length));
+  return text;
+}
+
+bool is_get(lws* connection) {
+  return lws_hdr_total_length(connection, WSI_TOKEN_GET_URI) > 0;
+}
+
+bool is_head(lws* connection) {
+  return lws_hdr_total_length(connection, WSI_TOKEN_HEAD_URI) > 0;
+}
+
+// "localhost:8080", "[::1]:8080".
+std::string host_of(const std::string& header) {
+  if (!header.empty() && header.front() == '[') return header.substr(1, header.find(']') - 1);
+  return header.substr(0, header.rfind(':'));
+}
+
+struct Address {
+  std::string numbers;  // empty: all addresses
+  bool is_ipv6;
+};
+
+// The library wants an address in numbers.
+std::optional<Address> resolve(const HostPort& place) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE;
+  addrinfo* found = nullptr;
+  if (getaddrinfo(place.host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) return std::nullopt;
+  std::array<char, NI_MAXHOST> numbers{};
+  const int fault =
+      getnameinfo(found->ai_addr, found->ai_addrlen, numbers.data(), numbers.size(), nullptr, 0, NI_NUMERICHOST);
+  const Address address{numbers.data(), found->ai_family == AF_INET6};
+  freeaddrinfo(found);
+  if (fault != 0) return std::nullopt;
+  return address;
+}
+
+}  // namespace
+
+WebAnswer web_answer(int status, std::string type, std::shared_ptr<const std::string> content) {
+  WebAnswer answer;
+  answer.status = status;
+  answer.type = std::move(type);
+  answer.content = std::move(content);
+  return answer;
+}
+
+WebAnswer web_answer(int status, std::string type, std::string content) {
+  return web_answer(status, std::move(type), std::make_shared<const std::string>(std::move(content)));
+}
+
+// Of one request.
+struct WebServer::Session {
+  std::shared_ptr<const std::string> content;
+  std::size_t sent = 0;
+  bool closes = false;  // after the answer: what else was sent is not read
+  std::unique_ptr<WebStream> stream;
+  std::optional<Clock::time_point> sent_at;  // of news that the viewer has not taken yet
+};
+
+// What the library calls. It knows the server by the context.
+struct WebLoop {
+  static int call(lws* connection, lws_callback_reasons why, void* /*session*/, void* in, std::size_t length) {
+    lws_context* const context = lws_get_context(connection);
+    auto* const server = static_cast<WebServer*>(lws_context_user(context));
+    switch (why) {
+      case LWS_CALLBACK_HTTP:
+        return server->begin(connection, {static_cast<const char*>(in), length});
+      case LWS_CALLBACK_HTTP_WRITEABLE:
+        return server->go_on(connection);
+      case LWS_CALLBACK_HTTP_BODY:
+      case LWS_CALLBACK_HTTP_BODY_COMPLETION:
+        return 0;  // is not read
+      case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
+        server->wake_streams();
+        return 0;
+      case LWS_CALLBACK_CLOSED_HTTP:
+      case LWS_CALLBACK_WSI_DESTROY:
+        server->end(connection);
+        return 0;
+      default:
+        return lws_callback_http_dummy(connection, why, nullptr, in, length);
+    }
+  }
+
+  struct Timer {
+    lws_sorted_usec_list_t entry;  // the library knows the timer by it
+    WebServer* server;
+    static void call(lws_sorted_usec_list_t* entry) {
+      Timer* const timer = lws_container_of(entry, Timer, entry);
+      timer->server->wake_streams();
+      timer->set();
+    }
+    void set() { lws_sul_schedule(server->context_, 0, &entry, &Timer::call, kWakeEvery_us); }
+  };
+};
+
+WebServer::WebServer(HostPort place, std::vector<std::pair<std::string, std::string>> usual_headers)
+    : place_(std::move(place)), usual_headers_(std::move(usual_headers)) {}
+
+WebServer::~WebServer() {
+  stop();
+}
+
+void WebServer::get(const std::string& path, Give give) {
+  gives_[path] = std::move(give);
+}
+
+void WebServer::start() {
+  static const std::array<lws_protocols, 2> kProtocols = {{{"http", &WebLoop::call, 0, 0, 0, nullptr, 0}, {}}};
+  lws_set_log_level(0, nullptr);  // it logs what clients do wrong
+  const std::optional<Address> address = resolve(place_);
+  lws_context_creation_info info{};
+  info.port = place_.port;
+  info.protocols = kProtocols.data();
+  info.user = this;
+  info.fd_limit_per_thread = kConnectionsMost;
+  info.max_http_header_pool = kConnectionsMost;
+  info.max_http_header_data = kHeaderBytesMost;
+  info.timeout_secs = static_cast<unsigned>(kTimeout_s);
+  info.keepalive_timeout = kTimeout_s;
+  info.server_string = "pose_walld";
+  info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
+  if (address) {
+    if (!address->is_ipv6) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
+    const bool is_any = address->numbers == "0.0.0.0" || address->numbers == "::";
+    if (!is_any) info.iface = address->numbers.c_str();
+    context_ = lws_create_context(&info);
+  }
+  if (context_ == nullptr) {
+    throw std::runtime_error(
+        fmt::format("cannot listen at {}:{}: the port is taken, not allowed, or the address is not this machine's",
+                    place_.host, place_.port));
+  }
+  ending_ = false;
+  thread_ = std::thread([this] { serve(); });
+}
+
+void WebServer::serve() {
+  WebLoop::Timer timer{{}, this};
+  timer.set();
+  while (!ending_ && lws_service(context_, 0) >= 0) continue;
+  lws_sul_cancel(&timer.entry);
+}
+
+void WebServer::wake() {
+  if (context_ != nullptr) lws_cancel_service(context_);
+}
+
+void WebServer::stop() {
+  if (context_ == nullptr) return;
+  ending_ = true;
+  lws_cancel_service(context_);
+  thread_.join();
+  lws_context_destroy(context_);
+  context_ = nullptr;
+}
+
+void WebServer::wake_streams() {
+  for (const auto& [connection, session] : sessions_) {
+    if (session->stream) lws_callback_on_writable(connection);
+  }
+}
+
+// Nothing but reading; and on loopback only under this machine's own names, or a page of somebody else's whose name is
+// pointed here could read it (DNS rebinding).
+WebAnswer WebServer::answer_to(lws* connection, const std::string& path) const {
+  if (!is_get(connection) && !is_head(connection)) {
+    WebAnswer answer = web_answer(405, "text/plain", "only GET and HEAD: nothing can be changed here\n");
+    answer.headers.emplace_back("allow", "GET, HEAD");
+    return answer;
+  }
+  // One small request could ask for the page a thousand times.
+  if (!header(connection, WSI_TOKEN_HTTP_RANGE).empty()) return web_answer(416, "text/plain", "parts are not given\n");
+  if (is_loopback(place_.host) && !is_loopback(host_of(header(connection, WSI_TOKEN_HOST)))) {
+    return web_answer(421, "text/plain", "ask for localhost or 127.0.0.1\n");
+  }
+  const auto give = gives_.find(path);
+  return give == gives_.end() ? web_answer(404, "text/plain", "there is nothing of this name\n") : give->second();
+}
+
+bool WebServer::send_head(lws* connection, const WebAnswer& answer) const {
+  std::array<unsigned char, LWS_PRE + kHeadBytes> head{};
+  unsigned char* const begin = head.data() + LWS_PRE;
+  unsigned char *at = begin, *const end = head.data() + head.size();
+  const lws_filepos_t length = answer.stream ? LWS_ILLEGAL_HTTP_CONTENT_LEN : answer.content->size();
+  if (lws_add_http_common_headers(connection, static_cast<unsigned>(answer.status), answer.type.c_str(), length, &at,
+                                  end) != 0) {
+    return false;
+  }
+  for (const auto* headers : {&usual_headers_, &answer.headers}) {
+    for (const auto& [name, value] : *headers) {
+      const std::string with_colon = name + ":";
+      if (lws_add_http_header_by_name(connection, reinterpret_cast<const unsigned char*>(with_colon.c_str()),
+                                      reinterpret_cast<const unsigned char*>(value.data()),
+                                      static_cast<int>(value.size()), &at, end) != 0) {
+        return false;
+      }
+    }
+  }
+  return lws_finalize_write_http_header(connection, begin, &at, end) == 0;
+}
+
+// The library closes the connection for all that is not 0.
+int WebServer::begin(lws* connection, const std::string& path) {
+  WebAnswer answer = answer_to(connection, path);
+  if (!send_head(connection, answer)) return -1;
+  const bool has_body = !is_head(connection) && (answer.stream || !answer.content->empty());
+  if (!has_body) return lws_http_transaction_completed(connection);
+  auto session = std::make_unique<Session>();
+  session->content = std::move(answer.content);
+  session->stream = std::move(answer.stream);
+  session->closes = !is_get(connection);
+  sessions_[connection] = std::move(session);
+  lws_callback_on_writable(connection);
+  return 0;
+}
+
+int WebServer::go_on(lws* connection) {
+  const auto session = sessions_.find(connection);
+  if (session == sessions_.end()) return 0;
+  return session->second->stream ? send_news(connection, session->second.get())
+                                 : send_content(connection, session->second.get());
+}
+
+int WebServer::send_content(lws* connection, Session* session) {
+  const std::size_t left = session->content->size() - session->sent, now = std::min(left, kPieceBytes);
+  std::vector<unsigned char> piece(LWS_PRE + now);
+  std::memcpy(piece.data() + LWS_PRE, session->content->data() + session->sent, now);
+  const bool is_last = now == left;
+  if (lws_write(connection, piece.data() + LWS_PRE, now, is_last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP) < 0)
+    return -1;
+  session->sent += now;
+  if (is_last) {
+    const bool closes = session->closes;
+    sessions_.erase(connection);
+    return closes ? -1 : lws_http_transaction_completed(connection);
+  }
+  lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
+  lws_callback_on_writable(connection);
+  return 0;
+}
+
+int WebServer::send_news(lws* connection, Session* session) {
+  session->sent_at.reset();
+  lws_set_timeout(connection, NO_PENDING_TIMEOUT, 0);
+  const std::shared_ptr<const std::string> news = session->stream->next();
+  if (!news) return 0;
+  std::vector<unsigned char> piece(LWS_PRE + news->size());
+  std::memcpy(piece.data() + LWS_PRE, news->data(), news->size());
+  if (lws_write(connection, piece.data() + LWS_PRE, news->size(), LWS_WRITE_HTTP) < 0) return -1;
+  session->sent_at = Clock::now();
+  lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
+  lws_callback_on_writable(connection);
+  return 0;
+}
+
+void WebServer::end(lws* connection) {
+  const auto session = sessions_.find(connection);
+  if (session == sessions_.end()) return;
+  const std::optional<Clock::time_point>& sent_at = session->second->sent_at;
+  if (sent_at && Clock::now() - *sent_at >= std::chrono::seconds(kTimeout_s)) ++cut_off_;
+  sessions_.erase(session);
+}
+
+}  // namespace pose_wall::tools::live

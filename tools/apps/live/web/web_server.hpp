@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// A small web server that only gives: answers to GET, and streams of events. One thread serves all connections by an
+// event loop (libwebsockets), so a client that is slow, idle, silent or hostile costs a descriptor and nobody's time,
+// and the server stops within milliseconds, whatever its clients do.
+
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "io/config_file/live_settings.hpp"
+
+struct lws;
+struct lws_context;
+
+namespace pose_wall::tools::live {
+
+// What one viewer gets bit by bit. All calls come from the server's thread.
+class WebStream {
+ public:
+  WebStream() = default;
+  WebStream(const WebStream&) = delete;
+  WebStream& operator=(const WebStream&) = delete;
+  virtual ~WebStream() = default;
+  // What is sent next; none: nothing is new. Asked again whenever the viewer has taken what came before.
+  virtual std::shared_ptr<const std::string> next() = 0;
+};
+
+struct WebAnswer {
+  int status = 200;
+  std::string type = "text/plain";
+  std::shared_ptr<const std::string> content;
+  std::vector<std::pair<std::string, std::string>> headers;  // "retry-after", "5": beside those of all answers
+  std::unique_ptr<WebStream> stream;                         // in place of the content
+};
+WebAnswer web_answer(int status, std::string type, std::shared_ptr<const std::string> content);
+WebAnswer web_answer(int status, std::string type, std::string content);
+
+class WebServer {
+ public:
+  // In the server's thread: must not wait, as everybody else does meanwhile.
+  using Give = std::function<WebAnswer()>;
+
+  // usual_headers: of each answer.
+  WebServer(HostPort place, std::vector<std::pair<std::string, std::string>> usual_headers);
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
+  ~WebServer();
+
+  // Before start. Any other path gets 404, any other method than GET and HEAD 405.
+  void get(const std::string& path, Give give);
+  // Throws std::runtime_error where the address cannot be listened at.
+  void start();
+  // Streams have news, or may have; from any thread.
+  void wake();
+  // Ends every connection. May be called twice.
+  void stop();
+
+  // Viewers of streams that took nothing for seconds, and were ended.
+  std::uint64_t cut_off() const { return cut_off_; }
+
+ private:
+  friend struct WebLoop;
+  struct Session;
+
+  void serve();
+  void wake_streams();
+  int begin(lws* connection, const std::string& path);
+  int go_on(lws* connection);
+  int send_content(lws* connection, Session* session);
+  int send_news(lws* connection, Session* session);
+  bool send_head(lws* connection, const WebAnswer& answer) const;
+  WebAnswer answer_to(lws* connection, const std::string& path) const;
+  void end(lws* connection);
+
+  HostPort place_;
+  std::vector<std::pair<std::string, std::string>> usual_headers_;
+  std::unordered_map<std::string, Give> gives_;
+  lws_context* context_ = nullptr;
+  std::unordered_map<lws*, std::unique_ptr<Session>> sessions_;
+  std::thread thread_;
+  std::atomic<bool> ending_{false};
+  std::atomic<std::uint64_t> cut_off_{0};
+};
+
+}  // namespace pose_wall::tools::live
