@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 #include "apps/live/edges.hpp"
 #include "apps/live/sensor_sim/metadata_server.hpp"
@@ -296,6 +298,27 @@ TEST(UdpSource, ASecondSensorDoesNotTakeThePlaceOfOneThatFellSilent) {
   pace.send(sender, vlp16_turns(4, 4));
   EXPECT_TRUE(becomes_true([&] { return fact(source->health(), "frames") != frames; })) << source->health().summary;
   source->stop();
+}
+
+// Anybody can send a packet now and then, also before the sensor does.
+TEST(UdpSource, AStrangersPacketNowAndThenKeepsNoSensorOut) {
+  const std::uint16_t port = free_udp_port();
+  const auto source = make_udp_source(live_config(port));
+  FrameCatcher catcher;
+  source->start(catcher);
+  const LoopbackSender sender(port), stranger(port, "127.0.0.2");
+  send_one(stranger);
+  EXPECT_TRUE(becomes_true([&] { return source->health().summary == "packets come, no turn yet"; }));
+  Pace pace(*source);
+  const std::vector<std::string> turns = vlp16_turns(40);  // 4 s
+  const std::size_t second = turns.size() / 4;
+  for (std::size_t i = 0; i < turns.size() && fact(source->health(), "frames") == "0"; ++i) {
+    if (i % second == 0) send_one(stranger);
+    pace.send(sender, std::string_view(turns[i]));
+    std::this_thread::sleep_for(std::chrono::microseconds(1330));  // as the sensor does
+  }
+  source->stop();
+  ASSERT_FALSE(catcher.frames().empty()) << source->health().summary;
 }
 
 TEST(UdpSource, WhoSendsInPlaceOfTheOneThatIsWaitedForIsNamed) {

@@ -14,9 +14,11 @@ constexpr std::uint32_t kFew = 3;  // returns that dust brings to a cell of the 
 // Of dust: the sweep's thousand places and an hour's 36,000 frames.
 constexpr float kOnceAnHour = 1.0F / (1000.0F * 36000.0F);
 
-// Returns of a frame around a place: less than the smallest thing brings from 6 m, by a VLP-16's one ring.
+// Returns of a frame around a place: less than the smallest thing brings from 6 m, by a VLP-16's one ring. It brings
+// more from nearer, at least as it is wider there.
 constexpr std::uint32_t kWide = 4;
-constexpr float kFactorialOfWide = 24.0F;  // of the distribution's term
+constexpr float kWideFrom_m = 6.0F, kNearest_m = 0.1F;  // nearer, counts of 255 would not hold them
+constexpr float kFactorialOfWide = 24.0F;               // of the distribution's term
 
 }  // namespace
 
@@ -83,7 +85,11 @@ Places::Around Places::look_around(Place* place, const Sight::Return& hit, std::
   add(&place->doubts[kind]);
   place->doubt_first_ms = first_ms;
   place->doubt_ms = now_ms;
-  return {in_frame >= kWide, 3 * (now_ms - first_ms) >= 2 * delay_ms_ && in_delay >= kWide};
+  const float range_m = std::sqrt(hit.x * hit.x + hit.y * hit.y);
+  const float nearer = range_m < kWideFrom_m ? kWideFrom_m / (range_m > kNearest_m ? range_m : kNearest_m) : 1.0F;
+  const float wide = static_cast<float>(kWide) * nearer;
+  return {static_cast<float>(in_frame) >= wide,
+          3 * (now_ms - first_ms) >= 2 * delay_ms_ && static_cast<float>(in_delay) >= wide};
 }
 
 // A thin thing returns in frame after frame, a grain of dust once. Of dust as thick as around the place, so many frames

@@ -105,8 +105,10 @@ void Places::put_returns(const Sight& sight, const Way& way, const Eigen::Vector
     if (!hit.is_high) return;
     const auto x_mm = static_cast<std::int32_t>((at.x() - place.ix * kPlace_m) * 1000.0);
     const auto y_mm = static_cast<std::int32_t>((at.y() - place.iy * kPlace_m) * 1000.0);
+    const auto steps = static_cast<std::int32_t>(hit.height_m * (1.0F / kHeightStep_m));
     place.high_x_mm = static_cast<std::uint8_t>(is_new ? x_mm : (3 * place.high_x_mm + x_mm) / 4);
     place.high_y_mm = static_cast<std::uint8_t>(is_new ? y_mm : (3 * place.high_y_mm + y_mm) / 4);
+    place.high_steps = static_cast<std::uint8_t>(is_new ? steps : (3 * place.high_steps + steps) / 4);
   });
   last_ms_ = now_ms;
 }
@@ -191,10 +193,11 @@ void Places::confirm(const Way& way, const Sweep& sweep, std::uint32_t now_ms) {
   });
 }
 
-// A high thing is gone where rays pass and nothing returned for the delay.
+// A high thing is gone where rays pass at its height and nothing returned for the delay. Rays above a low boom, and
+// below one that hangs, tell nothing of it.
 void Places::let_go(Place* place, const Sight& sight, float x, float y, std::uint32_t now_ms) const {
   const bool may_go = place->thing_high_ms != 0 && now_ms - place->thing_high_ms > delay_ms_;
-  if (may_go && sight.passed_high(x, y)) place->thing_high_ms = 0;
+  if (may_go && sight.passed_at(x, y, place->high_steps * kHeightStep_m)) place->thing_high_ms = 0;
 }
 
 // What a place is to the sweep: false if it is free.

@@ -38,6 +38,7 @@ struct Place {
   std::uint8_t doubts[2], doubts_in_frame[2];  // low and high ones, as long as they go on, and in the last frame
   std::uint8_t dust_run;                       // of frames in turn with such returns around it
   std::uint8_t high_x_mm, high_y_mm;           // where in it the high returns are, in the mean of the last ones
+  std::uint8_t high_steps;                     // and their height, in steps of kHeightStep_m
 };
 
 class Places {
@@ -115,6 +116,9 @@ class Places {
   static LineAxis line_axis(const Eigen::Vector2d& away, const std::int32_t* axis);
   Line line_with(const Place& place, const Place& near, const Eigen::Vector2d& away, const LineAxis& axis) const;
   Line line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* step, std::int32_t times) const;
+  static Eigen::Vector2d between_mm(const Place& from, const Place& to);
+  bool is_line_at(const Place& place, const Eigen::Vector2d& away, const Eigen::Vector2d& along_mm, double at) const;
+  bool ends_line(const Place& place, const Eigen::Vector2d& away) const;
   bool came_alone(const Place& place) const;
   bool is_in_line(const Place& place, const Eigen::Vector2d& away) const;
   bool is_low_free(const Place& place, const Way& way) const;

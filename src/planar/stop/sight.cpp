@@ -29,6 +29,7 @@ constexpr float kBend = 0.3476F;
 void Sight::lay_out(Arena& arena) {
   passes_ = arena.take<std::uint64_t>(kCounts);
   returns_ = arena.take<std::uint8_t>(2 * kRingCells);
+  heights_ = arena.take<std::uint16_t>(kRingCells);
   seen_ = arena.take<std::uint8_t>(kRingCells);
   steepest_fall_ = arena.take<float>(kAzimuths / kSliceAzimuths);
   steepest_rise_ = arena.take<float>(kAzimuths / kSliceAzimuths);
@@ -139,14 +140,19 @@ void Sight::put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m,
   const FourInts eighths = cut_off(smaller_of(range_m * kEighths, all_four(8.0F * kRings - 1.0F)));
   const FourInts high = (fall_m <= all_four(thing_fall_m_)) & static_cast<std::int32_t>(kRingCells);
   static_assert(kAzimuths == 1U << 9U, "a shift of the ring");
-  Words cell, inside;
+  const FourInts steps = cut_off((sensor_height_m_ - fall_m) * (1.0F / kHeightStep_m));
+  Words cell, inside, height;
   store_four(((eighths >> 3) << 9) + azimuth + high, cell);
   store_four((eighths & 7) << kCountBits, inside);
+  store_four(steps, height);
   for (std::uint32_t lane = 0; lane < kFour; ++lane) {
     if ((lanes >> lane & 1U) == 0) continue;
     std::uint8_t& word = returns_[cell[lane]];
     const std::uint32_t count = word & kCountMost;
     word = static_cast<std::uint8_t>(inside[lane] | (count < kCountMost ? count + 1 : count));
+    if (cell[lane] < kRingCells || count == kCountMost) continue;
+    std::uint16_t& sum = heights_[cell[lane] - kRingCells];
+    sum = static_cast<std::uint16_t>((count == 0 ? 0U : sum) + height[lane]);
   }
 }
 
@@ -317,15 +323,20 @@ std::uint32_t Sight::could_see(float x, float y) const {
   return kinds;
 }
 
-bool Sight::passed_high(float x, float y) const {
-  const auto ring = static_cast<std::uint32_t>(std::sqrt(x * x + y * y) / kRing_m);
-  return ring < kRings && count_of(ring * kRow + azimuth_of(x, y), kHighShift) != 0;
+bool Sight::passed_at(float x, float y, float height_m) const {
+  const float range_m = std::sqrt(x * x + y * y), fall_m = sensor_height_m_ - height_m;
+  const auto ring = static_cast<std::uint32_t>(range_m / kRing_m);
+  const std::uint32_t azimuth = azimuth_of(x, y), slice = azimuth / kSliceAzimuths;
+  return ring < kRings && count_of(ring * kRow + azimuth, kHighShift) != 0 &&
+         steepest_fall_[slice] * range_m >= fall_m && steepest_rise_[slice] * range_m >= -fall_m;
 }
 
 Sight::Return Sight::returned(std::uint32_t ring, std::uint32_t azimuth, bool is_high, std::uint8_t word) const {
   const std::uint32_t count = word & kCountMost, eighth = word >> kCountBits;
   const float r_m = (static_cast<float>(ring) + (static_cast<float>(eighth) + 0.5F) * 0.125F) * kRing_m;
-  return {r_m * direction_x_[azimuth], r_m * direction_y_[azimuth], is_high, count};
+  const std::uint32_t sum = is_high ? heights_[ring * kAzimuths + azimuth] : 0;
+  const float height_m = static_cast<float>(sum) * kHeightStep_m / static_cast<float>(count);
+  return {r_m * direction_x_[azimuth], r_m * direction_y_[azimuth], is_high, count, height_m};
 }
 
 }  // namespace pose_wall::planar

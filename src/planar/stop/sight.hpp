@@ -23,6 +23,7 @@ constexpr std::uint32_t kAzimuths = 512;       // steps of a turn
 constexpr std::uint32_t kRings = 80;           // up to 8 m from the sensor
 constexpr float kRing_m = 0.1F;                // as wide as a place
 constexpr std::uint32_t kRow = kAzimuths + 8;  // words of a ring: no power of two, or all rings share a cache's set
+constexpr float kHeightStep_m = 0.025F;        // of returns: 255 steps hold the highest top_m
 constexpr double kAzimuthMost_rad = 0.0126;    // the widest step; a test looks at all of them
 
 class Sight {
@@ -45,8 +46,9 @@ class Sight {
     float low_x, high_x, low_y, high_y;
   };
   const Bounds& seen_within() const { return seen_within_; }
-  // Whether rays passed there above thing_height_m.
-  bool passed_high(float x, float y) const;
+  // Whether rays passed there above thing_height_m, and rays of that direction come as low and as high as a height
+  // above the floor: one would have ended on what returned from there.
+  bool passed_at(float x, float y, float height_m) const;
   // Which azimuth a direction is in.
   static std::uint32_t azimuth_of(float x, float y);
 
@@ -54,6 +56,7 @@ class Sight {
     float x, y;  // about the sensor
     bool is_high;
     std::uint32_t returns;  // up to 31
+    float height_m;         // of high ones, in their mean
   };
   // visit(Return) for each cell with returns, low and high ones apart.
   template <typename Visit>
@@ -106,9 +109,10 @@ class Sight {
   void put_slopes(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those);
   void put_returns(FourInts azimuth, FourFloats fall_m, FourFloats range_m, FourTruths those);
 
-  Span<std::uint64_t> passes_;  // rays by cell, one ring more than cells
-  Span<std::uint8_t> returns_;  // low ones, then high ones: count, saturated, and eighth of the ring of the last one
-  Span<std::uint8_t> seen_;     // widened over azimuths
+  Span<std::uint64_t> passes_;   // rays by cell, one ring more than cells
+  Span<std::uint8_t> returns_;   // low ones, then high ones: count, saturated, and eighth of the ring of the last one
+  Span<std::uint16_t> heights_;  // of the high ones that count, their sum in steps of kHeightStep_m above the floor
+  Span<std::uint8_t> seen_;      // widened over azimuths
   // Of rays in each slice of 5.6 degrees, in metres of height to a metre; not below 0.
   Span<float> steepest_fall_, steepest_rise_;
   float direction_x_[kAzimuths], direction_y_[kAzimuths];

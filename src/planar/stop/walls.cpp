@@ -17,10 +17,13 @@ constexpr std::int32_t kChest_mm = 230, kChestDiagonal_mm = 325;
 // What lies so much deeper than the rock to both sides of it is of the same wall: blocks are up to 0.5 m deep in the
 // rock that was measured (lab/sim/rock_scales.hpp). Whoever is in there comes out of the line before they are near.
 constexpr std::int32_t kDeep_mm = 500, kDeepDiagonal_mm = 707;
-constexpr std::int32_t kDeepPlaces = 5;  // as many of 0.1 m
-constexpr double kAcross2 = 0.2 * 0.2;   // sine, squared: of a line that points at the sensor no side is the deeper one
-constexpr double kBody_m = 0.115;        // from a chest's front to its middle
-constexpr double kSomething_m = 1e-6;    // a place at the sensor has no direction
+constexpr std::int32_t kDeepPlaces = 5;   // as many of 0.1 m
+constexpr std::int32_t kChestPlaces = 3;  // of 0.1 m, which hold a chest's depth
+constexpr double kStationHalf_mm =
+    84.0;  // half of a sixth of a metre: wider, and the wall would fill in for a body's end
+constexpr double kAcross2 = 0.2 * 0.2;  // sine, squared: of a line that points at the sensor no side is the deeper one
+constexpr double kBody_m = 0.115;       // from a chest's front to its middle
+constexpr double kSomething_m = 1e-6;   // a place at the sensor has no direction
 
 }  // namespace
 
@@ -83,6 +86,11 @@ Places::LineAxis Places::line_axis(const Eigen::Vector2d& away, const std::int32
   return {x, y, is_diagonal ? 2 : 1, chest_mm, deep_mm, across > 0.0 ? -1 : 1};
 }
 
+Eigen::Vector2d Places::between_mm(const Place& from, const Place& to) {
+  return {kPlace_mm * (to.ix - from.ix) + to.high_x_mm - from.high_x_mm,
+          kPlace_mm * (to.iy - from.iy) + to.high_y_mm - from.high_y_mm};
+}
+
 // How a place goes with another one that may be of its line: the place does not stand out, or is deeper.
 Places::Line Places::line_with(const Place& place, const Place& near, const Eigen::Vector2d& away,
                                const LineAxis& axis) const {
@@ -113,21 +121,61 @@ Places::Line Places::line_on(const Place& place, const Eigen::Vector2d& away, co
   return line;
 }
 
-// Whether it is in a line along any of four axes: with half a metre to both sides, or flush for a metre to one, without
-// a gap in which a person would fit.
-bool Places::is_in_line(const Place& place, const Eigen::Vector2d& away) const {
-  constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};    // half a metre in places
-  constexpr std::int32_t kHalves[4][2] = {{3, 0}, {0, 3}, {2, 2}, {2, -2}};  // of these, where a gap would be
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto on = [&](const std::int32_t* axis, std::int32_t times) { return line_on(place, away, axis, times); };
-    const auto is_flush = [&](std::int32_t side) {
-      return on(kAxes[k], 2 * side) == Line::flush && on(kHalves[k], side) == Line::flush;
-    };
-    const Line ahead = on(kAxes[k], 1), behind = on(kAxes[k], -1);
-    if (ahead != Line::none && behind != Line::none) return true;
-    if ((ahead == Line::flush && is_flush(1)) || (behind == Line::flush && is_flush(-1))) return true;
+// Whether something of a line is near a point: up to half a step beside it along the line, and standing out of it by
+// less than a chest to either side.
+bool Places::is_line_at(const Place& place, const Eigen::Vector2d& away, const Eigen::Vector2d& along_mm,
+                        double at) const {
+  const double length_mm = along_mm.norm();
+  const Eigen::Vector2d to_mm = at * along_mm;
+  const std::int32_t ix = place_of(0.001 * (kPlace_mm * place.ix + place.high_x_mm + to_mm.x()));
+  const std::int32_t iy = place_of(0.001 * (kPlace_mm * place.iy + place.high_y_mm + to_mm.y()));
+  for (std::int32_t dy = -kChestPlaces; dy <= kChestPlaces; ++dy) {
+    for (std::int32_t dx = -kChestPlaces; dx <= kChestPlaces; ++dx) {
+      const Place* const near = known_at(ix + dx, iy + dy);
+      if (near == nullptr || near->thing_high_ms == 0) continue;
+      const Eigen::Vector2d there_mm = between_mm(place, *near), off_mm = there_mm - to_mm;
+      const double across_mm = (off_mm.x() * along_mm.y() - off_mm.y() * along_mm.x()) / length_mm;
+      if (std::fabs(across_mm) > kChest_mm || std::fabs(off_mm.dot(along_mm)) > kStationHalf_mm * length_mm) continue;
+      if (was_seen_with(*near, place) && has_stood(*near, away + 0.001 * there_mm)) return true;
+    }
   }
   return false;
+}
+
+// Whether a line of things goes from it to one 2 to 2.5 m off, without a gap in which a person would fit. The far end
+// lies on the wall. So half a metre from a body that leans on it, where that body ends, the line is off the wall by
+// three quarters of what stands out.
+bool Places::ends_line(const Place& place, const Eigen::Vector2d& away) const {
+  constexpr std::int32_t kFar = 20, kSide = 14;  // 2 m in places, and its part of 45 degrees
+  constexpr double kFar2 = kFar * kFar;
+  constexpr std::int32_t kThick = 5;      // places: rock has some that nothing returned from
+  constexpr std::int32_t kStations = 12;  // steps of a sixth of a metre
+  const auto is_end = [&](std::int32_t dx, std::int32_t dy) {
+    const Place* const far = known_at(place.ix + dx, place.iy + dy);
+    if (far == nullptr || far->thing_high_ms == 0) return false;
+    const Eigen::Vector2d along_mm = between_mm(place, *far);
+    if (!was_seen_with(*far, place) || !has_stood(*far, away + 0.001 * along_mm)) return false;
+    for (std::int32_t k = 1; k < kStations; ++k) {
+      if (!is_line_at(place, away, along_mm, static_cast<double>(k) / kStations)) return false;
+    }
+    return true;
+  };
+  for (std::int32_t side = -kSide; side <= kSide; ++side) {
+    const auto nearest = static_cast<std::int32_t>(std::sqrt(kFar2 - side * side) + 0.5);
+    for (std::int32_t far = nearest; far <= nearest + kThick; ++far) {
+      if (is_end(far, side) || is_end(-far, side) || is_end(side, far) || is_end(side, -far)) return true;
+    }
+  }
+  return false;
+}
+
+// Whether it is in a line along any of four axes, with half a metre to both sides, or at the end of one.
+bool Places::is_in_line(const Place& place, const Eigen::Vector2d& away) const {
+  constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};  // half a metre in places
+  for (const auto& axis : kAxes) {
+    if (line_on(place, away, axis, 1) != Line::none && line_on(place, away, axis, -1) != Line::none) return true;
+  }
+  return ends_line(place, away);
 }
 
 // Whether what came into sight with it is smaller than a person: a tip of rock, or dust, beside others.

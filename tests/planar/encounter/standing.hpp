@@ -29,7 +29,9 @@ class Standing {
   }
 
   void confirm() { EXPECT_EQ(pose_wall_planar_stop_confirm(stop_.get()), POSE_WALL_OK); }
-  void take() { scan_.take(sensor_, world_, x_m_, 0.0, 0.0, 0.0, 0.0, &draw_); }
+  // Where it looks, from along the road to the left. Before the first frame.
+  void turn(double yaw_rad) { yaw_rad_ = yaw_rad; }
+  void take() { scan_.take(sensor_, world_, x_m_, 0.0, yaw_rad_, 0.0, 0.0, &draw_); }
   pose_wall_planar_stop_result frame() {
     take();
     return again();
@@ -73,7 +75,7 @@ class Standing {
 
  private:
   World world_;
-  double x_m_ = 0.0;
+  double x_m_ = 0.0, yaw_rad_ = 0.0;
   Draw draw_;
   Sensor sensor_;
   Scan scan_;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// pose_wall_planar_stop_trial [--encounters N] [--seed S] [--only K] [--clear HOURS] [--dust HOURS [--density PER_M]]
+// pose_wall_planar_stop_trial [--encounters N] [--seed S] [--only K] [--clear HOURS] [--dust HOURS] [--density PER_M]
 //                             [--mount NAME] [--mounts] [--rock] [--table MINUTES]
-// Contacts in drawn encounters, or false stops on a clear road. Exit status 1 if there was a contact. With --mount the
+// Contacts in drawn encounters, or false stops on a clear road. Exit status 1 if there was a contact. --density: of the
+// clouds of dust along the road, in returns a metre of ray; with it encounters have such clouds, too. With --mount the
 // machine has a mount of those whose names hold this, and --mounts lists them. With --rock roads have the relief of
 // real rock. The table says what each mount lets the machine do on clear roads.
 
@@ -22,6 +23,7 @@ using namespace pose_wall::test;
 
 struct Arguments {
   std::uint64_t encounters = 1000, seed = 1, only = 0;
+  bool is_dusty = false;                                      // encounters
   double clear_h = 0.0, dust_h = 0.0, density_per_m = 0.001;  // hours that pass in the simulator
   double table_min = 0.0;
   std::vector<Mount> mounts;  // none: drawn ones that suit the stop
@@ -40,7 +42,7 @@ Arguments arguments_of(int argc, char** argv) {
     if (std::strcmp(argv[k], "--seed") == 0) a.seed = std::strtoull(value, nullptr, 10);
     if (std::strcmp(argv[k], "--only") == 0) a.only = std::strtoull(value, nullptr, 10), a.has_only = true;
     if (std::strcmp(argv[k], "--clear") == 0) a.clear_h = std::strtod(value, nullptr);
-    if (std::strcmp(argv[k], "--density") == 0) a.density_per_m = std::strtod(value, nullptr);
+    if (std::strcmp(argv[k], "--density") == 0) a.density_per_m = std::strtod(value, nullptr), a.is_dusty = true;
     if (std::strcmp(argv[k], "--dust") == 0) a.dust_h = std::strtod(value, nullptr);
   }
   return a;
@@ -60,6 +62,14 @@ std::optional<Mount> draw_mount(const Arguments& a, Draw* draw) {
   return a.mounts[draw->below(static_cast<std::uint32_t>(a.mounts.size()))];
 }
 
+// Clouds of thin dust along the road.
+void put_dust(Draw* draw, double density_per_m, Plan* plan) {
+  for (int j = 0; j < 8; ++j) {
+    plan->world.dust.push_back(
+        {4.0 + 6.0 * j, draw->within(-1.5, 1.5), draw->within(0.3, 1.5), draw->within(0.5, 2.0), density_per_m});
+  }
+}
+
 void finish(const Arguments& a, const std::optional<Mount>& mount, Plan* plan, Draw* draw) {
   if (mount.has_value()) pose_wall::test::put_on(*mount, plan);
   if (a.has_rock) plan->world.rock = std::make_shared<pose_wall::test::Rock>(draw->below(1000000));
@@ -76,6 +86,7 @@ class Encounters {
       const auto settings = mount.has_value() ? settings_of(*mount) : pose_wall::test::encounter_settings();
       *plan = pose_wall::test::draw_plan(&draw, settings);
       finish(arguments_, mount, plan, &draw);
+      if (arguments_.is_dusty) put_dust(&draw, arguments_.density_per_m, plan);
       plan->lasts_s = 10.0;
       Encounter encounter(*plan, settings, &still_, &draw);
       if (arguments_.has_only) encounter.tell_frames();
@@ -98,6 +109,7 @@ class Encounters {
     settings_ = mount.has_value() ? settings_of(*mount) : pose_wall::test::encounter_settings();
     road_ = pose_wall::test::draw_run_up(&draw, settings_);
     finish(arguments_, mount, &road_, &draw);
+    if (arguments_.is_dusty) put_dust(&draw, arguments_.density_per_m, &road_);
     base_.emplace(road_, settings_, &driven_, &draw);
     base_->run_up(draw.within(4.8, 7.0));
     driven_.keep();
@@ -174,10 +186,7 @@ Plan draw_clear(Draw* draw, const pose_wall_planar_stop_settings& settings, doub
   plan.machine.yaw_rad = 0.0;
   plan.wish_m_s = draw->happens(0.3) ? 1.0 : draw->within(0.5, 1.0);
   plan.lasts_s = 60.0;
-  for (int j = 0; density_per_m > 0.0 && j < 8; ++j) {
-    plan.world.dust.push_back(
-        {4.0 + 6.0 * j, draw->within(-1.5, 1.5), draw->within(0.3, 1.5), draw->within(0.5, 2.0), density_per_m});
-  }
+  if (density_per_m > 0.0) put_dust(draw, density_per_m, &plan);
   return plan;
 }
 

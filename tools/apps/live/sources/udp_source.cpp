@@ -167,7 +167,7 @@ class UdpSource final : public Source {
       hear_device();
       if (is_silent() && monotonic_ns() - looked_ns_ > kAddressEvery_ns) look_for_address();
       if (!datagram) continue;
-      if (is_silent() && monotonic_ns() - began_ns_ > kSilent_ns) begin_anew();
+      if ((is_silent() || keeps_out()) && monotonic_ns() - began_ns_ > kSilent_ns) begin_anew();
       if (!is_of_other(*datagram)) hear(*datagram, taker);
     }
   }
@@ -179,6 +179,7 @@ class UdpSource final : public Source {
     const bool are_others = assembler_ && assembler_->senders().refused() > refused;
     if (are_others) name_others();
     if (are_others && !is_data) {
+      are_two_ = true;
       note_other(datagram);
       return;
     }
@@ -250,15 +251,20 @@ class UdpSource final : public Source {
 
   bool is_silent() const { return monotonic_ns() - last_packet_ns_ > kSilent_ns; }
 
-  // For a second nothing of use came. What comes now may be of another run of the sensor, of another sensor, or of one
-  // that was set up anew: then what was learned of it is wrong.
+  // Whoever is read gives no turn, and keeps another one out: anybody may send a packet now and then, a sensor turns.
+  bool keeps_out() const { return turns_ == 0 && are_two_; }
+
+  // For a second nothing of use came, or no turn. What comes now may be of another run of the sensor, of another
+  // sensor, or of one that was set up anew: then what was learned of it is wrong.
   void begin_anew() {
     began_ns_ = monotonic_ns();
     if (packets_of_use_ > 0) ++silences_;
     packets_of_use_ = 0;
     // Where two sensors sent at once, the other one must not take the place of the one that was read.
-    if (are_two_ && assembler_ && assembler_->senders().chosen()) wanted_ = assembler_->senders().chosen()->address;
+    if (turns_ > 0 && are_two_ && assembler_ && assembler_->senders().chosen())
+      wanted_ = assembler_->senders().chosen()->address;
     are_two_ = false;
+    turns_ = 0;
     assembler_.reset();
     metadata_.ask_again();
     is_first_turn_ = true;
@@ -269,6 +275,7 @@ class UdpSource final : public Source {
 
   // The first turn began before it was listened to.
   void hand_on(const Scan& scan, FrameTaker& taker) {
+    ++turns_;
     if (std::exchange(is_first_turn_, false) && !scan.is_complete) return;
     LiveFrame frame;
     frame.frame = frame_of(scan);
@@ -289,7 +296,7 @@ class UdpSource final : public Source {
   std::string wanted_;                   // of two that were heard the one that was read; "": any
   std::optional<std::uint32_t> sender_;  // as the settings name it
   bool is_first_turn_ = true;
-  std::uint64_t packets_of_use_ = 0;  // since it began anew
+  std::uint64_t packets_of_use_ = 0, turns_ = 0;  // since it began anew
   std::thread thread_;
   mutable std::mutex words_lock_;
   std::string part_ = "source udp", contradiction_, others_note_, others_counted_;
