@@ -65,7 +65,6 @@ Ros1Proxy::Times quick_times() {
   return {milliseconds(300), milliseconds(200), milliseconds(300), milliseconds(1500), milliseconds(100)};
 }
 
-
 std::string fact_of(const Ros1Proxy& proxy, const std::string& name) {
   PartHealth health;
   proxy.add_facts(&health);

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <deque>
 #include <exception>
+#include <fstream>
 #include <mutex>
 #include <string>
 
@@ -33,6 +34,8 @@ constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2;
 // Ros1Proxy misses it after two seconds.
 constexpr auto kStatusEvery = std::chrono::milliseconds(200);
 constexpr int kLook_ms = 100;
+// proc(5), oom_score_adj: half of the memory is added to what it takes.
+constexpr int kGoesFirst = 500;
 
 class NodeServer {
  public:
@@ -115,6 +118,8 @@ void live_and_die_with_daemon() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   // Files and ports of the daemon that a library of it left open; systems before Linux 5.9 cannot.
   syscall(SYS_close_range, kNodeSocket + 1, ~0U, 0);
+  // Where memory is short, this one goes before the daemon.
+  std::ofstream("/proc/self/oom_score_adj") << kGoesFirst;
 }
 
 bool has_socket() {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -184,11 +185,26 @@ std::string Ros1Proxy::serve() {
     eventfd_t count = 0;
     if (files[1].revents != 0) eventfd_read(wakes_, &count);
     if ((files[0].revents & (POLLIN | POLLHUP | POLLERR)) != 0) {
-      const auto outcome = reader.read(process_->socket(), [&](const Parcel& parcel) { take(parcel); });
-      if (outcome == ParcelReader::Outcome::kClosed) return "";
-      if (outcome == ParcelReader::Outcome::kBroken) return "said what it must not say";
+      if (const std::optional<std::string> why = hear(&reader)) return *why;
     }
     if (is_silent()) return fmt::format("did not answer for {} s", seconds(times_.silent));
+  }
+}
+
+// Why it has to be ended, as serve says it; nothing where it goes on.
+std::optional<std::string> Ros1Proxy::hear(ParcelReader* reader) {
+  try {
+    switch (reader->read(process_->socket(), [this](const Parcel& parcel) { take(parcel); })) {
+      case ParcelReader::Outcome::kOpen:
+        return std::nullopt;
+      case ParcelReader::Outcome::kClosed:
+        return "";
+      case ParcelReader::Outcome::kBroken:
+        break;
+    }
+    return "said what it must not say";
+  } catch (const std::bad_alloc&) {
+    return "sent more than there is memory for";
   }
 }
 

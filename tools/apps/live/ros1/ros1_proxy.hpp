@@ -14,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -89,6 +90,7 @@ class Ros1Proxy {
   void attend();
   bool begin();
   std::string serve();
+  std::optional<std::string> hear(ParcelReader* reader);
   void take(const Parcel& parcel);
   void finish(const std::string& why);
   void fill_queue();  // under the lock
