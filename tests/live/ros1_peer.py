@@ -9,6 +9,7 @@ moments, and everything else goes on.
 usage: ros1_peer.py ROOT POSE_WALL POSE_WALLD NODE_MODULES"""
 
 import array
+import contextlib
 import json
 import math
 import os
@@ -113,6 +114,11 @@ def is_gone(process):
         return pathlib.Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0] == "Z"
     except OSError:
         return True
+
+
+def end(process):
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(process, signal.SIGKILL)
 
 
 def maps_recorded(folder):
@@ -507,6 +513,7 @@ class Process(WithMaster):
         for hangs in (False, True):
             program = self.replay()
             process = node_process(program)
+            self.addCleanup(end, process)  # or the log of the daemon never ends
             if hangs:
                 os.kill(process, signal.SIGSTOP)
             program.process.kill()

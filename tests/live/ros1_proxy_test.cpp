@@ -105,7 +105,7 @@ TEST_F(Ros1ProxyTest, AProgramThatIsNotThereIsNamedAndTriedAgain) {
   Ros1Proxy proxy("node", folder_ / "none", quick_times());
   proxy.start();
   EXPECT_TRUE(tells(proxy, "cannot be started")) << proxy.trouble();
-  EXPECT_TRUE(becomes_true([&] { return fact_of(proxy, "process started anew") == "2"; }));
+  EXPECT_TRUE(becomes_true([&] { return std::stoi(fact_of(proxy, "process started anew")) >= 2; }));
 }
 
 TEST_F(Ros1ProxyTest, WhoHangsLosesMessagesIsToldAndIsEnded) {
