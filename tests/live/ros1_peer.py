@@ -25,6 +25,7 @@ import tempfile
 import threading
 import time
 import unittest
+import urllib.error
 import urllib.request
 
 sys.dont_write_bytecode = True  # the sources stay as they are
@@ -380,24 +381,19 @@ class PeersByRospy(WithMaster):
             self.assertTrue(live_peer.becomes_true(is_told), program.log())
             self.assertTrue(program.stops_by_itself(), program.log())
 
-    def test_clouds_and_transforms_come_again_with_the_next_process(self):
+    def test_clouds_come_again_with_the_next_process(self):
         peer = Peer()
         peer.thread.start()
         self.addCleanup(peer.ending.set)
-        peer.transform(0.5, peer.static)
-        program = daemon("--set", "extrinsic_from=tf", "--set", "status_every_s=1")
+        program = daemon()
         self.addCleanup(program.kill)
         process = 0
         for _ in range(3):
-            self.assertTrue(live_peer.becomes_true(
-                lambda: peer.left_m() and abs(peer.left_m() - 3.0) < 0.05), program.log())
+            peer.distances.clear()
+            self.assertTrue(live_peer.becomes_true(lambda: peer.left_m() is not None), program.log())
             process = next_node_process(program, process)
             os.kill(process, signal.SIGSEGV)
-            clouds = live_peer.fact(program, "source ros1", "clouds")
-            self.assertTrue(live_peer.becomes_true(
-                lambda clouds=clouds: live_peer.fact(program, "source ros1", "clouds") > clouds + 20), program.log())
-            peer.distances.clear()
-        self.assertTrue(program.stops_by_itself(), program.log())
+            next_node_process(program, process)
 
     def test_late_then_changed_then_a_master_started_anew(self):
         peer = Peer()
@@ -413,40 +409,55 @@ class PeersByRospy(WithMaster):
         self.assertTrue(is_left(3.0), program.log())
         peer.transform(-0.5, peer.static)
         self.assertTrue(is_left(2.0), program.log())
+        process = node_process(program)
+        os.kill(process, signal.SIGSEGV)
+        next_node_process(program, process)
+        peer.distances.clear()
+        self.assertTrue(is_left(2.0), "the next process asks for transforms, too: " + program.log())
         attitude = peer.attitudes[-1]
         self.assertEqual(attitude.header.frame_id, "base_link")
         self.assertLess(abs(time.time() - attitude.header.stamp.to_sec()), 60)
 
 
 class Look(threading.Thread):
-    """Asks the page for health and values, and Modbus for its second image, all the time: each must answer."""
+    """Asks the page for health and values, and Modbus for its second image, all the time: each must answer. On a busy
+    machine the runtime itself may be late; then it says so, and tells no frame."""
 
     def __init__(self, http, modbus):
         super().__init__(daemon=True)
         self.http, self.modbus = http, modbus
-        self.answers, self.wrong, self.ending = 0, [], threading.Event()
+        self.answers, self.frames, self.wrong, self.ending = 0, 0, [], threading.Event()
 
     def run(self):
         request = bytes.fromhex("0001 0000 0006 01 04") + (1000).to_bytes(2, "big") + (124).to_bytes(2, "big")
-        with socket.create_connection(("127.0.0.1", self.modbus), timeout=5) as link:
+        with socket.create_connection(("127.0.0.1", self.modbus), timeout=live_peer.PATIENCE_S) as link:
             stream = link.makefile("rb")
             while not self.ending.wait(0.05):
                 try:
-                    parts = self._get("health")["parts"]
-                    self.wrong += [part for part in parts if part["grade"] in ("error", "stale")]
-                    values = self._get("state.json")["values"]
-                    # The road's own level of roll is now and then wider than the limit.
-                    self.wrong += [(name, value["state"]) for name, value in values.items()
-                                   if value["state"] not in ("valid", "degraded")]
+                    self.wrong += [part for part in self._get("health")["parts"]
+                                   if part["grade"] in ("error", "stale") and part["part"] != "runtime"]
+                    self._values(self._get("state.json"))
                     link.sendall(request)
                     if len(stream.read(9 + 2 * 124)) != 9 + 2 * 124:
                         self.wrong.append("Modbus")
                     self.answers += 1
-                except OSError as fault:  # HTTPError, too
+                except OSError as fault:
                     self.wrong.append(repr(fault))
 
+    def _values(self, state):
+        if state["told_by"] != "frame":
+            return
+        self.frames += 1
+        # The road's own level of roll is now and then wider than the limit.
+        self.wrong += [(name, value["state"]) for name, value in state["values"].items()
+                       if value["state"] not in ("valid", "degraded")]
+
     def _get(self, what):
-        with urllib.request.urlopen(f"http://127.0.0.1:{self.http}/{what}", timeout=5) as answer:
+        try:
+            answer = urllib.request.urlopen(f"http://127.0.0.1:{self.http}/{what}", timeout=live_peer.PATIENCE_S)
+        except urllib.error.HTTPError as unwell:  # 503 has the same content
+            answer = unwell
+        with answer:
             return json.load(answer)
 
 
@@ -483,9 +494,9 @@ class Process(WithMaster):
         look.ending.set()
         look.join()
         print(f"{KILLS} kills: results after {sorted(waits_s)[KILLS // 2]:.2f} s, worst {max(waits_s):.2f} s; "
-              f"{look.answers} answers of page and Modbus", flush=True)
+              f"{look.answers} answers of page and Modbus, {look.frames} of a frame", flush=True)
         self.assertEqual(look.wrong, [])
-        self.assertGreater(look.answers, KILLS)
+        self.assertGreater(look.frames, KILLS)
         self.assertTrue(live_peer.becomes_true(
             lambda: live_peer.fact(program, "sink ros1", "process started anew") == KILLS), program.log())
         for name in ("6 (Aborted)", "11 (Segmentation fault)"):

@@ -115,7 +115,7 @@ TEST_F(Ros1ProxyTest, WhoHangsLosesMessagesIsToldAndIsEnded) {
   ASSERT_TRUE(starts(1));
   const std::string message(1'000'000, 'm');
   for (int i = 0; i < 100; ++i) proxy.publish(topic, message);
-  EXPECT_GE(std::stoi(fact_of(proxy, "messages lost to a slow process")), 90);
+  EXPECT_GE(std::stoi(fact_of(proxy, "messages lost to a slow process")), 50);
   EXPECT_TRUE(tells(proxy, "has not answered for 0.3 s; after 1.5 s it is started anew")) << proxy.trouble();
   EXPECT_TRUE(tells(proxy, "did not answer for 1.5 s; it is started anew")) << proxy.trouble();
   const std::vector<pid_t> first = processes();

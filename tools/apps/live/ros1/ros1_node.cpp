@@ -25,7 +25,7 @@ constexpr auto kLookForMaster = std::chrono::milliseconds(500);
 constexpr double kSpin_s = 0.05;
 constexpr std::uint32_t kQueueOut = 2;
 // A clean end takes a dozen calls of a millisecond each; who waits for pose_walld waits a second.
-constexpr auto kFarewell = std::chrono::milliseconds(400);
+constexpr auto kFarewell = std::chrono::milliseconds(250);
 // roscpp tries again where the master went away between two calls; what was not registered then, the next look finds.
 constexpr double kRetry_s = 0.1;
 

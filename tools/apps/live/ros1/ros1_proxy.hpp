@@ -38,7 +38,7 @@ class Ros1Proxy {
     std::chrono::milliseconds rest{200};  // after an end, so that the health, which is looked at every 50 ms, tells it
     std::chrono::milliseconds quiet{2000};    // the node tells its status five times a second
     std::chrono::milliseconds silent{5000};   // then it is ended; no call to a master takes longer than 2 s
-    std::chrono::milliseconds farewell{600};  // a clean end takes 400 ms at most; the daemon's takes a second
+    std::chrono::milliseconds farewell{400};  // a clean end takes 250 ms at most; the daemon's takes a second
   };
 
   // Reads ROS_MASTER_URI. Throws std::runtime_error that says what is allowed. program: what runs the node.
