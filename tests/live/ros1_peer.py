@@ -421,8 +421,8 @@ class PeersByRospy(WithMaster):
 
 class Look(threading.Thread):
     """Asks the page for health and values, and Modbus for its second image, all the time: each must answer. On a busy
-    machine frames themselves come too late. The runtime counts such silences, and values expire in them: they are judged
-    as long as there was none."""
+    machine frames themselves come too late. The runtime counts such silences, and values expire in them. So they are
+    judged as long as there was none."""
 
     def __init__(self, http, modbus):
         super().__init__(daemon=True)
