@@ -3,7 +3,8 @@
 # Copyright (c) 2026 the pose_wall authors
 #
 # The library's packages hold the same files, of the right machine, and serve users' projects wherever they are
-# unpacked. The command's package (amd64) depends on what the command needs, and the command runs. With POSE_WALL in the
+# unpacked. The command's package (amd64) depends on what the command needs, and the command runs. The daemon's (amd64)
+# runs and finds its program of ROS 1. With POSE_WALL in the
 # environment (the native command), a controller linked from the package must print the numbers of `pose_wall run`. The
 # Python package (amd64) asks for NumPy and, where that is installed, computes what was tested.
 # usage: check_package.sh CMAKE SOURCE_DIR PACKAGES_DIR ARCHITECTURE CC CXX TOOLCHAIN_FILE [EMULATOR...]
@@ -43,6 +44,21 @@ if [ "$architecture" = amd64 ]; then
   case $found in
     *"share/pose_wall/config/vlp16.yaml"*) ;;
     *) complain "$deb: the config vlp16 is not the package's" ;;
+  esac
+
+  named pose-walld deb
+  deb=$packages/pose-walld_${version}_$architecture.deb
+  dpkg-deb -x "$deb" "$work/daemon"
+  found=$("$work/daemon/usr/bin/pose_walld" --version) || complain "$deb: the daemon does not run"
+  case $found in
+    *"$version"*) ;;
+    *) complain "$deb: the daemon says it is '$found', not $version" ;;
+  esac
+  # The topic is refused after the program was found, or because this build has no ROS 1.
+  found=$("$work/daemon/usr/bin/pose_walld" --set source=ros1 --set "pointcloud_topic=no topic" 2>&1) || true
+  case $found in
+    *"is no topic of ROS"* | *"this build has no ROS 1"*) ;;
+    *) complain "$deb: the daemon does not find its program of ROS 1: $found" ;;
   esac
 
   named python3-pose-wall deb

@@ -263,6 +263,15 @@ class Packages(BrokenProject):
         self.passes("dpkg-deb", "--root-owner-group", "-b", self.root / "deb",
                     self.root / f"pose-wall_{version}_amd64.deb")
 
+    def pack_daemon(self, answer="'two words' is no topic of ROS", version="0.2.0"):
+        self.write("deb/DEBIAN/control", f"Package: pose-walld\nVersion: {version}\nArchitecture: amd64\n"
+                                         "Maintainer: x <x@y>\nDescription: x\n")
+        self.write("deb/usr/bin/pose_walld",
+                   f"#!/bin/sh\n[ \"$1\" = --version ] && echo {version} || echo \"{answer}\" >&2\n")
+        (self.root / "deb/usr/bin/pose_walld").chmod(0o755)
+        self.passes("dpkg-deb", "--root-owner-group", "-b", self.root / "deb",
+                    self.root / f"pose-walld_{version}_amd64.deb")
+
     def pack_python(self, version="0.2.0", depends="python3-numpy, libc6", module=None):
         self.write("deb/DEBIAN/control", f"Package: python3-pose-wall\nVersion: {version}\nArchitecture: amd64\n"
                                          f"Maintainer: x <x@y>\nDepends: {depends}\nDescription: x\n")
@@ -278,12 +287,22 @@ class Packages(BrokenProject):
         self.pack("0.1.0", "Depends: libyaml-0-2\n", "echo 0.1.0")
         self.fails("has no pose-wall_0.2.0_amd64.deb", *self.check())
         self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo pose_wall 0.2.0")
+        self.fails("has no pose-walld_0.2.0_amd64.deb", *self.check())
+        self.pack_daemon()
         self.fails("has no python3-pose-wall_0.2.0_amd64.deb", *self.check())
         self.pack_python()
         self.fails("has no libpose-wall-dev_0.2.0_amd64.deb", *self.check())
 
+    def test_of_the_daemon(self):
+        self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo pose_wall 0.2.0")
+        self.pack_daemon("the program of ROS 1 is missing: there is no libexec/pose_wall/pose_walld_ros1")
+        self.fails("does not find its program of ROS 1: the program of ROS 1 is missing", *self.check())
+        self.pack_daemon("this build has no ROS 1: install libroscpp-dev")
+        self.fails("has no python3-pose-wall_0.2.0_amd64.deb", *self.check())
+
     def test_of_python(self):
         self.pack("0.2.0", "Depends: libyaml-0-2\n", "echo pose_wall 0.2.0")
+        self.pack_daemon()
         self.pack_python(depends="python3")
         self.fails("depends on 'python3'; the module needs python3-numpy", *self.check())
         numpy = subprocess.run(["/usr/bin/python3", "-c", "import numpy"], stderr=subprocess.DEVNULL, check=False)

@@ -3,24 +3,30 @@
 # Copyright (c) 2026 the pose_wall authors
 """pose_walld as a node of ROS 1, with peers that others wrote. A JavaScript client publishes clouds of 512 kB and 4 MB
 at 10 and 20 Hz. It reads the results under the clouds' stamps, and so do rostopic and rosbag. The master comes late and
-is started anew. The transform comes late, is missing and changes.
+is started anew. The transform comes late, is missing and changes. The process of roscpp is killed and stopped at random
+moments, and everything else goes on.
 
 usage: ros1_peer.py ROOT POSE_WALL POSE_WALLD NODE_MODULES"""
 
 import array
+import contextlib
 import json
 import math
 import os
 import pathlib
+import random
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
 import threading
 import time
 import unittest
+import urllib.error
+import urllib.request
 
 sys.dont_write_bytecode = True  # the sources stay as they are
 ROOT, POSE_WALL, POSE_WALLD, MODULES = (pathlib.Path(sys.argv.pop(1)) for _ in range(4))
@@ -53,6 +59,7 @@ else:
     URI = f"http://127.0.0.1:{PORT}"
     os.environ |= {"ROS_MASTER_URI": URI, "ROS_IP": "127.0.0.1"}
 TOPIC = "/lidar/points"
+KILLS = 10
 
 
 def master():
@@ -76,6 +83,52 @@ def known_topics():
 
 def daemon(*more):
     return live_peer.Program(POSE_WALLD, "--set", "source=ros1", "--set", "ros1=1", "--set", "status_every_s=5", *more)
+
+
+def node_process(program):
+    """The process that roscpp runs in; 0 while there is none."""
+    for place in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            name, rest = (place / "stat").read_text(encoding="utf-8").rsplit(")", 1)
+        except OSError:  # it has ended
+            continue
+        if name.endswith("(pose_walld_ros1") and rest.split()[0] != "Z" and int(rest.split()[1]) == program.process.pid:
+            return int(place.name)
+    return 0
+
+
+def next_node_process(program, last):
+    """After that one has ended."""
+    found = []
+
+    def is_there():
+        found.append(node_process(program))
+        return found[-1] not in (0, last)
+
+    assert live_peer.becomes_true(is_there), program.log()
+    return found[-1]
+
+
+def is_gone(process):
+    """Also where it is a child of init by now."""
+    try:
+        return pathlib.Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0] == "Z"
+    except OSError:
+        return True
+
+
+def end(process):
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(process, signal.SIGKILL)
+
+
+def maps_recorded(folder):
+    """How many messages of /map somebody gets who comes now."""
+    bag = folder / "map.bag"
+    subprocess.run(["rosbag", "record", "--duration=4", "-O", str(bag), "/map"], capture_output=True, timeout=60,
+                   check=True)
+    with rosbag.Bag(str(bag)) as read:
+        return read.get_message_count("/map")
 
 
 class WithMaster(unittest.TestCase):
@@ -328,6 +381,20 @@ class PeersByRospy(WithMaster):
             self.assertTrue(live_peer.becomes_true(is_told), program.log())
             self.assertTrue(program.stops_by_itself(), program.log())
 
+    def test_clouds_come_again_with_the_next_process(self):
+        peer = Peer()
+        peer.thread.start()
+        self.addCleanup(peer.ending.set)
+        program = daemon()
+        self.addCleanup(program.kill)
+        process = 0
+        for _ in range(3):
+            peer.distances.clear()
+            self.assertTrue(live_peer.becomes_true(lambda: peer.left_m() is not None), program.log())
+            process = next_node_process(program, process)
+            os.kill(process, signal.SIGSEGV)
+            next_node_process(program, process)
+
     def test_late_then_changed_then_a_master_started_anew(self):
         peer = Peer()
         peer.thread.start()
@@ -342,9 +409,145 @@ class PeersByRospy(WithMaster):
         self.assertTrue(is_left(3.0), program.log())
         peer.transform(-0.5, peer.static)
         self.assertTrue(is_left(2.0), program.log())
+        process = node_process(program)
+        os.kill(process, signal.SIGSEGV)
+        next_node_process(program, process)
+        peer.distances.clear()
+        self.assertTrue(is_left(2.0), "the next process asks for transforms, too: " + program.log())
         attitude = peer.attitudes[-1]
         self.assertEqual(attitude.header.frame_id, "base_link")
         self.assertLess(abs(time.time() - attitude.header.stamp.to_sec()), 60)
+
+
+class Look(threading.Thread):
+    """Asks the page for health and values, and Modbus for its second image, all the time: each must answer. On a busy
+    machine frames themselves come too late. The runtime counts such silences, and values expire in them. So they are
+    judged as long as there was none."""
+
+    def __init__(self, http, modbus):
+        super().__init__(daemon=True)
+        self.http, self.modbus = http, modbus
+        self.answers, self.frames, self.silences, self.wrong, self.ending = 0, 0, "", [], threading.Event()
+
+    def run(self):
+        request = bytes.fromhex("0001 0000 0006 01 04") + (1000).to_bytes(2, "big") + (124).to_bytes(2, "big")
+        with socket.create_connection(("127.0.0.1", self.modbus), timeout=live_peer.PATIENCE_S) as link:
+            stream = link.makefile("rb")
+            while not self.ending.wait(0.05):
+                try:
+                    state, (runtime, *parts) = self._get("state.json"), self._get("health")["parts"]
+                    self.wrong += [part for part in parts if part["grade"] in ("error", "stale")]
+                    if runtime["grade"] == "ok" and self.silences in ("", runtime["facts"]["silences"]):
+                        self.silences = runtime["facts"]["silences"]
+                        self._values(state)
+                    link.sendall(request)
+                    if len(stream.read(9 + 2 * 124)) != 9 + 2 * 124:
+                        self.wrong.append("Modbus")
+                    self.answers += 1
+                except OSError as fault:
+                    self.wrong.append(repr(fault))
+
+    def _values(self, state):
+        self.frames += 1
+        # The road's own level of roll is now and then wider than the limit.
+        self.wrong += [(name, value["state"]) for name, value in state["values"].items()
+                       if value["state"] not in ("valid", "degraded")]
+
+    def _get(self, what):
+        try:
+            answer = urllib.request.urlopen(f"http://127.0.0.1:{self.http}/{what}", timeout=live_peer.PATIENCE_S)
+        except urllib.error.HTTPError as unwell:  # 503 has the same content
+            answer = unwell
+        with answer:
+            return json.load(answer)
+
+
+class Process(WithMaster):
+    """roscpp's process ends, hangs and outlives nobody."""
+
+    def replay(self, *more, **options):
+        program = live_peer.Program(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--set",
+                                                            "ros1=1", "--set", "status_every_s=1", *more), **options)
+        self.addCleanup(program.kill)
+        self.assertTrue(program.says("sink ros1: publishes"), program.log())
+        return program
+
+    def test_killed_at_random_moments_everything_else_goes_on(self):
+        folder = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
+        self.addCleanup(folder.cleanup)
+        http, modbus = live_peer.free_port(), live_peer.free_port()
+        program = self.replay("--http", f"127.0.0.1:{http}", "--modbus", f"127.0.0.1:{modbus}", "--set",
+                              f"recording={folder.name}")
+        listener = live_peer.Program("rostopic", "echo", "-p", "/pose_wall/attitude")
+        self.addCleanup(listener.kill)
+        self.assertTrue(live_peer.becomes_true(lambda: len(listener.lines) > 5), program.log())
+        self.assertTrue(program.says("roll valid"), program.log())
+        look, chance, process, waits_s = Look(http, modbus), random.Random(37), node_process(program), []
+        look.start()
+        for turn in range(KILLS):
+            time.sleep(1.5 * chance.random())
+            os.kill(process, (signal.SIGABRT, signal.SIGSEGV)[turn % 2])
+            begin = time.monotonic()
+            process = next_node_process(program, process)
+            told = len(listener.lines)  # what was on its way is there by now
+            self.assertTrue(live_peer.becomes_true(lambda told=told: len(listener.lines) > told + 1), program.log())
+            waits_s.append(time.monotonic() - begin)
+        look.ending.set()
+        look.join()
+        print(f"{KILLS} kills: results after {sorted(waits_s)[KILLS // 2]:.2f} s, worst {max(waits_s):.2f} s; "
+              f"{look.answers} answers of page and Modbus, {look.frames} with judged values", flush=True)
+        self.assertEqual(look.wrong, [])
+        self.assertGreater(look.answers, KILLS)
+        self.assertTrue(live_peer.becomes_true(
+            lambda: live_peer.fact(program, "sink ros1", "process started anew") == KILLS), program.log())
+        for name in ("6 (Aborted)", "11 (Segmentation fault)"):
+            self.assertTrue(program.says(f"its process ended by signal {name}; it is started anew"), program.log())
+        self.assertTrue(program.stops_by_itself(), program.log())
+        recorded = b"".join(file.read_bytes() for file in sorted(pathlib.Path(folder.name).glob("*.mcap")))
+        numbers = [int(number) for number in re.findall(rb'"publication":(\d+)', recorded)]
+        self.assertEqual(numbers, list(range(numbers[0], numbers[0] + len(numbers))), "no hole")
+        self.assertGreater(len(numbers), 10 * KILLS)
+
+    def test_one_that_hangs_is_told_and_replaced_and_none_outlives_the_daemon(self):
+        program = self.replay()
+        process = node_process(program)
+        os.kill(process, signal.SIGTERM)  # the daemon's business
+        os.kill(process, signal.SIGSTOP)
+        self.assertTrue(program.says("its process has not answered for 2 s; after 5 s it is started anew"),
+                        program.log())
+        self.assertTrue(program.says("its process did not answer for 5 s; it is started anew"), program.log())
+        self.assertTrue(is_gone(process))
+        process = next_node_process(program, process)
+        os.kill(process, signal.SIGSTOP)  # who hangs can be ended all the same
+        self.assertTrue(program.stops_by_itself(), program.log())
+        self.assertTrue(is_gone(process))
+        for hangs in (False, True):
+            program = self.replay()
+            process = node_process(program)
+            self.addCleanup(end, process)  # or the log of the daemon never ends
+            if hangs:
+                os.kill(process, signal.SIGSTOP)
+            program.process.kill()
+            self.assertTrue(live_peer.becomes_true(lambda process=process: is_gone(process)))
+
+    def test_a_signal_to_the_whole_group_is_a_clean_end(self):
+        """As a terminal, roslaunch and systemd send it: the node takes leave of the master."""
+        for number in (signal.SIGINT, signal.SIGTERM):
+            program = self.replay(start_new_session=True)
+            self.assertTrue(live_peer.becomes_true(lambda: "/pose_wall/attitude" in known_topics()[0]), program.log())
+            os.killpg(program.process.pid, number)
+            program.process.wait(live_peer.PATIENCE_S)
+            self.assertEqual(program.process.returncode, 0, program.log())
+            self.assertEqual(known_topics(), (set(), set()))
+
+    def test_a_latched_map_comes_again_with_the_next_process(self):
+        program = self.replay("--set", "planar=map", "--set", "planar_map_every_s=3600")
+        self.assertTrue(program.says("planar roadway: maps"), program.log())
+        process = node_process(program)
+        os.kill(process, signal.SIGABRT)
+        next_node_process(program, process)
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(maps_recorded(pathlib.Path(folder)), 1, program.log())
 
 
 class Driver(unittest.TestCase):
@@ -407,11 +610,7 @@ class WithoutMaster(unittest.TestCase):
         self.addCleanup(core.kill)
         self.assertTrue(live_peer.becomes_true(master_answers))
         with tempfile.TemporaryDirectory() as folder:
-            bag = pathlib.Path(folder) / "map.bag"
-            subprocess.run(["rosbag", "record", "--duration=4", "-O", str(bag), "/map"], capture_output=True,
-                           timeout=60, check=True)
-            with rosbag.Bag(str(bag)) as read:
-                self.assertEqual(read.get_message_count("/map"), 1, program.log())
+            self.assertEqual(maps_recorded(pathlib.Path(folder)), 1, program.log())
 
     def test_waits_for_the_master_and_comes_back_after_it_was_started_anew(self):
         program = live_peer.Program(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--set",

@@ -69,6 +69,10 @@ endif()
 if(TARGET pose_walld)
   set(pose_wall_daemon_dir ${PROJECT_SOURCE_DIR}/tools/apps/live)
   install(TARGETS pose_walld pose_wall_sensor RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT daemon)
+  if(TARGET pose_walld_ros1)
+    # For pose_walld alone, which looks there.
+    install(TARGETS pose_walld_ros1 RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/pose_wall COMPONENT daemon)
+  endif()
   # Where systemd looks whatever the prefix is: /usr/lib/systemd in a package.
   install(FILES ${pose_wall_daemon_dir}/pose_walld.service DESTINATION lib/systemd/system COMPONENT daemon)
   # The package's postinst copies it to /etc/pose_wall/pose_wall.yaml, where none is.

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "apps/live/edges.hpp"
-#include "apps/live/ros1/ros1_node.hpp"
+#include "apps/live/ros1/ros1_proxy.hpp"
 #include "apps/live/ros_messages/command_reader.hpp"
 #include "apps/live/ros_messages/ros_publisher.hpp"
 #include "apps/live/ros_messages/ros_reader.hpp"
@@ -21,17 +21,9 @@ constexpr const char* kNodeName = "pose_walld";
 // The newest cloud and the newest command count; of transforms none may be lost.
 constexpr std::uint32_t kCloudQueue = 2, kTransformQueue = 100, kCommandQueue = 1;
 
-// Why nobody new can find the node; empty when all is well.
-std::string trouble_of(const Ros1Node& node) {
-  if (node.was_ended_by_ros()) {
-    return "was ended by rosnode kill or by another node of its name; pose_walld must be started anew to come back";
-  }
-  return node.has_master() ? "" : "waits for the master at " + node.master_uri();
-}
-
 class Ros1Source final : public Source {
  public:
-  Ros1Source(const LoadedConfig& loaded, std::shared_ptr<Ros1Node> node)
+  Ros1Source(const LoadedConfig& loaded, std::shared_ptr<Ros1Proxy> node)
       : node_(std::move(node)), reader_(loaded, MessageEncoding::kRos1) {
     node_->subscribe(reader_.topic(), kCloudQueue,
                      [this](const std::string& type, ByteView message) { reader_.take_cloud(type, message); });
@@ -52,9 +44,9 @@ class Ros1Source final : public Source {
 
   PartHealth health() const override {
     PartHealth health = reader_.health("source ros1 " + reader_.topic());
-    health.add("masters seen", node_->masters_seen());
+    node_->add_facts(&health);
     if (health.grade == Grade::kBad && node_->publishers() == 0) health.summary = "nobody publishes " + reader_.topic();
-    const std::string trouble = trouble_of(*node_);
+    const std::string trouble = node_->trouble();
     if (trouble.empty()) return health;
     // Who is connected goes on sending without a master.
     health.summary = health.grade == Grade::kBad ? trouble : fmt::format("{}; {}", health.summary, trouble);
@@ -63,13 +55,13 @@ class Ros1Source final : public Source {
   }
 
  private:
-  std::shared_ptr<Ros1Node> node_;
+  std::shared_ptr<Ros1Proxy> node_;
   RosReader reader_;
 };
 
 class Ros1Out final : public RosOut {
  public:
-  explicit Ros1Out(std::shared_ptr<Ros1Node> node) : node_(std::move(node)) {}
+  explicit Ros1Out(std::shared_ptr<Ros1Proxy> node) : node_(std::move(node)) {}
 
   std::size_t advertise(const std::string& topic, const RosType& type, bool is_latched) override {
     return node_->advertise(topic, type, is_latched);
@@ -78,17 +70,18 @@ class Ros1Out final : public RosOut {
   std::uint32_t subscribers(std::size_t number) const override { return node_->subscribers(number); }
   void start() override { node_->start(); }
   void stop() override { node_->stop(); }
-  std::string trouble() const override { return trouble_of(*node_); }
+  std::string trouble() const override { return node_->trouble(); }
+  void add_facts(PartHealth* health) const override { node_->add_facts(health); }
 
  private:
-  std::shared_ptr<Ros1Node> node_;
+  std::shared_ptr<Ros1Proxy> node_;
 };
 
 }  // namespace
 
 RosEdge make_ros1_edge(const LoadedConfig& loaded, const HealthBoard& health, bool subscribes, bool publishes,
                        CommandBoard* commands) {
-  const auto node = std::make_shared<Ros1Node>(kNodeName);
+  const auto node = std::make_shared<Ros1Proxy>(kNodeName);
   if (commands != nullptr && !loaded.planar.command_ros.empty()) {
     const auto reader = std::make_shared<CommandReader>(*commands, MessageEncoding::kRos1);
     node->subscribe(loaded.planar.command_ros, kCommandQueue,

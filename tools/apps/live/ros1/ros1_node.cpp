@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
 #include <topic_tools/shape_shifter.h>
 
 #include <chrono>
@@ -14,7 +15,6 @@
 #include <typeinfo>
 #include <utility>
 
-#include "apps/live/log.hpp"
 #include "apps/live/ros1/registrations.hpp"
 
 namespace pose_wall::tools::live {
@@ -25,20 +25,13 @@ constexpr auto kLookForMaster = std::chrono::milliseconds(500);
 constexpr double kSpin_s = 0.05;
 constexpr std::uint32_t kQueueOut = 2;
 // A clean end takes a dozen calls of a millisecond each; who waits for pose_walld waits a second.
-constexpr auto kFarewell = std::chrono::milliseconds(400);
+constexpr auto kFarewell = std::chrono::milliseconds(250);
 // roscpp tries again where the master went away between two calls; what was not registered then, the next look finds.
 constexpr double kRetry_s = 0.1;
 
 bool is_set(const char* variable) {
   const char* value = std::getenv(variable);
   return value != nullptr && *value != '\0';
-}
-
-void require_topic_name(const std::string& topic) {
-  std::string why;
-  if (topic.empty() || !ros::names::validate(topic, why)) {
-    throw std::runtime_error(fmt::format("'{}' is no topic of ROS: {}", topic, topic.empty() ? "it is empty" : why));
-  }
 }
 
 // Hands on the bytes of any type as roscpp received them, without a copy.
@@ -87,7 +80,6 @@ Ros1Node::~Ros1Node() {
 }
 
 void Ros1Node::subscribe(const std::string& topic, std::uint32_t queue, Take take) {
-  require_topic_name(topic);
   subscriptions_.push_back({topic, queue, std::move(take)});
 }
 
@@ -97,23 +89,8 @@ std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type, b
   return advertised_.size() - 1;
 }
 
-// With the master on this machine, nobody else is expected until ROS_IP or ROS_HOSTNAME names an address. roscpp then
-// takes results and clouds on loopback alone, but lets itself be called on all addresses, whatever it is told.
-void Ros1Node::listen_where_allowed() const {
-  const bool is_told = is_set("ROS_IP") || is_set("ROS_HOSTNAME");
-  const bool is_local = is_loopback(master_.host);
-  if (!is_told && is_local) {
-    setenv("ROS_IP", "127.0.0.1", 1);
-    log_line(Grade::kGood, "ros1", "sends on loopback, for the master is there; ROS_IP=ADDRESS lets other machines in");
-  }
-  log_line(Grade::kWarning, "ros1",
-           "roscpp lets itself be called (XML-RPC) on all addresses and asks nobody who he is: whoever reaches this "
-           "machine can name another publisher of clouds, or end the node. Keep others off by a firewall");
-}
-
 void Ros1Node::start() {
   if (master_thread_.joinable()) return;
-  listen_where_allowed();
   ending_ = false;
   line_ = std::make_unique<MasterLine>(master_);
   if (!ros::isInitialized()) {
@@ -172,6 +149,8 @@ void Ros1Node::attend_master() {
 
 void Ros1Node::open() {
   auto ros = std::make_unique<Ros>();
+  // Nobody here caches parameters, and roscpp ends the process for a name that it does not like.
+  ros::XMLRPCManager::instance()->unbind("paramUpdate");
   for (const Subscription& subscription : subscriptions_) {
     ros::SubscribeOptions options(subscription.topic, subscription.queue, "*", "*");
     options.helper = boost::make_shared<BytesTaker>(subscription.take);

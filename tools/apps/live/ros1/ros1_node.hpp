@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // A node of ROS 1 that waits for its master, and registers anew where the master was started anew; clouds and results
-// go on meanwhile. Messages go in and out as bytes: what they mean is said elsewhere (ros_messages).
+// go on meanwhile. Messages go in and out as bytes: what they mean is said elsewhere (ros_messages). It lives in a
+// process of its own (node_main), which the daemon sees as a Ros1Proxy.
 
 #pragma once
 
@@ -38,7 +39,6 @@ class Ros1Node {
   Ros1Node& operator=(const Ros1Node&) = delete;
 
   // Before start; a topic without a leading slash is one of the node's namespace. queue: older messages are lost.
-  // Throws std::runtime_error for what ROS allows no topic to be called.
   void subscribe(const std::string& topic, std::uint32_t queue, Take take);
   // The number to publish by. is_latched: the last message goes to who comes later.
   std::size_t advertise(const std::string& topic, const RosType& type, bool is_latched);
@@ -60,7 +60,6 @@ class Ros1Node {
   // Of the subscribed topics, all together, as of the last second.
   std::uint32_t publishers() const { return publishers_; }
   std::uint64_t masters_seen() const { return masters_seen_; }
-  const std::string& master_uri() const { return master_uri_; }
 
  private:
   struct Ros;
@@ -76,7 +75,6 @@ class Ros1Node {
     std::string before_master;  // the newest of a latched topic
   };
 
-  void listen_where_allowed() const;
   void attend_master();
   void take_messages();
   void open();

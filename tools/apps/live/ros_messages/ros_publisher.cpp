@@ -62,6 +62,7 @@ class RosPublisher final : public Sink {
     std::uint64_t subscribers = 0;
     for (const std::size_t topic : {attitude_, distances_, state_}) subscribers += out_->subscribers(topic);
     health.add("subscribers", subscribers);
+    out_->add_facts(&health);
     return health;
   }
 

@@ -35,6 +35,8 @@ class RosOut {
   virtual std::uint32_t subscribers(std::size_t number) const = 0;
   // Why nobody can hear it; empty when all is well.
   virtual std::string trouble() const = 0;
+  // What else its health tells.
+  virtual void add_facts(PartHealth* /*health*/) const {}
 };
 
 // Topics: /pose_wall/attitude, /pose_wall/distances, /pose_wall/state, /pose_wall/points, /diagnostics, /tf. With the
