@@ -47,10 +47,13 @@ class RoadwayView {
 
   show_stop() {
     const w = words(), line = document.getElementById('stop-line');
-    const say = (text) => { line.className = `panel ${this.grade()}`; if (line.textContent !== text) line.textContent = text; };
+    const say = (text, why = '') => {
+      line.className = `panel ${this.grade()}`;
+      if (line.textContent !== `${text} ${why}`.trim()) line.replaceChildren(element('b', text), why && ` ${why}`);
+    };
     if (!this.is_stop_known()) return say(w.stop_not_known);
     const text = this.stop.state === 'slow' ? w.stop_slow(number_text(this.stop.allowed_speed_m_s, 2)) : this.stop.state === 'go' ? w.stop_go : w.stop_stop;
-    return say(`${text} ${this.stop.why[page.language]}`.trim());
+    return say(text, this.stop.why[page.language]);
   }
 
   show_place() {
