@@ -303,6 +303,10 @@ return said;""")
     def test_nothing_is_cut_on_small_screens(self):
         for width in (390, 768, 1280):
             browser = self.browser(width, 1024)
+            # A window has a least width of its own.
+            browser.cdp("Emulation.setDeviceMetricsOverride", width=width, height=1024, deviceScaleFactor=1,
+                        mobile=False)
+            self.assertEqual(browser.run("return window.innerWidth"), width)
             cut = browser.run("""
 return Array.from(document.querySelectorAll('main table')).filter((table) => {
   for (let node = table.parentElement; node !== document.body; node = node.parentElement) {
