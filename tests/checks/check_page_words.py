@@ -19,7 +19,7 @@ from check_report_page import Browser
 PAGES = {
     "report and live page": (("words.js", "live_words.js"),
                              ("report.html", "live.html", "report.js", "live.js", "roadway.js", "tables.js",
-                              "viewer.js", "charts.js", "reader.js")),
+                              "viewer.js", "charts.js", "reader.js", "steer.js", "verdict.js")),
     "motion page": (("motion_words.js",), ("motion.html", "motion.js", "motion_views.js")),
 }
 # The English of these comes from the program.
@@ -119,7 +119,7 @@ def faults(browser, root, folder):
 
 
 BROKEN = [("words.js", "series: '七个输出随时间变化',", ""), ("words.js", "summary: '汇总'", "summary: 'Summary'"),
-          ("motion_words.js", "truth: '与真值对比'", "truths: '与真值对比'"), ("live_words.js", "none: 'none'", "no: 'none'"),
+          ("motion_words.js", "truth: '与真值对比'", "truths: '与真值对比'"), ("words.js", "none: 'none'", "no: 'none'"),
           ("live_words.js", "viewers: '浏览者',", ""),
           ("words.js", "summary: 'Summary'", "summary: '" + "word " * (WORDS_MOST + 1) + "'")]
 

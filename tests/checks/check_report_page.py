@@ -53,6 +53,10 @@ class Browser:
     def run(self, script):
         return self.post(f"/session/{self.session}/execute/sync", {"script": script, "args": []})
 
+    def cdp(self, command, **parameters):
+        """Of the DevTools protocol, for what WebDriver does not have: fingers."""
+        return self.post(f"/session/{self.session}/goog/cdp/execute", {"cmd": command, "params": parameters})
+
     def log(self, kind):
         return self.post(f"/session/{self.session}/se/log", {"type": kind})
 
@@ -168,15 +172,21 @@ def check_one_story(browser, checks):
                 len({x["ink"] for x in (valid, degraded, held, invalid)}) == 4)
 
 
-# states: of (frame, quantity); the truth is put aside.
+# states: of (frame, quantity); the truth is put aside. What is not valid may not steer, by a wall that is unseen.
 VERDICT = """
-const state = recording.state.slice(), truth = recording.has_truth, before = Object.assign({}, summary);
-for (let f = 0; f < recording.frames; ++f) for (let q = 0; q < 7; ++q) recording.state[recording.at(f, q)] = %s;
+const state = recording.state.slice(), steer = recording.steer.slice(), truth = recording.has_truth;
+const before = Object.assign({}, summary), causes = recording.words.steer_causes;
+for (let f = 0; f < recording.frames; ++f) for (let q = 0; q < 7; ++q) {
+  const i = recording.at(f, q);
+  recording.state[i] = %s;
+  recording.steer[i] = recording.state[i] === 3 ? causes.length : causes.indexOf('extrapolated');
+}
 recording.has_truth = false;
 Object.assign(summary, summarise(recording));
 show_verdict();
 const box = document.getElementById('verdict'), said = [box.className.split(' ')[1], box.innerText];
 recording.state.set(state);
+recording.steer.set(steer);
 recording.has_truth = truth;
 Object.assign(summary, before);
 show_verdict();
@@ -187,17 +197,23 @@ return said;
 def check_verdicts(browser, checks):
     verdict = lambda states: [text.replace("\u00a0", " ") for text in browser.run(VERDICT % states)]
     grade, text = verdict("2")
-    checks.hold("nothing valid is not usable", grade == "bad" and text.startswith("Not usable") and
+    checks.hold("nothing valid is not usable", grade == "bad" and "\nNot usable" in text and
                 "Never act on roll, pitch, yaw, left front, left back, right front, right back" in text)
+    checks.hold("the first line says that none may steer", text.startswith("May steer: none.\n") and
+                re.search(r"May not: roll, pitch, yaw \(valid in 0 % of the frames, else mostly level .*, limit 1.000°"
+                          r": the wall is unseen beside the machine\); left front", text) is not None and
+                "To look at: show the surface at the sampling point." in text)
     grade, text = verdict("f === 0 && q === 2 ? 3 : 2")
     checks.hold("one valid value is not usable", grade == "bad" and
                 "Do not rely on yaw: valid in less than 50 % of the frames" in text)
     grade, text = verdict("q < 2 ? 3 : q === 2 && f % 4 ? 3 : 2")
     checks.hold("angles alone are usable in part", grade == "fair" and
-                text.startswith("Usable in part: roll, pitch, yaw alone. Not usable: left front") and
+                "\nUsable in part: roll, pitch, yaw alone. Not usable: left front" in text and
+                text.startswith("May steer: roll, pitch.\n") and "May not: yaw (valid in 7" in text and
                 "Usable: roll, pitch." in text and "often not valid: yaw" in text and "Never act on left front" in text)
     grade, text = verdict("3")
-    checks.hold("all valid is usable", grade == "good" and text.startswith("Usable: every value"))
+    checks.hold("all valid is usable", grade == "good" and "\nUsable: every value" in text and
+                text.startswith("May steer: roll, pitch, yaw, left front, left back, right front, right back.\n"))
     checks.hold("the rule stands on the page", "Rule, the same in run, report and doctor" in text and
                 "at least 90 % of the frames" in text and "from 50 %" in text)
 
@@ -244,6 +260,9 @@ def check(browser, frames, prefix):
         "  const sum = widths.reduce((total, width) => total + width, 0);"
         "  return !widths.length || Math.abs(sum - bar.getBoundingClientRect().width) < 1; })"))
     checks.hold("an angle says what its sign means", "roll (+ right side down)" in text("values"))
+    may = run("return QUANTITIES.map((_, q) => recording.state[recording.at(0, q)] === VALID)")
+    checks.hold("the frame's first line says what may steer in it", text("steer-frame").startswith("May steer: ") and
+                ("May not" in text("steer-frame")) != all(may))
     check_one_story(browser, checks)
     check_verdicts(browser, checks)
     check_words(browser, checks)

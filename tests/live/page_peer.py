@@ -19,6 +19,7 @@ import sys
 import tempfile
 import time
 import unittest
+import urllib.request
 
 sys.dont_write_bytecode = True  # the sources stay as they are
 ROOT, POSE_WALL, POSE_WALLD = pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1), sys.argv.pop(1)
@@ -97,6 +98,11 @@ class Http(unittest.TestCase):
         self.assertTrue(live_peer.becomes_true(lambda: self.ask("GET", "/state.json")[0].status == 200))
         state = json.loads(self.ask("GET", "/state.json")[1])
         self.assertEqual(set(state["values"]), {"roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"})
+        for entry in state["steer"]:
+            self.assertEqual(entry["may_steer"], state["values"][entry["value"]]["state"] == "valid", entry)
+            self.assertEqual(entry["cause"] is None, entry["may_steer"], entry)
+        self.assertRegex(state["steer_line"]["en"], r"^may steer: .*\.$")
+        self.assertRegex(state["steer_line"]["zh"], "^可用于控制：.*。$")
         answer, body = self.ask("GET", "/health")
         self.assertEqual(answer.status, 200, body)
         self.assertEqual([part["part"] for part in json.loads(body)["parts"]][:2], ["runtime", "source replay"])
@@ -245,6 +251,128 @@ class InABrowser(unittest.TestCase):
         return browser.run(f"const c = document.getElementById('{canvas}');"
                            "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x)")
 
+    def test_the_first_line_says_what_may_steer(self):
+        browser = self.browser()
+        told = self.crafted(browser, "3")
+        self.assertEqual(told["grade"], "good")
+        self.assertEqual(told["may"], "May steer: roll, pitch, yaw, left front, left back, right front, right back.")
+        self.assertEqual((told["not"], told["help"]), ("", ""))
+        told = self.crafted(browser, "q === 3 ? 2 : 3")
+        self.assertEqual(told["grade"], "fair")
+        self.assertEqual(told["may"], "May steer: roll, pitch, yaw, left back, right front, right back.")
+        self.assertEqual(told["not"], "May not: left front (level 0.140 m, limit 0.100 m: the wall is unseen beside "
+                                      "the machine).")
+        self.assertEqual(told["help"], "To look at: show the surface at the sampling point.")
+        self.assertEqual(told["why"], "beyond the limit of 0.100 m: the wall is unseen beside the machine")
+        browser.run("document.getElementById('language').click()")
+        self.assertEqual(self.crafted(browser, "q === 3 ? 2 : 3")["not"],
+                         "不可用：左前（保护级 0.140 m，限值 0.100 m：机器旁的巷帮不可见）。")
+        browser.run("document.getElementById('language').click()")
+        self.assertEqual(self.crafted(browser, "2")["grade"], "bad")
+        self.assertEqual(self.crafted(browser, "2")["may"], "May steer: none.")
+        self.assertEqual(self.crafted(browser, "3", "page.paused = true")["grade"], "fair", "the picture stands still")
+        for stop, grade in (("go", "good"), ("slow", "fair"), ("stop", "bad")):
+            answer = f"roadway = told_stop(true, '{stop}')"
+            self.assertEqual(self.crafted(browser, "3", answer)["grade"], grade, stop)
+        silent = self.crafted(browser, "3", "roadway = told_stop(false, 'go')")
+        self.assertEqual(silent["grade"], "bad", "a stop that does not answer stops")
+        lost = self.crafted(browser, "3", "page.heard_ms = performance.now() - 1e5")
+        self.assertEqual((lost["grade"], lost["may"]), ("bad", "May steer: none. Nothing that is shown is current."))
+
+    def crafted(self, browser, state, before=""):
+        """What the first line says of states that a real road shows too seldom. Levels: 0.14 m and 0.14 rad."""
+        return browser.run(f"""
+const told_stop = (is_known, state) => (
+  {{ stop: {{ state }}, is_stop_known: () => is_known, grade: RoadwayView.prototype.grade }});
+const kept = [recording, roadway, page.paused, page.heard_ms], f = recording.frames - 1, r = recording;
+const series = ['state', 'steer', 'level', 'raw'].map((name) => [name, r[name].slice()]);
+const causes = r.words.steer_causes;
+for (let q = 0; q < 7; ++q) {{
+  const i = r.at(f, q);
+  r.state[i] = {state};
+  r.steer[i] = r.state[i] === 3 ? causes.length : causes.indexOf('extrapolated');
+  r.level[i] = 0.14;
+  r.raw[i] = 1;
+}}
+page.heard_ms = performance.now();
+{before};
+show_link();
+const text = (id) => document.getElementById(id).textContent;
+const said = {{ grade: document.getElementById('steer').className.split(' ')[1], why: tile_why(f, 3),
+  may: text('steer-may'), not: text('steer-not'), help: text('steer-help') }};
+for (const [name, numbers] of series) r[name].set(numbers);
+[recording, roadway, page.paused, page.heard_ms] = kept;
+return said;""")
+
+    def test_page_and_script_say_the_same(self):
+        browser = self.browser()
+        self.assertTrue(live_peer.becomes_true(lambda: self.text(browser, "steer-may").startswith("May steer: ")))
+
+        def same():
+            with urllib.request.urlopen(f"http://127.0.0.1:{self.port}/state.json", timeout=10) as answer:
+                state = json.load(answer)
+            said = browser.run("const list = steering_of(recording.frames - 1), causes = recording.words.steer_causes;"
+                               "return list.filter((x) => x.may).map((x) => QUANTITIES[x.q]).concat("
+                               "list.filter((x) => !x.may).map((x) => causes[x.cause]))")
+            return said == ([x["value"] for x in state["steer"] if x["may_steer"]] +
+                            [x["cause"] for x in state["steer"] if not x["may_steer"]])
+        self.assertTrue(live_peer.becomes_true(same))
+
+    def test_on_a_tablet_one_finger_scrolls_and_two_zoom(self):
+        browser = self.browser(768, 1024)
+        browser.cdp("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        browser.run("document.getElementById('top').scrollIntoView({block: 'center'})")
+        box = browser.run("const b = document.getElementById('top').getBoundingClientRect();"
+                          "return [b.left, b.top, b.width, b.height]")
+        x, y = box[0] + box[2] / 2, box[1] + box[3] / 2
+        metres = lambda: browser.run("return viewer.top.metres[0]")
+        centre = lambda: browser.run("return viewer.top.centre")
+        scrolled = lambda: browser.run("return window.scrollY")
+
+        def touch(kind, *fingers):
+            browser.cdp("Input.dispatchTouchEvent", type=kind,
+                        touchPoints=[{"x": fx, "y": fy, "id": k} for k, (fx, fy) in enumerate(fingers)])
+
+        before = (metres(), centre(), scrolled())
+        touch("touchStart", (x, y + 60))
+        for step in range(1, 13):
+            touch("touchMove", (x, y + 60 - 10 * step))
+        touch("touchEnd")
+        self.assertTrue(live_peer.becomes_true(lambda: scrolled() > before[2] + 40), "a swipe scrolls the page")
+        self.assertEqual((metres(), centre()), before[:2], "and leaves the picture")
+        y -= scrolled() - before[2]
+        before = (metres(), centre(), scrolled())
+        touch("touchStart", (x - 20, y))
+        touch("touchStart", (x - 20, y), (x + 20, y))
+        for step in range(1, 11):
+            touch("touchMove", (x - 20 - 4 * step + 30, y), (x + 20 + 4 * step + 30, y))
+        touch("touchEnd")
+        self.assertAlmostEqual(metres(), before[0] / 3, delta=0.1 * before[0], msg="two fingers zoom")
+        self.assertNotEqual(centre(), before[1], "and move")
+        self.assertEqual(scrolled(), before[2], "and leave the page")
+
+    def test_nothing_is_cut_on_small_screens(self):
+        for width in (390, 768, 1280):
+            browser = self.browser(width, 1024)
+            # A window has a least width of its own.
+            browser.cdp("Emulation.setDeviceMetricsOverride", width=width, height=1024, deviceScaleFactor=1,
+                        mobile=False)
+            self.assertEqual(browser.run("return window.innerWidth"), width)
+            cut = browser.run("""
+return Array.from(document.querySelectorAll('main table')).filter((table) => {
+  for (let node = table.parentElement; node !== document.body; node = node.parentElement) {
+    if (['auto', 'scroll'].includes(getComputedStyle(node).overflowX)) {
+      return node.getBoundingClientRect().right > innerWidth + 1;
+    }
+  }
+  return table.getBoundingClientRect().right > innerWidth + 1;
+}).map((table) => table.parentElement.id)""")
+            self.assertEqual(cut, [], width)
+            wide = browser.run("return document.documentElement.scrollWidth - window.innerWidth")
+            self.assertLessEqual(wide, 0, width)
+            if PICTURES:
+                browser.screenshot(f"{PICTURES}_{width}.png")
+
     def test_map_place_and_stop(self):
         self.daemon.kill()
         self.daemon = live_peer.Program(*words(self.port, "--set", "planar=map", "--set", "planar_map_every_s=1"))
@@ -267,6 +395,11 @@ class InABrowser(unittest.TestCase):
         self.assertFalse(browser.run("return document.getElementById('roadway-panel').hidden"))
         self.assertTrue(live_peer.becomes_true(lambda: browser.run("return roadway.map !== null")), "the picture came")
         self.assertTrue(self.is_drawn(browser, "roadway"))
+        grade = lambda: browser.run("return document.getElementById('steer').className")
+        self.assertTrue(live_peer.becomes_true(lambda: grade() == "panel bad"), "whatever may steer, it may not drive")
+        tops = browser.run("return ['steer', 'stop-line'].map((id) => "
+                           "document.getElementById(id).getBoundingClientRect().top)")
+        self.assertEqual(tops[0], tops[1], "the stop stands beside what may steer")
         self.assertRegex(self.text(browser, "stop-line"), r"^Obstacle stop: STOP\. [A-Z].* s\. [A-Z].*\.$")
         browser.run("document.getElementById('roadway-zoom').click()")
         self.assertEqual(self.text(browser, "roadway-zoom"), "Whole map")
@@ -295,6 +428,7 @@ class InABrowser(unittest.TestCase):
         rate = (self.shown(browser) - first) / (time.monotonic() - began)
         print(f"{rate:.1f} frames a second shown of {RATE_HZ}")
         self.assertIn("Live: frame", self.text(browser, "link"))
+        self.assertRegex(self.text(browser, "steer-may"), "^May steer: ")
         self.assertIn("roll (+ right side down)", self.text(browser, "tiles"))
         self.assertIn("sampling point", self.text(browser, "mount"))
         self.assertIn("body box 1", self.text(browser, "mount"))
@@ -362,6 +496,8 @@ class InABrowser(unittest.TestCase):
         states = browser.run("return Array.from(document.querySelectorAll('.tile .state'), (x) => x.textContent)")
         self.assertEqual(len(states), 7)
         self.assertTrue(all(state.startswith("invalid") for state in states), states)
+        self.assertEqual(self.text(browser, "steer-may"), "May steer: none.")
+        self.assertEqual(browser.run("return document.getElementById('steer').className"), "panel bad")
 
 
 if __name__ == "__main__":

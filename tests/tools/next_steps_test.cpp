@@ -141,7 +141,7 @@ TEST(ResultRows, AnInvalidValueHasNoNumberInCsvAndJson) {
   for (const char* name : {"d_lf", "d_lf_sigma", "d_lf_pl", "d_lf_cause", "d_lf_pl_random"}) EXPECT_EQ(cell(name), "");
   EXPECT_EQ(cell("d_lf_raw"), "2.4") << "what this frame measured stays";
   EXPECT_EQ(cell("d_lf_state"), "invalid");
-  EXPECT_TRUE(contains(result_json_line(outcome), "\"value_m\":null")) << result_json_line(outcome);
+  EXPECT_TRUE(contains(result_json_line(outcome, {}), "\"value_m\":null")) << result_json_line(outcome, {});
 }
 
 TEST(ClosingTable, ALevelBeyondTenAlertLimitsIsNoTolerance) {

@@ -92,7 +92,7 @@ FrameOutcome outcome_of(FrameRunner& runner, const std::string& file) {
 }
 
 void expect_same(const FrameOutcome& outcome) {
-  const std::string text = result_json_line(outcome);
+  const std::string text = result_json_line(outcome, {});
   ASSERT_EQ(text.find('\n'), text.size() - 1) << "one line";
   const json line = json::parse(text);
   EXPECT_EQ(line.at("schema"), 1);
@@ -128,7 +128,7 @@ TEST(ResultJson, AFrameThatNobodyCanReadHasTheSameMembers) {
   // A byte that is no UTF-8, and what JSON must write otherwise.
   const FrameOutcome bad = outcome_of(runner, folder.write("b\xff\"\n.bin", "torn"));
   ASSERT_FALSE(bad.result);
-  const json line = json::parse(result_json_line(bad)), whole = json::parse(result_json_line(good));
+  const json line = json::parse(result_json_line(bad, {})), whole = json::parse(result_json_line(good, {}));
   EXPECT_EQ(line.at("status"), "unreadable");
   EXPECT_NE(line.at("error"), "");
   EXPECT_TRUE(line.at("values").is_null());
@@ -138,13 +138,29 @@ TEST(ResultJson, AFrameThatNobodyCanReadHasTheSameMembers) {
   EXPECT_EQ(names, names_of_whole);
 }
 
+TEST(ResultJson, SaysWhatMaySteer) {
+  FrameOutcome outcome;
+  outcome.result = api::make_result();
+  for (pose_wall_value& value : outcome.result->quantity) value.state = POSE_WALL_VALID;
+  outcome.result->quantity[POSE_WALL_D_LF].state = POSE_WALL_INVALID;
+  outcome.result->quantity[POSE_WALL_D_LF].reasons = POSE_WALL_R_WALL_SHORT;
+  const json line = json::parse(result_json_line(outcome, {0.02, 0.1}));
+  EXPECT_EQ(line.at("steer").size(), 7U);
+  EXPECT_EQ(line.at("steer").at(3).at("cause"), "wall_short");
+  EXPECT_EQ(line.at("steer").at(3).at("limit_m"), 0.1);
+  EXPECT_EQ(line.at("steer").at(0).at("limit_rad"), 0.02);
+  EXPECT_EQ(
+      line.at("steer_line").at("en").get<std::string>().rfind("may steer: roll, pitch, yaw, d_lb, d_rf, d_rb; ", 0),
+      0U);
+}
+
 TEST(ResultJson, WhatIsNoNumberIsNull) {
   FrameOutcome outcome;
   outcome.result = api::make_result();
   outcome.result->quantity[POSE_WALL_YAW].state = POSE_WALL_DEGRADED;
   outcome.result->quantity[POSE_WALL_YAW].raw = std::numeric_limits<double>::quiet_NaN();
   outcome.result->quantity[POSE_WALL_YAW].protection_level = std::numeric_limits<double>::infinity();
-  const json yaw = json::parse(result_json_line(outcome)).at("values").at("yaw");
+  const json yaw = json::parse(result_json_line(outcome, {})).at("values").at("yaw");
   EXPECT_TRUE(yaw.at("raw_rad").is_null());
   EXPECT_TRUE(yaw.at("protection_level_rad").is_null());
   EXPECT_EQ(yaw.at("value_rad"), 0.0);

@@ -19,7 +19,9 @@ std::string result_json(const LiveResult& result) {
   outcome.source = result.frame_id;
   outcome.stamp_ns = publication.result.stamp_ns;
   outcome.result = publication.result;
-  Json line = result_as_json(outcome);
+  api::Config config;
+  *config.get() = result.config;
+  Json line = result_as_json(outcome, alert_limits_of(config));
   line.erase("times_ms");
   line.erase("error");
   line["told_by"] = publication.cause == POSE_WALL_RUNTIME_FRAME ? "frame" : "silence";

@@ -128,7 +128,7 @@ int run(const RunOptions& options) {
   if (has_no_input("run", inputs, options.output)) return kExitUnreadable;
   ResultOutput output(options.output, options.frames.files_read(inputs),
                       options.format == "json" ? ResultFormat::kJson : ResultFormat::kCsv,
-                      options.parts ? PartColumns::kAll : PartColumns::kNone);
+                      options.parts ? PartColumns::kAll : PartColumns::kNone, alert_limits_of(loaded.config));
   if (!options.frames.quiet) print_start(options, loaded, runner, inputs.frames());
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
 

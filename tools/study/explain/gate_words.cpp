@@ -6,15 +6,10 @@
 #include <fmt/format.h>
 
 #include "study/explain/amounts.hpp"
-#include "study/explain/gate_table.hpp"
+#include "study/remedies/gate_table.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {
-
-const GateWords* find(const char* gate) {
-  const GateWords* words = find_frame_gate(gate);
-  return words != nullptr ? words : find_wall_gate(gate);
-}
 
 std::string filled(const char* words, const Note& note) {
   if (*words == '\0') return "";
@@ -25,12 +20,12 @@ std::string filled(const char* words, const Note& note) {
 }  // namespace
 
 std::string sentence_of(const Note& note) {
-  const GateWords* words = find(note.info.name);
+  const GateWords* words = find_gate_words(note.info.name);
   return words != nullptr ? filled(words->failed, note) : "";
 }
 
 std::string help_of(const Note& note) {
-  const GateWords* words = find(note.info.name);
+  const GateWords* words = find_gate_words(note.info.name);
   return words != nullptr ? filled(words->help, note) : "";
 }
 

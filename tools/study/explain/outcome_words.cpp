@@ -13,6 +13,7 @@
 #include "study/explain/gate_words.hpp"
 #include "study/explain/level_words.hpp"
 #include "study/explain/prose.hpp"
+#include "study/remedies/remedies.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {
@@ -66,17 +67,6 @@ bool is_said_by_another(const Note& note, const std::vector<Note>& failed) {
            return other.is(POSE_WALL_TRACE_PROTECTION_SMOOTHED);
          });
 }
-
-// What lowers a level, by its largest part.
-constexpr const char* kHelpOfPart[POSE_WALL_PARTS] = {
-    translatable("show more of the surface"),
-    translatable("set range_bias_max to the sensor's data sheet"),
-    translatable("a bent surface is no plane: look at a straighter piece"),
-    translatable("another plane may be the surface: see what was doubted above, clear or show it"),
-    translatable("show the surface at the sampling point"),
-    translatable("wait until the value has followed"),
-    translatable("frames are missing or late"),
-};
 
 bool is_about_level(const Note& note) {
   return note.is(POSE_WALL_TRACE_PROTECTION_RAW) || note.is(POSE_WALL_TRACE_PROTECTION_SMOOTHED);
@@ -142,7 +132,7 @@ std::vector<std::string> outcome_helps(const pose_wall_result& result, const Not
   std::vector<std::string> helps;
   for (const Note& note : failed_notes(notes, quantity, std::isfinite(result.quantity[quantity].raw))) {
     const std::uint32_t cause = result.quantity[quantity].cause;
-    if (is_about_level(note) && cause < POSE_WALL_PARTS) helps.emplace_back(tr(kHelpOfPart[cause]));
+    if (is_about_level(note) && cause < POSE_WALL_PARTS) helps.push_back(help_of_part(language(), cause));
     helps.push_back(help_of(note));
   }
   return helps;

@@ -4,16 +4,20 @@
 #include "study/report/page.hpp"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "io/config_file/key_table.hpp"
 #include "io/config_file/resolved_frames.hpp"
 #include "io/json/json_words.hpp"
+#include "io/language/language.hpp"
 #include "io/picture/parts.hpp"
 #include "study/report/assets.hpp"
 #include "study/report/filled_page.hpp"
 #include "study/results/usability.hpp"
+#include "study/steer/steer_cause.hpp"
 
 namespace pose_wall::tools::report {
+
 Json words_json() {
   Json words;
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
@@ -26,6 +30,13 @@ Json words_json() {
   }
   for (std::uint32_t stage = 0; stage < POSE_WALL_STAGES; ++stage)
     words["stages"].push_back(pose_wall_stage_name(stage));
+  for (std::uint32_t cause = 0; cause < kSteerCauses; ++cause) {
+    words["steer_causes"].push_back(steer_cause_name(cause));
+    for (const auto& [name, language] : {std::pair("en", Language::kEnglish), std::pair("zh", Language::kChinese)}) {
+      words["steer_texts"][name].push_back(steer_cause_words(language, cause));
+      words["steer_remedies"][name].push_back(steer_remedy(language, cause));
+    }
+  }
   return words;
 }
 

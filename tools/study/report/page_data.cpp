@@ -12,6 +12,7 @@
 #include "io/config_file/resolved_frames.hpp"
 #include "io/frames/point_position.hpp"
 #include "io/picture/parts.hpp"
+#include "study/steer/steer_cause.hpp"
 
 namespace pose_wall::tools::report {
 namespace {
@@ -115,6 +116,7 @@ void PageData::add_values(const pose_wall_result& result) {
     raw_level_.add(value.raw_protection_level);
     for (const double part : value.part) part_.add(part);
     cause_.add(value.cause);
+    steer_.add(steer_cause(value));
     age_s_.add(value.age_s);
     state_.add(value.state);
     reasons_.add(value.reasons);
@@ -163,6 +165,7 @@ Json PageData::json() const {
           {"raw_level", raw_level_.text()},
           {"part", part_.text()},
           {"cause", cause_.text()},
+          {"steer", steer_.text()},
           {"positive_means", positive_means_},
           {"age_s", age_s_.text()},
           {"truth", truth_.text()},

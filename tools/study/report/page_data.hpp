@@ -52,7 +52,7 @@ class PageData {
   std::vector<std::string> sources_, errors_;
   // Seven of a frame.
   Column<float> value_, raw_, sigma_, level_, raw_level_, age_s_, truth_;
-  Column<std::uint8_t> state_, cause_;
+  Column<std::uint8_t> state_, cause_, steer_;  // steer_: steer_cause
   Column<std::uint32_t> reasons_;
   // POSE_WALL_PARTS of each of the seven.
   Column<float> part_;

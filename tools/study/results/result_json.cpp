@@ -9,6 +9,7 @@
 #include "io/json/json_words.hpp"
 #include "io/numbers/quantities.hpp"
 #include "study/results/result_csv.hpp"
+#include "study/steer/steering.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -84,7 +85,10 @@ Json times_json(const FrameOutcome& outcome) {
 }
 
 // The members that only a frame has that could be read.
-void add_result(Json& line, const pose_wall_result& r) {
+void add_result(Json& line, const pose_wall_result& r, const AlertLimits& limits) {
+  const Steering steering = steering_of(r, limits);
+  line["steer_line"] = steer_line_json(steering);
+  line["steer"] = steer_json(steering);
   line["status"] = pose_wall_state_name(worst_state(r));
   line["reasons"] = reason_list(all_reasons(r));
   line["frame_reasons"] = reason_list(r.frame_reasons);
@@ -103,7 +107,7 @@ void add_result(Json& line, const pose_wall_result& r) {
 
 }  // namespace
 
-Json result_as_json(const FrameOutcome& outcome) {
+Json result_as_json(const FrameOutcome& outcome, const AlertLimits& limits) {
   Json line = {{"schema", kResultJsonSchema},
                {"frame", outcome.frame},
                {"source", outcome.source},
@@ -111,17 +115,18 @@ Json result_as_json(const FrameOutcome& outcome) {
                {"status", "unreadable"},
                {"error", outcome.result ? Json() : Json(outcome.error)},
                {"reasons", Json::array({"unreadable"})}};
-  for (const char* name : {"frame_reasons", "confidence", "values", "left_right_yaw_difference_rad", "planes", "points",
-                           "voxel_leaf_m", "work", "publication", "source_id", "config_crc32"}) {
+  for (const char* name :
+       {"steer_line", "steer", "frame_reasons", "confidence", "values", "left_right_yaw_difference_rad", "planes",
+        "points", "voxel_leaf_m", "work", "publication", "source_id", "config_crc32"}) {
     line[name] = nullptr;
   }
-  if (outcome.result) add_result(line, *outcome.result);
+  if (outcome.result) add_result(line, *outcome.result, limits);
   line["times_ms"] = times_json(outcome);
   return line;
 }
 
-std::string result_json_line(const FrameOutcome& outcome) {
-  return json_text(result_as_json(outcome)) + '\n';
+std::string result_json_line(const FrameOutcome& outcome, const AlertLimits& limits) {
+  return json_text(result_as_json(outcome, limits)) + '\n';
 }
 
 }  // namespace pose_wall::tools

@@ -21,12 +21,9 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr std::size_t kReasonsShown = 5;
-// A level beyond so many alert limits promises nothing: "± 20.862 m" would look like a tolerance.
-constexpr double kLimitsShown = 10.0;
 
 std::string amount(std::size_t quantity, double value) {
-  if (!std::isfinite(value)) return "-";
-  return is_angle(quantity) ? fmt::format("{:.3f}°", value * kDegPerRad) : fmt::format("{:.3f} m", value);
+  return tools::level_text(quantity, value, 0.0);
 }
 
 // "roll (+ right side down)": an angle without its sign is half a number.
@@ -47,6 +44,7 @@ void RunSummary::add(const FrameOutcome& outcome) {
     quantities_[q].positive_means = positive_means(*outcome.result, q);
     add(outcome.result->quantity[q], &quantities_[q]);
   }
+  steer_.add(steering_of(*outcome.result, limits_));
   const std::uint32_t reasons = all_reasons(*outcome.result);
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) reasons_[bit] += reasons >> bit & 1U;
   elapsed_ms_.push_back(outcome.total_ms);
@@ -77,17 +75,15 @@ ValidShares RunSummary::valid_shares() const {
 }
 
 std::string RunSummary::level_text(std::size_t quantity, const std::vector<double>& levels) const {
-  const double level = quantile(levels, 0.5), most = kLimitsShown * limit_of(quantity, limits_);
-  if (!(most > 0.0 && level > most)) return amount(quantity, level);
-  return is_angle(quantity) ? fmt::format("> {:g}°", most * kDegPerRad) : fmt::format("> {:g} m", most);
+  return tools::level_text(quantity, quantile(levels, 0.5), limit_of(quantity, limits_));
 }
 
 std::string RunSummary::text(double wall_s) const {
   const std::string unreadable =
       unreadable_ > 0 ? say("unreadable: {} of {}\n", unreadable_, frames_text(frames_)) : "";
   if (elapsed_ms_.empty()) return say("{}, none processed\n", frames_text(frames_)) + unreadable;
-  return quantities_text() + levels_text() + '\n' + times_text(wall_s) + reasons_text() +
-         say("verdict: {}\n", usability_text(valid_shares())) + unreadable;
+  return steer_line(language(), steer_.steering()) + "\n\n" + quantities_text() + levels_text() + '\n' +
+         times_text(wall_s) + reasons_text() + say("verdict: {}\n", usability_text(valid_shares())) + unreadable;
 }
 
 std::string RunSummary::quantities_text() const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "study/results/result_csv.hpp"
+#include "study/results/steer_tally.hpp"
 #include "study/results/usability.hpp"
 #include "study/truth/alert_limits.hpp"
 
@@ -30,7 +31,7 @@ class RunSummary {
   // Of the frames that were read; NaN where there were none.
   ValidShares valid_shares() const;
 
-  // `wall_s`: time that the whole run took, reading included.
+  // What may steer stands first. `wall_s`: time that the whole run took, reading included.
   std::string text(double wall_s) const;
 
  private:
@@ -56,6 +57,7 @@ class RunSummary {
   std::size_t frames_ = 0;
   std::size_t unreadable_ = 0;
   std::array<Quantity, POSE_WALL_QUANTITIES> quantities_;
+  SteerTally steer_;
   std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons_{};
   std::vector<double> elapsed_ms_;
   std::vector<double> processor_ms_;

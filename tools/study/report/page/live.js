@@ -36,26 +36,54 @@ class LiveRecording extends Recording {
 }
 LiveRecording.kRoom = 6000;  // five minutes at 10 Hz stay when the older half goes
 LiveRecording.kSeries = ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 'age_s', 'truth', 'engine_ms', 'confidence', 'planes', 'floor', 'machine',
-  'stage_ms', 'reasons', 'frame_reasons', 'counts', 'state', 'cause', 'stamp_s'];
+  'stage_ms', 'reasons', 'frame_reasons', 'counts', 'state', 'cause', 'steer', 'stamp_s'];
 
 // Silence of a sensor is told ten times a second, health once: so long without either is a break.
 const kLost_ms = 2000, kChartsEvery_ms = 400;
 const page = { language: 'en', frame: 0, paused: false, hello: null, told: null, heard_ms: 0, arrivals: [], drawn_charts_ms: 0, shown: 0 };
 let recording = null, viewer = null, charts = null, roadway = null;
 
+// A text is told to those who hear the page only when it changes.
+function put(id, text) {
+  const node = document.getElementById(id);
+  if (node.textContent !== text) node.textContent = text;
+}
+
+const kWorst = ['good', 'fair', 'bad'];
+function worse(...grades) { return kWorst[Math.max(...grades.map((grade) => kWorst.indexOf(grade)))]; }
+
+// What may steer is told of the newest frame, also while the picture stands still. It is no greener than the stop.
+function show_steer(link_grade) {
+  const is_lost = link_grade === 'lost' || !recording;
+  const list = is_lost ? [] : steering_of(recording.frames - 1);
+  const { may, may_not, help } = is_lost ? { may: words().nothing_current, may_not: '', help: '' } : steer_sentences(list);
+  put('steer-may', may);
+  put('steer-not', may_not);
+  put('steer-help', help);
+  const grade = is_lost ? (link_grade === 'lost' ? 'bad' : 'fair') : worse(link_grade, steer_grade(list), roadway ? roadway.grade() : 'good');
+  document.getElementById('steer').className = `panel ${grade}`;
+}
+
 function show_link() {
-  const w = words(), link = document.getElementById('link'), now = performance.now();
+  const w = words(), now = performance.now();
   const away_s = Math.round((now - page.heard_ms) / 1000);
   const is_lost = now - page.heard_ms > kLost_ms;
   document.body.classList.toggle('waiting', is_lost || !recording);
-  const say = (grade, text) => { link.className = `panel ${grade}`; if (link.textContent !== text) link.textContent = text; };
+  const say = (grade, text) => { show_steer(grade); put('link', text); };
   if (!page.heard_ms) return say('fair', w.no_link_yet);
-  if (is_lost) return say('bad', w.no_link(away_s));
+  if (is_lost) return say('lost', w.no_link(away_s));
   if (page.paused) return say('fair', w.paused);
   if (!page.told) return say('fair', w.no_link_yet);
   if (page.told.told_by === 'silence') return say('bad', w.silent((page.told.age_ms / 1000).toFixed(1)));
   const span_ms = page.arrivals.length > 1 ? page.arrivals[page.arrivals.length - 1] - page.arrivals[0] : NaN;
   return say('good', w.live({ frame: page.told.frame, rate: number_text(1000 * (page.arrivals.length - 1) / span_ms, 1), age: number_text(page.told.age_ms, 0) }));
+}
+
+// Of what may not steer the one cause that the first line tells, and the limit where the level is beyond it.
+function tile_why(f, q) {
+  if (may_steer(f, q)) return why_text(f, q);
+  const cause = steer_text(recording.steer[recording.at(f, q)]), limit = recording.alert(q);
+  return recording.bound_of(f, q) > limit ? words().beyond_why(amount_text(recording, q, limit), cause) : cause;
 }
 
 function show_tiles(f) {
@@ -71,7 +99,7 @@ function show_tiles(f) {
       number.append(element('small', w.at_most(level), is_beyond ? 'level beyond' : 'level'));
     }
     const age = recording.age_s[i] > 0 ? `, ${number_text(recording.age_s[i], 1)} s` : '';
-    tile.append(element('div', name_text(q), 'name'), number, element('div', w.states[state] + age, `state ${state}`), element('div', why_text(f, q), 'why'));
+    tile.append(element('div', name_text(q), 'name'), number, element('div', w.states[state] + age, `state ${state}`), element('div', tile_why(f, q), 'why'));
     return tile;
   }));
 }

@@ -17,6 +17,7 @@ class Recording {
     for (const name of ['reasons', 'frame_reasons', 'counts', 'cloud_frame', 'cloud_first']) this[name] = whole(name);
     this.state = new Uint8Array(bytesOf(data.state));
     this.cause = new Uint8Array(bytesOf(data.cause));
+    this.steer = new Uint8Array(bytesOf(data.steer));
     this.positive_means = data.positive_means;
     this.stamp_s = new Float64Array(bytesOf(data.stamp_s));
     this.point_cm = new Int16Array(bytesOf(data.point_cm));

@@ -12,8 +12,14 @@ function show_verdict() {
   const use = (x) => use_of(x.valid, recording.head);
   const named = (is_meant) => summary.quantities.filter(is_meant).map((x) => w.names[x.name]);
   const facts = { ...shares_text(), some: named((x) => use(x) !== 'not_usable'), none: named((x) => use(x) === 'not_usable') };
-  const lines = [element('p', typeof headline === 'function' ? headline(facts) : headline)];
-  const say = (text, name) => lines.push(element('p', text, name));
+  const lines = [], say = (text, name) => lines.push(element('p', text, name));
+  if (summary.readable.length) {
+    const { may, may_not, help } = steer_sentences(summary.quantities.map((x) => ({ ...x.steer, may: use(x) === 'usable' })));
+    say(may);
+    if (may_not) say(may_not);
+    if (help) say(help);
+  }
+  say(typeof headline === 'function' ? headline(facts) : headline, 'headline');
   if (!recording.head.complete) say(w.interrupted(recording));
   if (summary.unreadable) say(w.verdict_unreadable(summary.unreadable));
   const name_those = (text, is_meant) => {
@@ -93,6 +99,8 @@ function show_frame(f) {
   document.getElementById('slider').value = f;
   document.getElementById('frame-name').textContent = `${w.frame} ${f} · ${recording.source[f].split('/').pop()}`;
   const cloud_of = viewer.draw(f);
+  const { may, may_not } = steer_sentences(steering_of(f));
+  document.getElementById('steer-frame').textContent = recording.error[f] ? '' : w.sentences([may, may_not]);
   document.getElementById('drawn-note').textContent = drawn_text(f);
   show_values(f);
   show_levels(f);

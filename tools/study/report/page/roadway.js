@@ -11,7 +11,7 @@ class RoadwayView {
     this.stop = null;
     this.stop_heard_ms = this.place_heard_ms = -Infinity;
     this.is_near = false;
-    document.getElementById('roadway-panel').hidden = false;
+    for (const id of ['roadway-panel', 'stop-line']) document.getElementById(id).hidden = false;
     document.getElementById('roadway-zoom').onclick = () => { this.is_near = !this.is_near; this.show(); };
   }
 
@@ -34,6 +34,9 @@ class RoadwayView {
   // What is not heard any more permits nothing.
   is_stop_known() { return this.stop && performance.now() - this.stop_heard_ms < kNoAnswer_ms; }
 
+  // Only go lets the machine drive as fast as it likes.
+  grade() { return this.is_stop_known() ? { go: 'good', slow: 'fair', stop: 'bad' }[this.stop.state] : 'bad'; }
+
   is_place_old() { return performance.now() - this.place_heard_ms > kNoScan_ms; }
 
   show() {
@@ -44,11 +47,13 @@ class RoadwayView {
 
   show_stop() {
     const w = words(), line = document.getElementById('stop-line');
-    const grade = { go: 'good', slow: 'fair', stop: 'bad' };
-    const say = (state, text) => { line.className = grade[state]; if (line.textContent !== text) line.textContent = text; };
-    if (!this.is_stop_known()) return say('stop', w.stop_not_known);
+    const say = (text, why = '') => {
+      line.className = `panel ${this.grade()}`;
+      if (line.textContent !== `${text} ${why}`.trim()) line.replaceChildren(element('b', text), why && ` ${why}`);
+    };
+    if (!this.is_stop_known()) return say(w.stop_not_known);
     const text = this.stop.state === 'slow' ? w.stop_slow(number_text(this.stop.allowed_speed_m_s, 2)) : this.stop.state === 'go' ? w.stop_go : w.stop_stop;
-    return say(this.stop.state, `${text} ${this.stop.why[page.language]}`.trim());
+    return say(text, this.stop.why[page.language]);
   }
 
   show_place() {

@@ -1,17 +1,25 @@
 // Sums up the recording in numbers; the page puts them into words. The rule of tools/study/results/usability.hpp, whose
 // shares the head holds, grades values and recording.
 
+// By the most frequent cause, as the rule of tools/study/steer/steer_tally.cpp. causes: of each its frames.
+function steer_of_all(q, causes, share) {
+  const [cause, frames] = [...causes].sort((a, b) => b[1].length - a[1].length || a[0] - b[0])[0] || [0, []];
+  const levels = frames.map((f) => steering_of(f)[q]).filter((x) => x.is_measured && !Number.isNaN(x.level)).map((x) => x.level);
+  return { q, cause, share, limit: recording.alert(q), is_measured: 2 * levels.length > frames.length, level: quantile(levels, 0.5) };
+}
+
 function summarise(recording) {
   const readable = [];
   for (let f = 0; f < recording.frames; ++f) if (!recording.error[f]) readable.push(f);
   const quantities = QUANTITIES.map((name, q) => {
-    const states = [0, 0, 0, 0], reasons = new Map();
+    const states = [0, 0, 0, 0], reasons = new Map(), steered = new Map();
     const values = [], levels = [], raw_levels = [], parts = recording.words.parts.map(() => []);
     const how_often = parts.map(() => 0);
     let squares = 0, errors = 0, largest = 0, beyond = 0, misleading = 0;
     for (const f of readable) {
       const i = recording.at(f, q), state = recording.state[i];
       ++states[state];
+      if (!may_steer(f, q)) steered.set(recording.steer[i], [...(steered.get(recording.steer[i]) || []), f]);
       if (state !== 3) for (const bit of recording.reason_bits(recording.reasons[i])) reasons.set(bit, (reasons.get(bit) || 0) + 1);
       if (state === 0) continue;
       values.push(recording.value[i] * recording.unit(q));
@@ -35,9 +43,10 @@ function summarise(recording) {
     const made_of = { name, q, level: quantile(levels, 0.5), raw_level: quantile(raw_levels, 0.5),
       parts: parts.map((numbers) => quantile(numbers, 0.5)), cause: most ? how_often.indexOf(most) : parts.length,
       often: most / Math.max(1, parts[0].length) };
-    return { name, q, states, reasons: top, made_of, median: quantile(values, 0.5), level: quantile(levels, 0.5),
+    const valid_share = readable.length ? states[3] / readable.length : 0;
+    return { name, q, states, reasons: top, made_of, steer: steer_of_all(q, steered, valid_share), median: quantile(values, 0.5), level: quantile(levels, 0.5),
       errors, rmse: Math.sqrt(squares / errors), largest: errors ? largest : NaN, beyond, misleading,
-      valid: readable.length ? states[3] / readable.length : 0 };
+      valid: valid_share };
   });
   const sum = (member) => quantities.reduce((total, x) => total + x[member], 0);
   const valid = quantities.reduce((total, x) => total + x.states[3], 0);

@@ -13,12 +13,39 @@ class View {
       on_change();
     }, { passive: false });
     canvas.addEventListener('pointermove', (event) => {
-      if (!(event.buttons & 1)) return;
-      this.centre[0] -= event.movementX / this.scale();
-      this.centre[1] += event.movementY / this.scale();
+      if (!(event.buttons & 1) || event.pointerType === 'touch') return;
+      this.pan(event.movementX, event.movementY);
       on_change();
     });
+    this.listen_to_fingers(on_change);
     canvas.addEventListener('dblclick', () => { this.reset(); on_change(); });
+  }
+
+  // One finger scrolls the page. Two zoom by their distance and move by their middle.
+  listen_to_fingers(on_change) {
+    let before = null;
+    const fingers = (event) => {
+      const box = this.canvas.getBoundingClientRect(), [a, b] = Array.from(event.touches, (t) => [t.clientX - box.left, t.clientY - box.top]);
+      return { x: (a[0] + b[0]) / 2, y: (a[1] + b[1]) / 2, apart: Math.max(1, Math.hypot(a[0] - b[0], a[1] - b[1])) };
+    };
+    const take = (event) => {
+      if (event.touches.length !== 2) { before = null; return; }
+      if (event.cancelable) event.preventDefault();
+      const now = fingers(event);
+      if (before) {
+        this.pan(now.x - before.x, now.y - before.y);
+        this.zoom(before.apart / now.apart, now.x, now.y);
+        on_change();
+      }
+      before = now;
+    };
+    for (const kind of ['touchstart', 'touchmove']) this.canvas.addEventListener(kind, take, { passive: false });
+    for (const kind of ['touchend', 'touchcancel']) this.canvas.addEventListener(kind, () => { before = null; });
+  }
+
+  pan(dx, dy) {
+    this.centre[0] -= dx / this.scale();
+    this.centre[1] += dy / this.scale();
   }
 
   reset() { this.centre = this.usual.centre.slice(); this.metres = this.usual.metres.slice(); }

@@ -5,7 +5,9 @@
 const QUANTITIES = ['roll', 'pitch', 'yaw', 'd_lf', 'd_lb', 'd_rf', 'd_rb'];
 // By pose_wall_state; the last marks a frame that the engine never saw.
 const STATES = ['invalid', 'held', 'degraded', 'valid', 'unreadable'];
-const INVALID = 0, HELD = 1, VALID = 3, UNREADABLE = 4;
+const INVALID = 0, HELD = 1, DEGRADED = 2, VALID = 3, UNREADABLE = 4;
+// A level beyond so many alert limits promises nothing (kLimitsShown of tools/study/steer).
+const LIMITS_SHOWN = 10;
 
 const WORDS = {
   en: {
@@ -14,7 +16,7 @@ const WORDS = {
       (r.head.truth ? `, compared with ${r.head.truth}` : ''),
     interrupted: (r) => `Interrupted: the page shows ${r.frames} of ${r.head.inputs} frames.`,
     layers: ['other points', 'floor', 'left wall', 'right wall', 'dropped (range, body)'], planes: 'planes', boxes: 'body boxes',
-    top_caption: 'From above, with the road to the right. Solid: raw, as measured in this frame alone. Dashed: the value, where it is held or differs from raw by more than noise. Thick part of a wall: from the first to the last inlier. Grey: not valid. Wheel: zoom; drag: move; double click: back.',
+    top_caption: 'From above, with the road to the right. Solid: raw, as measured in this frame alone. Dashed: the value, where it is held or differs from raw by more than noise. Thick part of a wall: from the first to the last inlier. Grey: not valid. Wheel, drag or two fingers: zoom and move; double click: back.',
     section_caption: 'Across the road at the machine (± 1.5 m), looking ahead. The same rule: solid is raw, dashed is the value, grey is not valid.',
     agree: 'Raw and value agree within noise in this frame: the solid picture shows both.',
     differ: (list) => `Raw and value differ by more than noise: ${list.join('; ')}. The value is drawn dashed.`,
@@ -39,6 +41,9 @@ const WORDS = {
     lag_why: (amount) => `smoothing: the value lags behind this frame by ${amount}`,
     lag_largest: 'smoothing: the value lags behind this frame, which is the largest part of its level',
     held_why: (age) => `held: not measured in this frame, last measured ${age} s ago`,
+    may_steer: (names) => `May steer: ${names}.`, may_not: (list) => `May not: ${list}.`, to_look_at: (list) => `To look at: ${list}.`,
+    none: 'none', listed: (list) => list.join(', '), not_measured: 'not measured', no_bound: 'no bound', level_limit: (level, limit) => `level ${level}, limit ${limit}`,
+    of_frames: (share, level) => `valid in ${share} of the frames, else mostly ${level}`, with_cause: (names, level, cause) => `${names} (${level}: ${cause})`,
     positive: (name, sense) => `${name} (+ ${sense})`, also_named: (name, column) => `${name} (${column})`,
     joined: (list) => list.join('; '), sentences: (list) => list.join(' '), state_share: (state, share) => `${state} ${share}`,
     signs: (axis, roll, pitch, yaw) => `Signs with forward_axis ${axis}: roll + ${roll}; pitch + ${pitch}; yaw + ${yaw}. ` +
@@ -83,7 +88,7 @@ const WORDS = {
     subtitle: (r) => `${r.frames} 帧，pose_wall ${r.head.version}` + (r.head.truth ? `，与 ${r.head.truth} 对比` : ''),
     interrupted: (r) => `处理被中断：显示 ${r.head.inputs} 帧中的 ${r.frames} 帧。`,
     layers: ['其他点', '底板', '左墙', '右墙', '被滤除（距离、机身）'], planes: '平面', boxes: '机身滤除框',
-    top_caption: '俯视图，巷道方向向右。实线：原始值（仅本帧测得）。虚线：输出值，仅在保持或与原始值之差超过噪声时绘出。墙面粗线：首末内点之间。灰色：非有效。滚轮缩放，拖动平移，双击复位。',
+    top_caption: '俯视图，巷道方向向右。实线：原始值（仅本帧测得）。虚线：输出值，仅在保持或与原始值之差超过噪声时绘出。墙面粗线：首末内点之间。灰色：非有效。滚轮或双指缩放，拖动或双指平移，双击复位。',
     section_caption: '机身处横断面（± 1.5 m），面向前方。规则相同：实线为原始值，虚线为输出值，灰色为非有效。',
     agree: '本帧原始值与输出值之差在噪声以内：实线同时代表两者。',
     differ: (list) => `原始值与输出值之差超过噪声：${list.join('；')}。输出值以虚线绘出。`,
@@ -106,6 +111,9 @@ const WORDS = {
     mostly_often: (part, share) => `${part}（${share} 的帧中最大）`,
     lag_why: (amount) => `平滑：输出值滞后于本帧 ${amount}`, lag_largest: '平滑：输出值滞后于本帧，且为保护级的最大成分',
     held_why: (age) => `保持：本帧未测得，${age} s 前测得`,
+    may_steer: (names) => `可用于控制：${names}。`, may_not: (list) => `不可用：${list}。`, to_look_at: (list) => `处理：${list}。`,
+    none: '无', listed: (list) => list.join('、'), not_measured: '未测得', no_bound: '无误差上界', level_limit: (level, limit) => `保护级 ${level}，限值 ${limit}`,
+    of_frames: (share, level) => `${share} 的帧有效，其余多为${level}`, with_cause: (names, level, cause) => `${names}（${level}：${cause}）`,
     positive: (name, sense) => `${name}（正：${sense}）`, also_named: (name, column) => `${name}（${column}）`,
     joined: (list) => list.join('；'), sentences: (list) => list.join(''), state_share: (state, share) => `${state} ${share}`,
     signs: (axis, roll, pitch, yaw) => `符号（forward_axis 为 ${axis}）：横滚为正表示${roll}；俯仰为正表示${pitch}；航向为正表示${yaw}。偏向左侧为负；ROS（REP 103）中偏左为正。`,

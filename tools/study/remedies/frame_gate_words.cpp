@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-#include "study/explain/gate_table.hpp"
+#include "study/remedies/gate_table.hpp"
 
 #include <iterator>
 

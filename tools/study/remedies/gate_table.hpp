@@ -38,5 +38,9 @@ inline const GateWords* find_gate(const char* gate, std::initializer_list<GateTa
 
 const GateWords* find_frame_gate(const char* gate);
 const GateWords* find_wall_gate(const char* gate);
+inline const GateWords* find_gate_words(const char* gate) {
+  const GateWords* words = find_frame_gate(gate);
+  return words != nullptr ? words : find_wall_gate(gate);
+}
 
 }  // namespace pose_wall::tools::explain
