@@ -202,19 +202,18 @@ TEST(WholeLines, RowsAndMessagesDoNotTearEachOther) {
 
 TEST(NextSteps, NameNoConfigThatHoldsTheDefaultsAndTheProgramAsItWasCalled) {
   const TempFolder folder;
-  ASSERT_EQ(command({"sim", "-q", "-n", "4", "--sensor", "os0-128", "--scene", "no_floor", "-o", folder.file("road")})
-                .exit_status,
-            0);
+  ASSERT_EQ(command({"sim", "-q", "-n", "4", "--sensor", "os0-128", "-o", folder.file("road")}).exit_status, 0);
   const std::string frames = folder.file("road/frames"), out = folder.file("o.csv");
-  Ran ran = command({"run", "-o", out, frames});
+  const char* const low = "ground_height_max=0.5";  // no floor is so near
+  Ran ran = command({"run", "-s", low, "-o", out, frames});
   EXPECT_FALSE(contains(ran.errors, "--config")) << ran.errors;
   EXPECT_TRUE(contains(next_steps(ran), "by: pose_wall doctor ")) << ran.errors;
-  ran = command({"run", "-c", "vlp16", "-o", out, frames});
+  ran = command({"run", "-c", "vlp16", "-s", low, "-o", out, frames});
   EXPECT_TRUE(contains(ran.errors, "OS0-128, for which the defaults are made: try without --config.")) << ran.errors;
 
-  const char* const words[] = {"build/release/pose_wall", "run", "-o", out.c_str(), frames.c_str()};
+  const char* const words[] = {"build/release/pose_wall", "run", "-s", low, "-o", out.c_str(), frames.c_str()};
   ::testing::internal::CaptureStderr();
-  run_command(5, words);
+  run_command(7, words);
   const std::string errors = ::testing::internal::GetCapturedStderr();
   EXPECT_TRUE(contains(errors, "by: build/release/pose_wall doctor ")) << errors;
   EXPECT_TRUE(contains(errors, "build/release/pose_wall explain --frame ")) << errors;

@@ -203,7 +203,7 @@ std::string log_of_noise(int scans, int good_of_ten) {
   for (int k = 0; k < scans; ++k) {
     const auto noise = [k](const pose_wall_planar_pose& /*at*/, double angle_rad) {
       const double mixed = std::sin(1234.5 * angle_rad + 77.7 * k) * 43758.5;
-      return 1.5 + 5.0 * (mixed - std::floor(mixed));
+      return 1.5 + 12.0 * (mixed - std::floor(mixed));
     };
     const bool is_good = k < 10 || k % 10 < good_of_ten;
     text += is_good ? DrawnRoom::line(DrawnRoom::stamp(k), DrawnRoom::pose(k))

@@ -86,7 +86,7 @@ TEST(ScanVerb, FaultsAreNamed) {
 TEST(ScanVerb, AFloorThatIsNotKnownWellIsNoFloorThatWasNotMeasured) {
   const TempFolder folder;
   ASSERT_EQ(
-      command({"sim", "-q", "--scene", "clean", "--sensor", "vlp16", "-n", "3", "-o", folder.file("road")}).exit_status,
+      command({"sim", "-q", "--scene", "rough", "--sensor", "vlp16", "-n", "3", "-o", folder.file("road")}).exit_status,
       0);
   const std::vector<std::string> words = {"-c", folder.file("road/pose_wall.yaml"), "-o", folder.file("o"),
                                           folder.file("road/frames")};

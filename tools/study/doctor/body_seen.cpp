@@ -25,7 +25,7 @@ constexpr std::size_t kBoxes = 4;
 // A bracket holds the sensor beside the machine by no more than this: nearer things could not pass the rock.
 constexpr double kBracket_m = 0.3;
 // A machine keeps more than this from what stands beside it; the beams on its own deck leave narrower gaps across.
-constexpr double kAside_m = 0.1;
+constexpr double kBeside_m = 0.1;
 // Roadheaders are 8 to 13 m long, so none reaches this far from its sensor both ahead and behind.
 constexpr double kRunsOn_m = 7.0;
 constexpr double kSeen_m = kRunsOn_m + 1.0;  // beams fall a metre apart on the side of what lies along the road there
@@ -112,7 +112,7 @@ std::vector<Piece> split_across(Piece piece, const RoadFrame& frame) {
   double to_m = -1e9;
   for (const NearCell& cell : piece) {
     const Span span = span_of(cell, frame);
-    if (parts.empty() || span.low_m.y() > to_m + kAside_m) parts.emplace_back();
+    if (parts.empty() || span.low_m.y() > to_m + kBeside_m) parts.emplace_back();
     parts.back().push_back(cell);
     to_m = std::max(to_m, span.high_m.y());
   }

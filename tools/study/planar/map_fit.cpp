@@ -15,16 +15,16 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr const char* kName = "map.json";
+constexpr const char* kFitFile = "map.json";
 // People and dust spoil a scan in ten of a good map. Where most scans fit badly, the others stand on these.
-constexpr double kDoubtfulShare = 0.1, kBadShare = 0.5;
+constexpr double kDoubtfulFit = 0.1, kBadFit = 0.5;
 
 }  // namespace
 
 MapGrade MapFit::grade() const {
   const auto off = static_cast<double>(badly + blind), all = static_cast<double>(scans);
-  if (off > kBadShare * all) return MapGrade::kNotUsable;
-  return off > kDoubtfulShare * all ? MapGrade::kDoubtful : MapGrade::kGood;
+  if (off > kBadFit * all) return MapGrade::kNotUsable;
+  return off > kDoubtfulFit * all ? MapGrade::kDoubtful : MapGrade::kGood;
 }
 
 std::string MapFit::verdict() const {
@@ -59,13 +59,13 @@ void write_fit(const std::filesystem::path& folder, const MapFit& fit) {
                      {"scans_that_fit_badly", fit.badly},
                      {"scans_with_too_few_points", fit.blind},
                      {"new_trails", fit.new_trails}};
-  write_whole_file(folder / kName, json_text(json, 1) + "\n");
+  write_whole_file(folder / kFitFile, json_text(json, 1) + "\n");
 }
 
 std::optional<MapFit> read_fit(const std::filesystem::path& folder) {
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(folder / kName, ignored)) return std::nullopt;
-  const Json json = Json::parse(read_whole_file(folder / kName), nullptr, false);
+  if (!std::filesystem::is_regular_file(folder / kFitFile, ignored)) return std::nullopt;
+  const Json json = Json::parse(read_whole_file(folder / kFitFile), nullptr, false);
   if (!json.is_object()) return std::nullopt;
   MapFit fit;
   const std::pair<const char*, std::size_t*> members[] = {{"scans", &fit.scans},

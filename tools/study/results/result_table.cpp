@@ -17,8 +17,8 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kUnreadable = "unreadable";
+constexpr double kNoCell = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kUnreadRow = "unreadable";
 
 class ResultTableReader {
  public:
@@ -31,9 +31,9 @@ class ResultTableReader {
     out.source = text("source");
     out.stamp_ns = whole<std::int64_t>("stamp_ns");
     out.total_ms = number("total_ms");
-    if (text("status") == kUnreadable) {
+    if (text("status") == kUnreadRow) {
       out.error = text("error");
-      if (out.error.empty()) out.error = kUnreadable;
+      if (out.error.empty()) out.error = kUnreadRow;
       return out;
     }
     pose_wall_result& result = out.result.emplace(api::make_result());
@@ -57,7 +57,7 @@ class ResultTableReader {
 
   double number(const std::string& name) const {
     const std::optional<std::size_t> column = table_.find_column(name);
-    return column ? table_.number(row_, *column) : kNoNumber;
+    return column ? table_.number(row_, *column) : kNoCell;
   }
 
   [[noreturn]] void refuse(const std::string& name, const char* what) const {
