@@ -135,9 +135,10 @@ bool goes_on(const Piece& piece, const std::vector<Piece>& far, const RoadFrame&
   return room.runs_on(all.low_m.x(), all.high_m.x());
 }
 
-// None: it is as a body is.
-const char* why_no_body(const Piece& piece, const std::vector<Piece>& far, const RoadFrame& frame,
-                        const BodyRoom& room) {
+// Nothing: it is as a body is. `carrier`: what the pieces under the sensor span. No part of the machine beside them is
+// wider, as the deck that shows on both sides of the boom.
+const char* why_no_body(const Piece& piece, const std::vector<Piece>& far, const RoadFrame& frame, const BodyRoom& room,
+                        const Span& carrier) {
   double nearest = kNear_m;
   std::size_t aside = 0;
   for (const NearCell& cell : piece) {
@@ -151,7 +152,9 @@ const char* why_no_body(const Piece& piece, const std::vector<Piece>& far, const
   if (span.low_m.z() < 2.0 * kAboveFloor_m && span.high_m.z() > room.top_m() - 0.4) {
     return translatable("it reaches from the floor to the roof");
   }
-  const bool is_beside = room.aside_m(span.low_m.y()) > kBracket_m || room.aside_m(span.high_m.y()) < -kBracket_m;
+  const bool is_off = room.aside_m(span.low_m.y()) > kBracket_m || room.aside_m(span.high_m.y()) < -kBracket_m;
+  const bool is_beside =
+      is_off && (span.low_m.y() < carrier.low_m.y() - kBeside_m || span.high_m.y() > carrier.high_m.y() + kBeside_m);
   if (is_beside || share(aside, piece.size()) >= 0.2) return translatable("it stands beside the sensor");
   return nearest < kBegins_m ? nullptr : translatable("it begins far from the sensor");
 }
@@ -209,16 +212,23 @@ BodySeen look_for_body(const std::vector<KeptFrame>& frames, const RoadFrame& fr
   if (seen.slices < 2) return seen;
   const BodyRoom room(frame, road, ends);
   Fixed fixed = look_for_fixed(frames, frame, room, seen);
-  std::vector<Piece> body;
+  std::vector<Piece> pieces, body;
   for (Piece& whole : fixed.near) {
-    for (Piece& piece : split_across(std::move(whole), frame)) {
-      const char* const why = why_no_body(piece, fixed.far, frame, room);
-      if (why == nullptr && piece.size() >= kCellsMin) {
-        count_cells(piece, frame, room, seen);
-        body.push_back(std::move(piece));
-      } else if (why != nullptr && piece.size() >= 4 * kCellsMin) {
-        seen.left_out.push_back({box_around(piece), why});
-      }
+    for (Piece& piece : split_across(std::move(whole), frame)) pieces.push_back(std::move(piece));
+  }
+  Span carrier;
+  for (const Piece& piece : pieces) {
+    if (piece.size() < kCellsMin || why_no_body(piece, fixed.far, frame, room, Span()) != nullptr) continue;
+    const Span span = span_of(piece, frame);
+    carrier.take(span.low_m, span.high_m);
+  }
+  for (Piece& piece : pieces) {
+    const char* const why = why_no_body(piece, fixed.far, frame, room, carrier);
+    if (why == nullptr && piece.size() >= kCellsMin) {
+      count_cells(piece, frame, room, seen);
+      body.push_back(std::move(piece));
+    } else if (why != nullptr && piece.size() >= 4 * kCellsMin) {
+      seen.left_out.push_back({box_around(piece), why});
     }
   }
   std::stable_sort(body.begin(), body.end(), [](const Piece& a, const Piece& b) { return a.size() > b.size(); });
