@@ -20,6 +20,16 @@ if [ "$status" -ne 1 ] || ! grep -q 000017b.pcd "$folder/said" || grep -q "stamp
 fi
 "$python" "$here/check_report_page.py" "$folder/report.html" 41 ${3:+"$3"}
 
+# The same values from their table alone.
+"$pose_wall" run --quiet --config "$folder/road/pose_wall.yaml" --output "$folder/out.csv" "$folder/road/frames" \
+  2> /dev/null || true
+"$pose_wall" report --quiet --output "$folder/table.html" "$folder/out.csv"
+"$python" "$here/check_table_page.py" "$folder/table.html" 41
+if "$python" "$here/check_table_page.py" "$folder/report.html" 41 > /dev/null 2>&1; then
+  echo "a page of frames was let through as one of a table"
+  exit 1
+fi
+
 # A check that cannot fail is none: a broken script, and a page that draws what is not valid as if it were.
 for fault in 's/function show_frame/function show_no_frame/' 's/number not-valid/number/'; do
   sed "$fault" "$folder/report.html" > "$folder/broken.html"

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -222,6 +223,94 @@ TEST(Doctor, BoxesHoldTheBodyAndLittleElse) {
   EXPECT_LT(static_cast<double>(others_inside), 0.005 * static_cast<double>(others));
 }
 
+sim::SceneSetup setup_of_scene(const char* scene, const char* sensor, const std::vector<const char*>& settings) {
+  sim::SceneSetup setup = sim::make_setup(scene, sensor, false, 1);
+  for (const char* setting : settings) sim::set_parameter(setup, setting);
+  return setup;
+}
+
+// Shares of the points of a label, and of all others, that lie in the proposed boxes.
+struct Boxed {
+  std::size_t of_body = 0, body_inside = 0, others = 0, others_inside = 0;
+
+  Boxed(const Simulated& simulated, const doctor::BodySeen& body) {
+    for (const sim::Frame& frame : simulated.frames) {
+      for (std::size_t i = 0; i < frame.count(); ++i) {
+        const float* p = &frame.xyz_intensity[4 * i];
+        const Eigen::Vector3d point = Eigen::Vector3f(p[0], p[1], p[2]).cast<double>();
+        const bool is_inside = std::any_of(body.boxes_base.begin(), body.boxes_base.end(),
+                                           [&point](const doctor::Box& box) { return box.holds(point); });
+        const bool is_body = frame.labels[i] == sim::Label::kBody;
+        (is_body ? of_body : others) += 1;
+        if (is_inside) (is_body ? body_inside : others_inside) += 1;
+      }
+    }
+  }
+};
+
+TEST(Doctor, WhatStandsBesideTheMachineGetsNoBox) {
+  struct {
+    const char* scene;
+    const char* sensor;
+    std::vector<const char*> settings;
+    const char* why;
+  } const cases[] = {
+      {"conveyor", "os1-64", {}, "runs on along the road"},
+      {"conveyor", "vlp16", {"conveyor_side=both"}, "runs on along the road"},
+      {"conveyor", "vlp16", {"turned_left_deg=4"}, "runs on along the road"},
+      {"vehicle", "vlp16", {}, "stands beside"},
+      {"curtain", "vlp16", {}, "stands beside"},
+  };
+  for (const auto& [scene, sensor, settings, why] : cases) {
+    const doctor::Diagnosis d = diagnosis_of(simulate(setup_of_scene(scene, sensor, settings), 6));
+    ASSERT_TRUE(d.mount.has_value()) << scene;
+    const doctor::BodySeen& body = d.mount->likely.body;
+    EXPECT_TRUE(body.boxes_base.empty()) << scene << ": a box would hide it from engine and stop";
+    ASSERT_FALSE(body.left_out.empty()) << scene;
+    EXPECT_TRUE(contains(body.left_out.front().why, why)) << scene << ": " << body.left_out.front().why;
+    EXPECT_TRUE(contains(doctor::diagnosis_text(d), why)) << doctor::diagnosis_text(d);
+    for (const doctor::Change& change : d.proposal.changes()) EXPECT_NE(change.key, "body_box_1") << scene;
+  }
+}
+
+TEST(Doctor, TheBodyHasItsBoxesWithThingsBesideIt) {
+  const auto boxed_with = [](const std::vector<const char*>& settings, bool is_anything_left_out) {
+    const Simulated simulated = simulate(setup_of_scene("body", "vlp16", settings), 6);
+    const doctor::Diagnosis d = diagnosis_of(simulated);
+    EXPECT_EQ(!d.mount->likely.body.left_out.empty(), is_anything_left_out) << settings.front();
+    const Boxed boxed(simulated, d.mount->likely.body);
+    EXPECT_GT(boxed.of_body, 1000U);
+    EXPECT_LT(static_cast<double>(boxed.others_inside), 0.005 * static_cast<double>(boxed.others)) << settings.front();
+    return static_cast<double>(boxed.body_inside) / static_cast<double>(boxed.of_body);
+  };
+  const double without_boom = boxed_with({"boom=no"}, false);
+  EXPECT_GT(boxed_with({"boom=yes"}, false), 0.98);
+  EXPECT_GT(boxed_with({"conveyor_side=left", "vehicle_side=right"}, true), 0.93);
+  EXPECT_NEAR(boxed_with({"vehicle_side=left", "boom=no"}, true), without_boom, 0.01);
+}
+
+bool asks_for_a_drive(const doctor::Diagnosis& d) {
+  return std::any_of(d.verdict.confirm.begin(), d.verdict.confirm.end(),
+                     [](const std::string& line) { return contains(line, "examine a drive of 10 m"); });
+}
+
+TEST(Doctor, AStandingMachineIsAskedForADriveAndADriveShowsTheBodyAlone) {
+  const doctor::Diagnosis standing = diagnosis_of(simulate(setup_of_scene("rough", "vlp16", {"body=yes"}), 6));
+  ASSERT_FALSE(standing.mount->likely.body.boxes_base.empty()) << "or there is nothing to ask about";
+  EXPECT_LT(standing.preview->travel_m, 0.1);
+  EXPECT_TRUE(asks_for_a_drive(standing));
+
+  const std::vector<const char*> away = {"body=yes",    "vehicle_side=right", "vehicle_at_m=4", "conveyor_side=left",
+                                         "speed_mps=2", "rate_hz=10",         "rock_repeats=no"};
+  const Simulated drive = simulate(setup_of_scene("rough", "vlp16", away), 60);
+  const doctor::Diagnosis driven = diagnosis_of(drive);
+  EXPECT_GT(driven.preview->travel_m, 10.0);
+  EXPECT_FALSE(asks_for_a_drive(driven));
+  const Boxed boxed(drive, driven.mount->likely.body);
+  EXPECT_GT(static_cast<double>(boxed.body_inside), 0.97 * static_cast<double>(boxed.of_body));
+  EXPECT_LT(static_cast<double>(boxed.others_inside), 0.005 * static_cast<double>(boxed.others));
+}
+
 TEST(Doctor, SaysWhatCannotBeKnown) {
   const Simulated simulated = simulate(setup_of("os1-64", {"forward_axis=-Y", "base_height_m=1.4"}), 4);
   const doctor::Diagnosis d = diagnosis_of(simulated);
@@ -347,6 +436,7 @@ TEST(Doctor, RingsAreThoseThatTheFramesTell) {
   EXPECT_EQ(rings_seen("ring", 32), 32U);
   EXPECT_EQ(rings_seen("line", 4), 16U) << "the few lines of a pattern are no rings";
   EXPECT_EQ(rings_seen("other", 32), 16U) << "by where the points lie";
+  EXPECT_EQ(rings_seen("ring", 1), 16U) << "a field of zeros tells nothing";
 }
 
 // A diagnosis whose preview has these shares of valid values, of a recording this long.

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "crafted_value.hpp"
 #include "english_left.hpp"
 #include "pose_wall.hpp"
 #include "ran_command.hpp"
@@ -22,6 +23,7 @@
 #include "study/explain/explanation.hpp"
 #include "study/explain/explanation_text.hpp"
 #include "study/explain/gate_words.hpp"
+#include "study/explain/outcome_words.hpp"
 #include "test_files.hpp"
 
 namespace pose_wall::tools::explain {
@@ -423,6 +425,30 @@ TEST(ExplainVerb, AFileNameThatIsNoUtf8IsStillJson) {
   const Ran ran = command({"explain", "-q", "--json", "-c", folder.file("pose_wall.yaml"), "-n", "0", frame});
   EXPECT_EQ(ran.exit_status, 0) << ran.errors;
   EXPECT_EQ(nlohmann::json::parse(ran.printed).at("source"), folder.file("frames/\uFFFD.pcd"));
+}
+
+TEST(Sentences, NoHelpRaisesTheLimitThatAValueMisses) {
+  for (std::uint32_t gate = 0; gate < POSE_WALL_TRACE_GATES; ++gate) {
+    Note note{{POSE_WALL_TRACE_QUANTITY, gate, 0, 0, 0.5, 0.25}, {}};
+    ASSERT_EQ(pose_wall_trace_gate_info(gate, &note.info), POSE_WALL_OK);
+    EXPECT_FALSE(contains(help_of(note), "alert_limit")) << note.info.name << ": " << help_of(note);
+  }
+  pose_wall_result result = api::make_result();
+  for (std::uint32_t part = 0; part < POSE_WALL_PARTS; ++part) {
+    Noted noted;
+    noted.note(POSE_WALL_TRACE_QUANTITY + POSE_WALL_D_LF, POSE_WALL_TRACE_PROTECTION_SMOOTHED, 0.5, 0.1, false);
+    pose_wall_value& value = result.quantity[POSE_WALL_D_LF];
+    value = test::crafted_value(POSE_WALL_DEGRADED, 2.5, 2.5, {});
+    value.cause = part;
+    std::vector<std::string> helps = outcome_helps(result, Notes(noted.trace), POSE_WALL_D_LF);
+    helps.erase(std::remove(helps.begin(), helps.end(), ""), helps.end());
+    ASSERT_EQ(helps.size(), 1U) << pose_wall_part_name(part) << ": the remedy of its cause, and no other";
+    EXPECT_FALSE(contains(helps.front(), "raise")) << helps.front();
+    if (part == POSE_WALL_PART_EXTRAPOLATION) {
+      EXPECT_TRUE(contains(helps.front(), "mount the sensor")) << helps.front();
+      EXPECT_TRUE(contains(helps.front(), "region: on")) << helps.front();
+    }
+  }
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ TEST(SensorLook, OneClassOfRingsAndView) {
   look.add(xyz_m, {128, "field ring"});
   const SensorFacts facts = look.facts();
   EXPECT_EQ(facts.model, "os1-128");
-  EXPECT_EQ(class_text(facts), "OS1-128; --config pose_wall");
+  EXPECT_EQ(class_text(facts), "OS1-128; the defaults are made for it");
   EXPECT_EQ(rings_text(facts), "128");
   EXPECT_EQ(rings_source_text(facts), "by the field ring");
   EXPECT_NEAR(facts.ranges.median_m, 10.0, 0.02);

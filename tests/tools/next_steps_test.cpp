@@ -200,5 +200,24 @@ TEST(WholeLines, RowsAndMessagesDoNotTearEachOther) {
   EXPECT_EQ(messages, 40U);
 }
 
+TEST(NextSteps, NameNoConfigThatHoldsTheDefaultsAndTheProgramAsItWasCalled) {
+  const TempFolder folder;
+  ASSERT_EQ(command({"sim", "-q", "-n", "4", "--sensor", "os0-128", "-o", folder.file("road")}).exit_status, 0);
+  const std::string frames = folder.file("road/frames"), out = folder.file("o.csv");
+  const char* const low = "ground_height_max=0.5";  // no floor is so near
+  Ran ran = command({"run", "-s", low, "-o", out, frames});
+  EXPECT_FALSE(contains(ran.errors, "--config")) << ran.errors;
+  EXPECT_TRUE(contains(next_steps(ran), "by: pose_wall doctor ")) << ran.errors;
+  ran = command({"run", "-c", "vlp16", "-s", low, "-o", out, frames});
+  EXPECT_TRUE(contains(ran.errors, "OS0-128, for which the defaults are made: try without --config.")) << ran.errors;
+
+  const char* const words[] = {"build/release/pose_wall", "run", "-s", low, "-o", out.c_str(), frames.c_str()};
+  ::testing::internal::CaptureStderr();
+  run_command(7, words);
+  const std::string errors = ::testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(contains(errors, "by: build/release/pose_wall doctor ")) << errors;
+  EXPECT_TRUE(contains(errors, "build/release/pose_wall explain --frame ")) << errors;
+}
+
 }  // namespace
 }  // namespace pose_wall::tools

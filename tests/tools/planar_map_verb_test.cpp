@@ -197,5 +197,48 @@ TEST(MapVerb, BadInputsLeaveNoResult) {
   EXPECT_FALSE(std::filesystem::exists(folder.file("map/map.yaml"))) << missing.errors;
 }
 
+// Of a drive, scans whose ranges no surface explains: each beam ends at a place of its own.
+std::string log_of_noise(int scans, int good_of_ten) {
+  std::string text;
+  for (int k = 0; k < scans; ++k) {
+    const auto noise = [k](const pose_wall_planar_pose& /*at*/, double angle_rad) {
+      const double mixed = std::sin(1234.5 * angle_rad + 77.7 * k) * 43758.5;
+      return 1.5 + 12.0 * (mixed - std::floor(mixed));
+    };
+    const bool is_good = k < 10 || k % 10 < good_of_ten;
+    text += is_good ? DrawnRoom::line(DrawnRoom::stamp(k), DrawnRoom::pose(k))
+                    : flaser_line(noise, DrawnRoom::stamp(k), DrawnRoom::pose(k));
+  }
+  return text;
+}
+
+TEST(MapVerb, AMapOfScansThatFitBadlySaysSoFirst) {
+  const TempFolder folder;
+  const auto map_of = [&folder](const char* name, int good_of_ten) {
+    return command({"map", "-o", folder.file(name), folder.write("a.clf", log_of_noise(60, good_of_ten))});
+  };
+  const Ran good = map_of("good", 10), fair = map_of("fair", 7), bad = map_of("bad", 2);
+  EXPECT_EQ(good.exit_status, 0);
+  EXPECT_EQ(good.printed.rfind("verdict: the scans fit: of 60, 0 (0.0 %) fit badly", 0), 0U) << good.printed;
+  EXPECT_EQ(fair.exit_status, 0);
+  EXPECT_EQ(fair.printed.rfind("verdict: doubtful: of 60 scans, ", 0), 0U) << fair.printed;
+  EXPECT_EQ(bad.exit_status, 3) << "most scans fit badly";
+  EXPECT_EQ(bad.printed.rfind("verdict: not usable: of 60 scans, ", 0), 0U) << bad.printed;
+  EXPECT_TRUE(contains(bad.errors, "many scans fit badly")) << bad.errors;
+  EXPECT_TRUE(contains(text_of(folder.file("bad/map.svg")), "not usable: of 60 scans"));
+  EXPECT_FALSE(contains(text_of(folder.file("good/map.svg")), "the scans fit"));
+
+  for (const auto& [name, verdict] :
+       {std::pair("bad", "not usable: of 60 scans"), std::pair("good", "the scans fit")}) {
+    const std::string page = folder.file("page.html");
+    ASSERT_EQ(command({"report", "-q", "-o", page, folder.file(name)}).exit_status, 0);
+    EXPECT_TRUE(contains(text_of(page), verdict)) << name;
+    EXPECT_TRUE(contains(text_of(page), "scans that fit badly")) << name;
+  }
+  folder.write("bad/map.json", "{\"scans\": -1}");
+  EXPECT_EQ(command({"report", "-q", "-o", folder.file("page.html"), folder.file("bad")}).exit_status, 0)
+      << "a page without the figure, as of a map of a version before it";
+}
+
 }  // namespace
 }  // namespace pose_wall::tools

@@ -83,5 +83,24 @@ TEST(ScanVerb, FaultsAreNamed) {
   EXPECT_TRUE(test::says(command({"scan", "-q", "-o", folder.file("s.csv"), frame}), 1, "no floor was measured"));
 }
 
+TEST(ScanVerb, AFloorThatIsNotKnownWellIsNoFloorThatWasNotMeasured) {
+  const TempFolder folder;
+  ASSERT_EQ(
+      command({"sim", "-q", "--scene", "rough", "--sensor", "vlp16", "-n", "3", "-o", folder.file("road")}).exit_status,
+      0);
+  const std::vector<std::string> words = {"-c", folder.file("road/pose_wall.yaml"), "-o", folder.file("o"),
+                                          folder.file("road/frames")};
+  for (const char* verb : {"scan", "map"}) {
+    std::vector<std::string> all = {verb, "-q", "-s", "tilt_level_max_rad=0.001"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Ran ran = command(all);
+    EXPECT_EQ(ran.exit_status, 1) << verb;
+    EXPECT_TRUE(contains(ran.errors, "the floor was measured, but its tilt only within ")) << ran.errors;
+    EXPECT_TRUE(contains(ran.errors, "and 0.1° is the most (tilt_level_max_rad)")) << ran.errors;
+    EXPECT_FALSE(contains(ran.errors, "no floor was measured")) << ran.errors;
+    std::filesystem::remove_all(folder.file("o"));
+  }
+}
+
 }  // namespace
 }  // namespace pose_wall::tools

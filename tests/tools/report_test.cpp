@@ -276,5 +276,58 @@ TEST(CloudChoice, LongRecordingsKeepSomeCloudsAndTheChanges) {
   EXPECT_LE(taken * many.points_per_frame(), 1'200'000U);
 }
 
+TEST(ReportVerb, ATableOfRunMakesAPageThatSaysSo) {
+  const Road road("4");
+  const std::string table_file = road.folder.file("o.csv"), frames_folder = road.folder.file("road/frames");
+  const std::string config = road.folder.file("road/pose_wall.yaml"), page = road.folder.file("out.html");
+  const std::string truth = road.folder.file("road/truth.csv");
+  road.folder.write("road/frames/9.pcd", "no PCD");
+  EXPECT_EQ(command({"run", "-q", "--parts", "-c", config, "-o", table_file, frames_folder}).exit_status, 1);
+  ASSERT_EQ(road.report({"-q", "--truth", truth}).exit_status, 1) << "a frame of it is broken";
+  const nlohmann::json frames = road.data();
+  const Ran ran = command({"report", "-c", config, "--truth", truth, "-o", page, table_file});
+  ASSERT_EQ(ran.exit_status, 0) << ran.errors;
+  EXPECT_TRUE(contains(ran.errors, "from the table alone: no clouds, no pictures of them")) << ran.errors;
+  const nlohmann::json data = road.data();
+  EXPECT_EQ(data.at("head").at("from_table"), true);
+  EXPECT_EQ(frames.at("head").at("from_table"), false);
+  for (const char* same :
+       {"frames", "source", "error", "state", "reasons", "frame_reasons", "cause", "stamp_s", "counts"}) {
+    EXPECT_EQ(data.at(same), frames.at(same)) << same;
+  }
+  const auto states = column<std::uint8_t>(data, "state");
+  for (const char* name : {"value", "raw", "sigma", "level", "raw_level", "part", "truth"}) {
+    const auto of_table = column<float>(data, name), of_frames = column<float>(frames, name);
+    ASSERT_EQ(of_table.size(), of_frames.size()) << name;
+    const std::size_t each = of_table.size() / states.size();
+    for (std::size_t i = 0; i < of_table.size(); ++i) {
+      if (states[i / each] == POSE_WALL_INVALID) continue;  // empty in a table
+      const bool are_none = std::isnan(of_table[i]) && std::isnan(of_frames[i]);
+      EXPECT_TRUE(are_none || std::fabs(of_table[i] - of_frames[i]) <= 1e-5F * std::fabs(of_frames[i]) + 1e-7F)
+          << name << " " << i << ": " << of_table[i] << " and " << of_frames[i];
+    }
+  }
+  EXPECT_TRUE(column<std::uint8_t>(data, "point_label").empty());
+  EXPECT_EQ(command({"report", "-q", "-o", page, table_file}).exit_status, 0) << "without --config, too";
+}
+
+TEST(ReportVerb, ATableThatItCannotShowIsToldWhatIsMissing) {
+  const TempFolder folder;
+  std::string wide = "x0";
+  for (int k = 1; k < 100; ++k) wide += ",x" + std::to_string(k);
+  const std::string page = folder.file("p.html");
+  const Ran other = command({"report", "-o", page, folder.write("wide.csv", wide + "\n")});
+  EXPECT_EQ(other.exit_status, 1);
+  EXPECT_TRUE(contains(other.errors, "this is no table of run")) << other.errors;
+  EXPECT_TRUE(contains(other.errors, "x11 and 88 more")) << other.errors;
+  EXPECT_FALSE(contains(other.errors, "x12")) << "not a hundred names: " << other.errors;
+  const Ran lacks =
+      command({"report", "-o", page, folder.write("lacks.csv", "frame,source,stamp_ns,status,roll,roll_state\n")});
+  EXPECT_EQ(lacks.exit_status, 1);
+  EXPECT_TRUE(contains(lacks.errors, "the table of run lacks the columns roll_raw, roll_sigma, roll_pl, pitch,"))
+      << lacks.errors;
+  EXPECT_FALSE(std::filesystem::exists(page));
+}
+
 }  // namespace
 }  // namespace pose_wall::tools

@@ -20,6 +20,7 @@
 #include "io/language/language.hpp"
 #include "io/terminal/did_you_mean.hpp"
 #include "io/terminal/interrupt.hpp"
+#include "io/terminal/program_word.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall::tools {
@@ -131,6 +132,7 @@ CommandGrammar command_grammar() {
 // that of an interrupt, also before a first result. Bad usage stays bad usage.
 int run_command(int argc, const char* const* argv) {
   const InterruptWatch watch;
+  set_program_word(argc > 0 ? argv[0] : "");
   choose_language_by(argc, argv, "pose_wall");
   CLI::App app(tr(kDescription), "pose_wall");
   int exit_code = kExitDone;

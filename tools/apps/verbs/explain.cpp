@@ -22,6 +22,7 @@
 #include "io/outputs/output_file.hpp"
 #include "io/terminal/colours.hpp"
 #include "io/terminal/interrupt.hpp"
+#include "io/terminal/program_word.hpp"
 #include "io/terminal/progress_bar.hpp"
 #include "io/terminal/shell_word.hpp"
 #include "lab/campaign/command_words.hpp"
@@ -55,7 +56,7 @@ std::string command_of(const FrameOptions& frames) {
                                                        {"source", frames.input.source},
                                                        {"sensor", frames.input.packets.sensor},
                                                        {"metadata", frames.input.packets.metadata}};
-  std::string command = "pose_wall explain" + campaign::engine_words({frames.config_file, frames.settings});
+  std::string command = program_word() + " explain" + campaign::engine_words({frames.config_file, frames.settings});
   if (frames.rate_hz != FrameOptions{}.rate_hz) command += fmt::format(" --rate {}", frames.rate_hz);
   for (const auto& [name, text] : texts) {
     if (!text.empty()) command += fmt::format(" --{} {}", name, shell_word(text));

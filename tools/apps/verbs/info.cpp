@@ -144,7 +144,7 @@ std::string next_text(const InfoOptions& options, const std::vector<Looked>& loo
   };
   std::vector<std::string> run = {"run"};
   const std::string& config = looked.front().sensor.config;
-  if (!config.empty()) run.insert(run.end(), {"--config", config});
+  if (!config.empty() && !looked.front().sensor.has_defaults()) run.insert(run.end(), {"--config", config});
   run.insert(run.end(), {"-o", "results.csv"});
   return next_steps_text(
       {{tr("find the settings of this machine: record 30 s while it stands in a straight road"),

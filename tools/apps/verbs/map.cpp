@@ -26,6 +26,7 @@
 #include "io/terminal/progress_bar.hpp"
 #include "io/terminal/text_table.hpp"
 #include "study/planar/built_map.hpp"
+#include "study/planar/map_fit.hpp"
 #include "study/planar/map_picture.hpp"
 #include "study/planar/plane_pose.hpp"
 #include "study/planar/relation_table.hpp"
@@ -84,23 +85,19 @@ void add_scans(const MapOptions& options, ScanSource& source, MapWork* work) {
   }
 }
 
-std::string per_cent(std::size_t part, std::size_t whole) {
-  return fmt::format("{} ({:.1f} %)", part, 100.0 * static_cast<double>(part) / static_cast<double>(whole));
-}
-
 std::string summary_text(const ScanTrail& trail, const BuiltMap& built, bool with_odometry) {
-  const std::size_t scans = trail.scans().size();
+  const MapFit fit = fit_of(trail);
   const pose_wall_planar_slam_result& last = trail.last();
   const MapFile& map = built.map;
   TextTable table({tr("map of scans"), ""});
-  table.add_row({tr("scans"), std::to_string(scans)});
+  table.add_row({tr("scans"), std::to_string(fit.scans)});
   table.add_row({tr("odometry"), with_odometry ? tr("used") : tr("none")});
   table.add_row({tr("keyframes"), std::to_string(last.keyframes)});
   table.add_row({tr("travel"), fmt::format("{:.1f} m", trail.travel_m())});
   table.add_row({tr("loop closures"), std::to_string(last.closures)});
   table.add_row({tr("loop closures taken back"), std::to_string(last.taken_back)});
-  table.add_row({tr("scans that fit badly"), per_cent(trail.count(POSE_WALL_PLANAR_SLAM_DOUBTFUL), scans)});
-  table.add_row({tr("scans with too few points"), per_cent(trail.count(POSE_WALL_PLANAR_SLAM_BLIND), scans)});
+  table.add_row({tr("scans that fit badly"), part_of_scans(fit.badly, fit.scans)});
+  table.add_row({tr("scans with too few points"), part_of_scans(fit.blind, fit.scans)});
   table.add_row({tr("points on surfaces seen before"), fmt::format("{:.1f} %", 100.0 * trail.explained_mean())});
   table.add_row({tr("processor time a scan, mean"), fmt::format("{:.2f} ms", trail.mean_ms())});
   table.add_row({tr("processor time a scan, worst"), fmt::format("{:.2f} ms", trail.worst_ms())});
@@ -110,21 +107,22 @@ std::string summary_text(const ScanTrail& trail, const BuiltMap& built, bool wit
                                             map.height * map.resolution_m, map.resolution_m)});
   table.add_row(
       {tr("memory of the map"), fmt::format("{:.1f} MB", kMBPerByte * static_cast<double>(built.block_bytes))});
-  return table.text();
+  return say("verdict: {}\n", fit.verdict()) + "\n" + table.text();
 }
 
 std::vector<std::string> warnings_of(const MapWork& work, const BuiltMap& built) {
   std::vector<std::string> warnings;
-  const std::size_t doubtful = work.trail.count(POSE_WALL_PLANAR_SLAM_DOUBTFUL);
-  const std::size_t trails = work.trail.count(POSE_WALL_PLANAR_SLAM_FIRST);
+  const MapFit fit = fit_of(work.trail);
   if (work.trail.last().is_full != 0) {
     warnings.push_back(
         say("the trail is full after {} keyframes; later scans changed nothing in the map. A larger "
             "--set keyframe_m takes a longer way",
             work.trail.last().keyframes));
   }
-  if (trails > 1) warnings.push_back(say("{} scans began a new trail; between them the way is unknown", trails - 1));
-  if (10 * doubtful > work.trail.scans().size()) {
+  if (fit.new_trails > 0) {
+    warnings.push_back(say("{} scans began a new trail; between them the way is unknown", fit.new_trails));
+  }
+  if (fit.grade() != MapGrade::kGood) {
     warnings.push_back(
         tr("many scans fit badly: is the sensor's place right, do people fill the view, are scans "
            "missing?"));
@@ -149,6 +147,8 @@ MapScene scene_of(const MapOptions& options, const ScanTrail& trail, const Built
   scene.title = std::filesystem::path(options.frames.inputs.front()).filename().string();
   scene.subtitle = say("{} scans, {:.1f} m of travel, {} keyframes, {} closures", trail.scans().size(),
                        trail.travel_m(), trail.last().keyframes, trail.last().closures);
+  const MapFit fit = fit_of(trail);
+  if (fit.grade() != MapGrade::kGood) scene.warning = fit.verdict();
   const std::vector<pose_wall_planar_pose> keyframes = trail.keyframe_poses();
   const auto place = [&keyframes](std::uint32_t k) { return MapPlace{keyframes.at(k).x_m, keyframes.at(k).y_m}; };
   MapLine way{{}, kTrailColour, 1.6};
@@ -170,6 +170,7 @@ void write_folder(const MapOptions& options, const ScanTrail& trail, const Built
   write_map_files(folder / "map.yaml", built.map.grid());
   write_whole_file(folder / "map.svg", map_picture(scene_of(options, trail, built)));
   write_lasting_file(folder / "trail.pwt", trail.saved());
+  write_fit(folder, fit_of(trail));
 }
 
 RelationReport relations_of(const ScanTrail& trail, const std::vector<Relation>& relations) {
@@ -237,7 +238,8 @@ int map_scans(MapOptions options) {
                    source->scans()));
     return kExitInterrupted;
   }
-  return source->errors().empty() && work.unreadable == 0 && are_judged ? kExitDone : kExitUnreadable;
+  if (!source->errors().empty() || work.unreadable > 0 || !are_judged) return kExitUnreadable;
+  return fit_of(work.trail).grade() == MapGrade::kNotUsable ? kExitNotUsable : kExitDone;
 }
 
 }  // namespace
@@ -271,7 +273,9 @@ void add_map(CLI::App& app, int& exit_code) {
       "Of frames, --set also takes what `scan` takes.\n"
       "The folder of -o is the MAP of `localise` and `plan`, and `report` shows it.\n"
       "Exit status: 0 done, 1 an input could not be read (the others are mapped), a file not written, or no relation\n"
-      "is of these scans, 2 bad usage or config, 130 interrupted by Ctrl-C: files show the scans so far.");
+      "is of these scans, 2 bad usage or config, 3 most scans fit badly (the files show it), 130 interrupted by "
+      "Ctrl-C:\n"
+      "files show the scans so far.");
   verb->footer(text + settings_help(slam_setting_rows()));
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("map", [&] { return map_scans(*options); }); });
 }

@@ -37,6 +37,7 @@
 #include "study/report/motion_page.hpp"
 #include "study/report/page.hpp"
 #include "study/results/frame_runner.hpp"
+#include "study/results/result_table.hpp"
 #include "study/results/run_summary.hpp"
 #include "study/truth/row_pairs.hpp"
 
@@ -44,7 +45,7 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr const char* kReportInputHelp = translatable(
-    "Frames as for run: files, folders, bags, captures; or a table of motion (CSV); or what map -o, localise -o "
+    "Frames as for run: files, folders, bags, captures; or a table of run or motion (CSV); or what map -o, localise -o "
     "(folders), plan -o (CSV) and --picture (SVG) wrote");
 
 struct ReportOptions {
@@ -167,11 +168,41 @@ bool is_table(const std::string& input) {
   return std::filesystem::path(input).extension() == ".csv";
 }
 
-// For a table of `pose_wall motion` instead of frames.
-int report_motion(const ReportOptions& options) {
+// Both are given their files before the work, so that --output is none of them.
+std::vector<std::filesystem::path> files_of_table(const ReportOptions& options) {
+  std::vector<std::filesystem::path> read = {options.frames.inputs.front()};
+  if (!options.truth.empty()) read.emplace_back(options.truth);
+  return read;
+}
+
+// For a table of `pose_wall run` instead of frames: what it tells, without a cloud.
+int report_results(const ReportOptions& options, const CsvTable& cells) {
   const std::string& input = options.frames.inputs.front();
-  if (options.frames.inputs.size() > 1) throw std::invalid_argument(say("{}: give a table alone", input));
-  const CsvTable cells = read_csv_file(input);
+  const LoadedConfig loaded = options.frames.load();
+  const std::vector<FrameOutcome> outcomes = in_csv_file(input, [&] { return read_result_table(cells); });
+  if (outcomes.empty()) throw std::runtime_error(say("{}: the table has no row", input));
+  const std::vector<TruthRow> truth = options.truth.empty() ? std::vector<TruthRow>() : read_truth_csv(options.truth);
+  OutputFile output(options.output, files_of_table(options));
+  report::PageData data(loaded.config, outcomes.size(), options.points_max);
+  for (const FrameOutcome& outcome : outcomes) data.add(outcome);
+  Shown shown;
+  shown.keys = row_keys(cells);
+  add_truth(options, truth, shown, &data);
+  report::PageHead head{title_of(options), language_name(), options.truth, true, outcomes.size()};
+  head.from_table = true;
+  const std::string page = report::page(head, loaded, data);
+  output.write(page);
+  if (!options.frames.quiet) {
+    fmt::print(stderr, "{}",
+               say("{}: {:.1f} MB, {}, from the table alone: no clouds, no pictures of them. Open it in a browser.\n",
+                   options.output, 1e-6 * static_cast<double>(page.size()), counted_frames(data.frames())));
+  }
+  return kExitDone;
+}
+
+// For a table of `pose_wall motion` instead of frames.
+int report_motion(const ReportOptions& options, const CsvTable& cells) {
+  const std::string& input = options.frames.inputs.front();
   const MotionTable table = in_csv_file(input, [&] { return read_motion_table(cells); });
   if (table.rows.empty()) throw std::runtime_error(say("{}: the table has no row", input));
   std::optional<MotionComparison> comparison;
@@ -180,9 +211,7 @@ int report_motion(const ReportOptions& options) {
     const PoseTruth truth = in_csv_file(options.truth, [&] { return read_pose_truth(true_cells); });
     comparison = in_csv_file(say("{} against {}", input, options.truth), [&] { return compare_motion(table, truth); });
   }
-  std::vector<std::filesystem::path> read = {input};
-  if (!options.truth.empty()) read.emplace_back(options.truth);
-  OutputFile output(options.output, read);
+  OutputFile output(options.output, files_of_table(options));
   const std::string page = report::motion_page({title_of(options), language_name(), options.truth}, table, comparison);
   output.write(page);
   if (!options.frames.quiet) {
@@ -191,6 +220,19 @@ int report_motion(const ReportOptions& options) {
                    1e-6 * static_cast<double>(page.size()), counted_frames(table.rows.size())));
   }
   return kExitDone;
+}
+
+// The kind is told by the columns that a table of the kind alone has. What lacks some of these is told, too.
+int report_table(const ReportOptions& options) {
+  const std::string& input = options.frames.inputs.front();
+  if (options.frames.inputs.size() > 1) throw std::invalid_argument(say("{}: give a table alone", input));
+  const CsvTable cells = read_csv_file(input);
+  if (is_motion_table(cells)) return report_motion(options, cells);
+  if (cells.find_column("roll_state") || cells.find_column("d_lf_state")) return report_results(options, cells);
+  throw std::runtime_error(
+      say("{}: this is no table of run (with roll, roll_state, ...), motion (along_m, ...), plan or localise. Its "
+          "columns: {}",
+          input, cells.head_text()));
 }
 
 // For what `map`, `localise` and `plan` wrote.
@@ -226,17 +268,17 @@ void require_there(const std::vector<std::string>& inputs) {
   const bool are_frames = std::none_of(
       inputs.begin(), inputs.end(), [](const std::string& input) { return is_map_result(input) || is_table(input); });
   if (missing.empty() || (are_frames && missing.size() < inputs.size())) return;
-  throw std::runtime_error(
-      say("INPUT {}: there is no such file or folder. Give frames or a bag; or a table of motion; or what `map -o`, "
-          "`localise -o` and `plan -o` wrote",
-          fmt::format("{}", fmt::join(missing, ", "))));
+  throw std::runtime_error(say(
+      "INPUT {}: there is no such file or folder. Give frames or a bag; or a table of run or motion; or what `map -o`, "
+      "`localise -o` and `plan -o` wrote",
+      fmt::format("{}", fmt::join(missing, ", "))));
 }
 
 int report_inputs(const ReportOptions& options) {
   const std::vector<std::string>& inputs = options.frames.inputs;
   require_there(inputs);
   if (std::any_of(inputs.begin(), inputs.end(), is_map_result)) return report_maps(options);
-  return std::any_of(inputs.begin(), inputs.end(), is_table) ? report_motion(options) : report_frames(options);
+  return std::any_of(inputs.begin(), inputs.end(), is_table) ? report_table(options) : report_frames(options);
 }
 
 }  // namespace
@@ -258,9 +300,11 @@ void add_report(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  pose_wall sim --scene nominal --frames 100 --output road\n"
       "  pose_wall report -c road/pose_wall.yaml --truth road/truth.csv -o road.html road/frames\n"
+      "  pose_wall report -o values.html out.csv\n"
       "  pose_wall report --truth road/truth.csv -o way.html motion.csv\n"
       "  pose_wall report -o map.html map found route.csv route.svg\n"
-      "The third example reads a table of `motion`. Its page shows the path from above, the states\n"
+      "The third example reads a table of `run`: the same page without clouds and pictures of them. The fourth reads\n"
+      "a table of `motion`. Its page shows the path from above, the states\n"
       "along the road, travel and steps. The last one reads the folders of `map -o` and `localise -o` and table and\n"
       "picture of `plan`. Its page shows their pictures (SVG) and figures.\n"
       "The page is one file in English and Chinese and needs no network. It shows a verdict, every frame from above\n"

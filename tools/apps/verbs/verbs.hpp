@@ -13,7 +13,7 @@ namespace pose_wall::tools {
 constexpr int kExitDone = 0;
 constexpr int kExitUnreadable = 1;     // an input could not be read, or a result not written
 constexpr int kExitUsage = 2;          // bad usage or config
-constexpr int kExitNotUsable = 3;      // doctor: no measurement; plan: no route; localise: no place
+constexpr int kExitNotUsable = 3;      // doctor: no measurement; map: a bad fit; plan: no route; localise: no place
 constexpr int kExitInterrupted = 130;  // as shells have it: 128 + SIGINT
 
 void add_scan(CLI::App& app, int& exit_code);

@@ -100,6 +100,13 @@ std::optional<std::size_t> CsvTable::find_column(std::string_view name) const {
   return static_cast<std::size_t>(column - head_.begin());
 }
 
+std::string CsvTable::head_text() const {
+  constexpr std::size_t kShown = 12;  // a line of a terminal
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, head_.size()); ++i) text += (i == 0 ? "" : ", ") + head_[i];
+  return head_.size() > kShown ? say("{} and {} more", text, head_.size() - kShown) : text;
+}
+
 double CsvTable::number(std::size_t row, std::size_t column) const {
   const std::string& text = cells_[row][column];
   if (text.empty()) return std::numeric_limits<double>::quiet_NaN();

@@ -48,6 +48,8 @@ class CsvTable {
 
   // NaN for an empty cell. Throws CsvError for a cell that is no number.
   double number(std::size_t row, std::size_t column) const;
+  // The names of its columns for a message: of many, the first ones and how many there are.
+  std::string head_text() const;
 
  private:
   std::vector<std::string> head_;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "io/frames/frame.hpp"
@@ -17,7 +18,11 @@ struct ToldRings {
   std::string by;         // "field ring", "rows of the cloud"
 };
 
-// By the values of the field that numbers them, or by the rows of a cloud that keeps the sensor's order.
+// The field that holds the ring of a point. None where there is no such field, or where one ring holds points of many
+// elevations: a driver that fills the field with zeros tells no rings.
+std::optional<pose_wall_field> told_ring_field(const Frame& frame);
+
+// By the values of that field, or by the rows of a cloud that keeps the sensor's order.
 ToldRings told_rings(const Frame& frame);
 
 }  // namespace pose_wall::tools

@@ -91,14 +91,21 @@ Json road(const Diagnosis& d) {
 }
 
 Json near(const SupposedMount& supposed) {
+  std::vector<Box> left_out;
+  std::vector<std::string> because;
+  for (const LeftOut& one : supposed.body.left_out) {
+    left_out.push_back(one.box_base);
+    because.emplace_back(one.why);
+  }
   return {{"boxes_m", boxes(supposed.body.boxes_base)},
-          {"unexplained_m", boxes(supposed.body.unexplained)},
+          {"unexplained_m", boxes(left_out)},
+          {"unexplained_because", because},
           {"in_boxes_share", supposed.body.in_boxes_share},
           {"moved_share", supposed.body.passing_share}};
 }
 
 Json preview(const Preview& seen) {
-  Json json = {{"frames", seen.frames}};
+  Json json = {{"frames", seen.frames}, {"travel_m", seen.travel_m}};
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     json[pose_wall_quantity_name(q)] = {{"measured", seen.valid[q] + seen.degraded[q]},
                                         {"valid", seen.valid[q]},

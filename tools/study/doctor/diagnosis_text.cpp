@@ -107,7 +107,9 @@ void add_near(Rows& rows, const SupposedMount& supposed) {
       {tr("body"), b.boxes_base.empty() ? tr("none seen") : say("boxes: {}", b.boxes_base.size()),
        say("{} of the returns; {} of the near ones moved", percent(b.in_boxes_share), percent(b.passing_share))});
   for (const Box& box : b.boxes_base) rows.push_back({"", "", corners_text(box)});
-  for (const Box& box : b.unexplained) rows.push_back({"", tr("no body?"), corners_text(box)});
+  for (const LeftOut& one : b.left_out) {
+    rows.push_back({"", tr("no box"), fmt::format("{}: {}", corners_text(one.box_base), tr(one.why))});
+  }
 }
 
 std::string preview_text(const Preview& seen) {

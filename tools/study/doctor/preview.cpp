@@ -4,6 +4,7 @@
 #include "study/doctor/preview.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,23 @@
 #include "study/results/frame_runner.hpp"
 
 namespace pose_wall::tools::doctor {
+namespace {
+
+// How far apart the places along the road are that the motion measured.
+class Travel {
+ public:
+  void add(const pose_wall_motion_result& moved) {
+    if (moved.along_state != POSE_WALL_ALONG_MEASURED || !std::isfinite(moved.along_m)) return;
+    least_m_ = std::fmin(least_m_, moved.along_m);
+    most_m_ = std::fmax(most_m_, moved.along_m);
+  }
+  double most_m() const { return most_m_ - least_m_; }
+
+ private:
+  double least_m_ = 0.0, most_m_ = 0.0;  // of the first frame
+};
+
+}  // namespace
 
 std::string Preview::reasons_text(std::size_t count) const {
   std::vector<std::pair<std::size_t, std::uint32_t>> order;
@@ -33,10 +51,12 @@ Preview preview(const LoadedConfig& settings, double rate_hz, const NextFrame& n
   std::array<std::array<std::size_t, POSE_WALL_QUANTITIES>, POSE_WALL_VALID + 1> counts{};
   std::array<std::vector<double>, POSE_WALL_QUANTITIES> levels;
   Preview seen;
+  Travel travel;
   while (std::optional<SourcedFrame> frame = next()) {
     const FrameOutcome outcome = runner.run(std::move(*frame));
     if (!outcome.result) continue;
     ++seen.frames;
+    if (runner.moved()) travel.add(*runner.moved());
     for (std::size_t q = 0; q < levels.size(); ++q) {
       const pose_wall_value& value = outcome.result->quantity[q];
       ++counts[std::min<std::uint32_t>(value.state, POSE_WALL_VALID)][q];
@@ -45,6 +65,7 @@ Preview preview(const LoadedConfig& settings, double rate_hz, const NextFrame& n
     const std::uint32_t reasons = all_reasons(*outcome.result);
     for (std::uint32_t bit = 0; bit < seen.reasons.size(); ++bit) seen.reasons[bit] += reasons >> bit & 1U;
   }
+  seen.travel_m = travel.most_m();
   for (std::size_t q = 0; q < levels.size(); ++q) {
     seen.valid[q] = share(counts[POSE_WALL_VALID][q], seen.frames);
     seen.degraded[q] = share(counts[POSE_WALL_DEGRADED][q], seen.frames);

@@ -24,6 +24,7 @@ struct Preview {
   Numbers valid{}, degraded{}, held{};  // shares of the frames; the rest is invalid
   Numbers level{};                      // median protection level where the value is not invalid; NaN: never
   std::array<std::size_t, POSE_WALL_REASON_COUNT> reasons{};  // frames that have each
+  double travel_m = 0.0;  // along the road between the two farthest frames, where motion measured it; else 0
 
   // Names of the most frequent reasons, at most `count`, joined by ", ".
   std::string reasons_text(std::size_t count) const;

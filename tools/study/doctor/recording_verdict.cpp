@@ -30,6 +30,8 @@ constexpr double kOffLineMax_deg = 35.0, kOffLineTold_deg = 5.0;
 constexpr double kNoiseMax_m = 0.03;
 constexpr double kPassingMax = 0.03;
 constexpr std::size_t kReasonsShown = 4;
+// A parked vehicle of 5 m has left its place for half of such a drive, which is more than a body's cells may miss.
+constexpr double kDrive_m = 10.0;
 
 bool has_moved(double spread, double sigma, double allowed) {
   return spread > std::max(allowed, kSigmas * sigma);
@@ -189,6 +191,27 @@ void doubt_mount(const Diagnosis& d, Reasons& buts) {
   }
 }
 
+// What stands ahead of a standing machine looks like the machine. On the way it would have gone.
+void ask_about_body(const Diagnosis& d, Reasons& confirm) {
+  const BodySeen& body = d.mount->likely.body;
+  const double travel_m = d.preview ? d.preview->travel_m : 0.0;
+  if (!body.boxes_base.empty() && travel_m >= kDrive_m) {
+    confirm.push_back(
+        say("the body boxes hold what stayed in place while the machine moved {:.0f} m: the machine", travel_m));
+  } else if (!body.boxes_base.empty()) {
+    confirm.push_back(
+        say("the body boxes hold the machine and nothing else. A standing machine cannot be told from what stood close "
+            "ahead or behind it: examine a drive of {:.0f} m, too. Only the machine stays in place then",
+            kDrive_m));
+  }
+  if (!body.left_out.empty()) {
+    confirm.push_back(
+        say("things near the sensor without a box: {}. Engine and stop see them. Give one that belongs to the machine "
+            "a box by hand (body_box_1 to body_box_4)",
+            body.left_out.size()));
+  }
+}
+
 void ask_to_confirm(const Diagnosis& d, Reasons& confirm) {
   if (!d.stamps.has_stamps()) confirm.push_back(tr("the frames carry no stamps: rate and gaps are those of --rate"));
   if (!d.mount || !d.mount->likely.floor.is_found()) return;
@@ -205,11 +228,7 @@ void ask_to_confirm(const Diagnosis& d, Reasons& confirm) {
            "(extrinsic_x, extrinsic_y, extrinsic_z)"));
   }
   if (d.ahead.is_known) confirm.push_back(say("{} is ahead: {}", d.ahead.axis, d.ahead.reason));
-  if (!supposed.body.boxes_base.empty()) confirm.push_back(tr("the body boxes hold the machine and nothing else"));
-  if (!supposed.body.unexplained.empty()) {
-    confirm.push_back(
-        say("things near the sensor that may belong to the machine: {}", supposed.body.unexplained.size()));
-  }
+  ask_about_body(d, confirm);
   if (supposed.body.passing_share > kPassingMax) {
     confirm.push_back(
         say("{:.0f} % of the near returns moved: no box holds a boom or people", 100.0 * supposed.body.passing_share));

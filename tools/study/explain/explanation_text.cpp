@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "io/language/language.hpp"
+#include "io/terminal/program_word.hpp"
 #include "io/terminal/text_table.hpp"
 #include "study/explain/amounts.hpp"
 #include "study/explain/candidate_words.hpp"
@@ -151,8 +152,8 @@ std::string gates_text(const Notes& notes, bool coloured) {
                    limit_text(note), ratio_text(note), passed_text(note)});
   }
   const std::string text = table.text(3);
-  return (coloured ? coloured_rows(text, all, order) : text) + tr("Meaning of each gate: pose_wall explain --gates") +
-         "\n";
+  return (coloured ? coloured_rows(text, all, order) : text) +
+         say("Meaning of each gate: {}", program_word() + " explain --gates") + "\n";
 }
 
 }  // namespace pose_wall::tools::explain

@@ -9,7 +9,6 @@
 #include <limits>
 #include <optional>
 
-#include "io/frames/field_aliases.hpp"
 #include "io/frames/field_value.hpp"
 #include "io/frames/point_position.hpp"
 #include "io/frames/told_rings.hpp"
@@ -43,16 +42,6 @@ struct Returns {
   std::vector<double> places;  // in the order of storage
   bool has_rings = false;
 };
-
-// The field, if any, whose value is the ring; else the rows of the cloud are the rings, or its columns.
-std::optional<pose_wall_field> ring_field(const Frame& frame) {
-  for (const std::string_view name : field_names(FieldRole::kRing)) {
-    for (const FrameField& field : frame.fields) {
-      if (field.name == name) return field.where;
-    }
-  }
-  return std::nullopt;
-}
 
 // Without its ring; nothing where the point is no return, or has no time.
 std::optional<TimedReturn> timed_return(const pose_wall_cloud& cloud, std::uint32_t row, std::uint32_t column) {
@@ -92,7 +81,8 @@ struct Storage {
 Returns returns_with_times(const Frame& frame) {
   const pose_wall_cloud& cloud = frame.cloud;
   Storage storage;
-  storage.ring = ring_field(frame);
+  // Else the rows of the cloud are the rings, or its columns.
+  storage.ring = told_ring_field(frame);
   storage.rows_are_rings = !storage.ring && told_rings(frame).count > 0;
   storage.is_upright = cloud.height <= cloud.width;
   Returns out;

@@ -35,6 +35,8 @@ struct SensorFacts {
   RangeFacts ranges;
 
   bool is_known() const { return model != "unknown"; }
+  // config/pose_wall.yaml holds the defaults: to give it changes nothing.
+  bool has_defaults() const { return config == "pose_wall"; }
 };
 
 // Finite points that are not at zero, in the order of the cloud: x, y, z.

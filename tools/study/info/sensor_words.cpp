@@ -40,6 +40,7 @@ std::string rings_source_text(const SensorFacts& facts) {
 }
 
 std::string config_text(const SensorFacts& facts) {
+  if (facts.has_defaults()) return tr("the defaults are made for it");
   return facts.config.empty() ? std::string(tr("no file of config/ is made for it")) : "--config " + facts.config;
 }
 

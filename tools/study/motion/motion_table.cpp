@@ -168,7 +168,7 @@ class MotionTableReader {
 std::size_t demanded_column(const CsvTable& table, const char* which, const std::string& name) {
   const std::optional<std::size_t> column = table.find_column(name);
   if (!column) {
-    throw CsvError(fmt::format("the {} has no column '{}'; columns: {}", which, name, fmt::join(table.head(), ", ")));
+    throw CsvError(fmt::format("the {} has no column '{}'; columns: {}", which, name, table.head_text()));
   }
   return *column;
 }

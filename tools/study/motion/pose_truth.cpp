@@ -55,7 +55,7 @@ PoseTruth read_pose_truth(const CsvTable& table) {
   if (!by_matrix && !table.find_column("qw")) {
     throw CsvError(
         fmt::format("the truth has no poses: neither x, y, z, qx, qy, qz, qw nor r00 ... r22, tx, ty, tz; columns: {}",
-                    fmt::join(table.head(), ", ")));
+                    table.head_text()));
   }
   std::vector<std::string> names = {"x", "y", "z", "qx", "qy", "qz", "qw"};
   if (by_matrix) names = {"r00", "r01", "r02", "r10", "r11", "r12", "r20", "r21", "r22", "tx", "ty", "tz"};

@@ -38,6 +38,16 @@ std::string seconds_of(std::int64_t stamp_ns) {
   return fmt::format("{}{}.{:09}", is_negative ? "-" : "", ns / kNsPerS, ns % kNsPerS);
 }
 
+// The engine may have measured a floor that is not known well enough to tell things from it.
+std::string why_no_floor(const pose_wall_planar_floor& floor, double level_max_rad) {
+  if (floor.measured == 0) return tr("no floor was measured: every beam is unknown");
+  return say(
+      "the floor was measured, but its tilt only within {:.1f}° and {:.1f}° is the most (tilt_level_max_rad): every "
+      "beam "
+      "is unknown. Show more of the floor, or see what widens it: explain",
+      floor.tilt_level_rad * kDegPerRad, level_max_rad * kDegPerRad);
+}
+
 }  // namespace
 
 std::optional<pose_wall_planar_pose> plane_odometry(const pose_wall_motion_result& moved) {
@@ -107,7 +117,7 @@ std::optional<SourcedScan> CloudScans::next() {
     return scan;
   }
   if (view_.floor_state == POSE_WALL_PLANAR_FLOOR_NONE) {
-    scan.error = tr("no floor was measured: every beam is unknown");
+    scan.error = why_no_floor(floor, settings_.tilt_level_max_rad);
     return scan;
   }
   scan.range_m.assign(scan.scan.range_m, scan.scan.range_m + scan.scan.beams);

@@ -258,6 +258,7 @@ std::string map_picture(const MapScene& scene) {
   Svg svg(std::max(page.width, kLeastWidth) + 2.0 * kMargin, page.height + kHead + kFoot, picture::kPaper);
   svg.text({kMargin, 38.0}, scene.title, {picture::kInk, 21.0, Anchor::kStart, true});
   svg.text({kMargin, 62.0}, scene.subtitle, {picture::kFaintInk, 13.5});
+  if (!scene.warning.empty()) svg.text({kMargin, 79.0}, scene.warning, {kBadColour, 12.5});
   const std::string png = indexed_png(width, height, shades_of(grid, window, step, width, height), kShades);
   svg.image(page.corner, page.width, page.height, "data:image/png;base64," + report::base64(png));
   svg.begin_clip(page.corner, page.width, page.height);

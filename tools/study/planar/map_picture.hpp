@@ -53,7 +53,7 @@ struct LegendEntry {
 
 struct MapScene {
   pose_wall_planar_grid grid{};
-  std::string title, subtitle;
+  std::string title, subtitle, warning;  // a warning stands in red
   std::vector<MapLine> lines;
   std::vector<MapMachine> machines;
   std::vector<MapDot> dots;

@@ -17,6 +17,7 @@
 #include "pose_wall.h"
 #include "study/planar/known_map.hpp"
 #include "study/planar/localised_rows.hpp"
+#include "study/planar/map_fit.hpp"
 #include "study/report/assets.hpp"
 #include "study/report/columns.hpp"
 #include "study/report/filled_page.hpp"
@@ -38,6 +39,7 @@ struct ReportPicture {
 struct ReportPart {
   std::string name;
   std::optional<KnownMap> map;
+  std::optional<MapFit> fit;  // of the map
   std::optional<LocaliseFigures> localised;
   std::vector<RouteFigures> routes;
   std::vector<ReportPicture> pictures;
@@ -100,6 +102,7 @@ ReportPart part_of_folder(const std::filesystem::path& folder, std::vector<std::
   ReportPart part;
   if (has_file(folder, "trail.pwt") || has_file(folder, "map.yaml")) {
     part.map = read_known_map(folder);
+    part.fit = read_fit(folder);
     read->insert(read->end(), part.map->files.begin(), part.map->files.end());
   }
   for (const std::filesystem::path& file : files_in(folder)) {
@@ -122,12 +125,17 @@ Json figures_json(const std::string& title, const std::vector<NamedFigure>& figu
   return table_json({title, ""}, rows);
 }
 
-std::vector<NamedFigure> figures_of_map(const KnownMap& map) {
+std::vector<NamedFigure> figures_of_map(const KnownMap& map, const std::optional<MapFit>& fit) {
   std::vector<NamedFigure> out;
   if (map.trail) {
     out.emplace_back(tr("keyframes"), std::to_string(map.trail->keyframes()));
     out.emplace_back(tr("travel"), fmt::format("{:.1f} m", map.trail->travel_m()));
     out.emplace_back(tr("loop closures"), std::to_string(map.trail->closures().size()));
+  }
+  if (fit) {
+    out.emplace_back(tr("verdict"), fit->verdict());
+    out.emplace_back(tr("scans that fit badly"), part_of_scans(fit->badly, fit->scans));
+    out.emplace_back(tr("scans with too few points"), part_of_scans(fit->blind, fit->scans));
   }
   const MapFile& cells = map.cells;
   const double cell_m2 = cells.resolution_m * cells.resolution_m;
@@ -151,7 +159,7 @@ Json restarts_json(const LocaliseFigures& figures) {
 
 Json tables_of(const ReportPart& part) {
   Json tables = Json::array();
-  if (part.map) tables.push_back(figures_json(tr("map"), figures_of_map(*part.map)));
+  if (part.map) tables.push_back(figures_json(tr("map"), figures_of_map(*part.map, part.fit)));
   if (part.localised) {
     tables.push_back(
         table_json({tr("state"), tr("scans"), tr("share"), tr("mostly because")}, state_table(*part.localised)));

@@ -97,7 +97,7 @@ constexpr GateWords kOutcomeWords[] = {
     {"protection_raw",
      translatable(
          "This frame's own measurement has a protection level of {value}, above the alert limit of {limit} ({key})."),
-     translatable("raise {key} where the task allows it")},
+     ""},
     {"rate", translatable("The smoothed yaw was to turn by {value}; {limit} a frame is the most ({key})."), ""},
     {"innovation",
      translatable("The value jumped by {value} from the last good one; motion and errors explain {limit} ({key}). Both "
@@ -112,7 +112,7 @@ constexpr GateWords kOutcomeWords[] = {
          "Earlier frames were refused, and none was good yet. Times that the value has to come again: {value}."),
      ""},
     {"protection_smoothed", translatable("Its protection level of {value} exceeds the alert limit of {limit} ({key})."),
-     translatable("raise {key} where the task allows it")},
+     ""},
     {"ever", translatable("It was never measured before, so there is nothing to hold."), ""},
     {"protection_held",
      translatable("The held value's protection level has grown to {value}, above the alert limit of {limit} ({key})."),

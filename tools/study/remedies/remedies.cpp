@@ -13,12 +13,16 @@
 namespace pose_wall::tools {
 namespace {
 
+// What lowers a level, by its largest part. Never the limit: a wider one lowers no error.
 constexpr const char* kHelpOfPart[POSE_WALL_PARTS] = {
-    translatable("show more of the surface"),
+    translatable("show more of the surface: mount the sensor where it sees more of it, keep body boxes to the machine "
+                 "itself, or take a sensor of more beams"),
     translatable("set range_bias_max to the sensor's data sheet"),
     translatable("a bent surface is no plane: look at a straighter piece"),
     translatable("clear the view to the surface, or show more of it"),
-    translatable("show the surface at the sampling point"),
+    translatable(
+        "the wall is not seen at the sampling point: mount the sensor where nothing hides the wall there, set s_front "
+        "and s_back to where it is seen, or measure the piece beside the machine (region: on)"),
     translatable("wait until the value has followed"),
     translatable("frames are missing or late"),
 };

@@ -80,6 +80,7 @@ Json head_json(const PageHead& head, const LoadedConfig& loaded) {
           {"truth", head.truth},
           {"complete", head.complete},
           {"inputs", head.inputs},
+          {"from_table", head.from_table},
           {"version", pose_wall_version()},
           {"settings", settings_of(loaded)},
           {"forward_axis", resolve_frames(loaded.config).forward_axis},

@@ -19,6 +19,7 @@ struct PageHead {
   std::string truth;     // the file, or empty
   bool complete = true;  // false: interrupted before the last input
   std::size_t inputs = 0;
+  bool from_table = false;  // made of a table of run alone: there is no cloud, and no plane has a direction
 };
 
 // What a page's script reads beside the frames: the head, and the engine's names for states, reasons and parts.

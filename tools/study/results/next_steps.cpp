@@ -13,6 +13,7 @@
 #include "io/config_file/config_place.hpp"
 #include "io/language/language.hpp"
 #include "io/numbers/quantities.hpp"
+#include "io/terminal/program_word.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -94,16 +95,22 @@ std::string NextSteps::unit_line() const {
 
 std::string NextSteps::config_line() const {
   if (fitting_.config.empty()) return "";
-  for (const ConfigPlace& place : find_configs(config_word_)) {
-    const std::string given = shipped_config_name(place);
-    const bool is_own = given.empty();
-    if (is_own || given == fitting_.config) return "";
+  const std::vector<ConfigPlace> given = find_configs(config_word_);
+  for (const ConfigPlace& place : given) {
+    const std::string name = shipped_config_name(place);
+    const bool is_own = name.empty();
+    if (is_own || name == fitting_.config) return "";
+  }
+  if (fitting_.has_defaults()) {
+    return given.empty() ? ""
+                         : say("The sensor looks like a {}, for which the defaults are made: try without --config.",
+                               fitting_.title);
   }
   return say("The sensor looks like a {}: try --config {}.", fitting_.title, fitting_.config);
 }
 
 std::string NextSteps::doctor_line() const {
-  const std::string command = "pose_wall doctor " + shell_words_;
+  const std::string command = program_word() + " doctor " + shell_words_;
   if (share(no_floor_, measured_) >= kMostlyShare) {
     return say("The floor was measured in {} of {} frames. Mounting and axes are found by: {}", measured_ - no_floor_,
                measured_, command);
@@ -137,7 +144,7 @@ std::string NextSteps::explain_line() const {
   const auto quantity = static_cast<std::uint32_t>(worst - quantities_.begin());
   return say("{} was valid in {:.1f} % of the frames. A frequent reason: {}. The worst frame with it: {}",
              pose_wall_quantity_name(quantity), 100.0 * share(worst->valid, measured_), reason_text(*worst, bit),
-             fmt::format("pose_wall explain --frame {} {}", reason.worst_frame, shell_words_));
+             fmt::format("{} explain --frame {} {}", program_word(), reason.worst_frame, shell_words_));
 }
 
 std::string NextSteps::text() const {

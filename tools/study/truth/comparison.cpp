@@ -22,7 +22,7 @@ struct ResultColumns {
 std::size_t required_column(const CsvTable& table, const char* which, const std::string& name) {
   const std::optional<std::size_t> column = table.find_column(name);
   if (!column) {
-    throw CsvError(say("the {} have no column '{}'; columns: {}", tr(which), name, fmt::join(table.head(), ", ")));
+    throw CsvError(say("the {} have no column '{}'; columns: {}", tr(which), name, table.head_text()));
   }
   return *column;
 }
@@ -80,7 +80,7 @@ Comparison compare_with_truth(const CsvTable& results, const CsvTable& truth, co
   }
   if (comparison.quantities.empty()) {
     throw CsvError(say("the truth has none of the columns roll, pitch, yaw, d_lf, d_lb, d_rf, d_rb; columns: {}",
-                       fmt::join(truth.head(), ", ")));
+                       truth.head_text()));
   }
   return comparison;
 }

@@ -20,6 +20,7 @@ function show_verdict() {
     if (help) say(help);
   }
   say(typeof headline === 'function' ? headline(facts) : headline, 'headline');
+  if (recording.head.from_table) say(w.from_table);
   if (!recording.head.complete) say(w.interrupted(recording));
   if (summary.unreadable) say(w.verdict_unreadable(summary.unreadable));
   const name_those = (text, is_meant) => {
@@ -72,9 +73,16 @@ function show_summary() {
 
 function show_level_parts() {
   const w = words();
+  if (!has_parts()) {
+    fill('level-parts', element('p', w.no_parts, 'faint'));
+    return;
+  }
   fill('level-parts', element('h2', w.made_of_median), parts_table(summary.quantities.map((x) => ({ ...x.made_of,
     mostly: x.made_of.often > 0 ? w.mostly_often(part_text(x.made_of.cause), percent(x.made_of.often)) : '–' }))));
 }
+
+// A table of run has them with --parts.
+function has_parts() { return recording.part.some(Number.isFinite); }
 
 function show_times() {
   const w = words(), of = (numbers) => [0.5, 0.99, 1].map((share) => `${number_text(quantile(numbers, share), 2)} ms`);
@@ -98,12 +106,12 @@ function show_frame(f) {
   f = page.frame;
   document.getElementById('slider').value = f;
   document.getElementById('frame-name').textContent = `${w.frame} ${f} · ${recording.source[f].split('/').pop()}`;
-  const cloud_of = viewer.draw(f);
+  const cloud_of = recording.head.from_table ? -1 : viewer.draw(f);
   const { may, may_not } = steer_sentences(steering_of(f));
   document.getElementById('steer-frame').textContent = recording.error[f] ? '' : w.sentences([may, may_not]);
-  document.getElementById('drawn-note').textContent = drawn_text(f);
+  document.getElementById('drawn-note').textContent = recording.head.from_table ? '' : drawn_text(f);
   show_values(f);
-  show_levels(f);
+  if (has_parts()) show_levels(f);
   const notes = [recording.error[f] ? `${w.unreadable}: ${recording.error[f]}` : w.counts(recording.counts.subarray(10 * f, 10 * f + 10))];
   for (const bit of recording.reason_bits(recording.frame_reasons[f])) notes.push(reason_text(bit));
   if (cloud_of >= 0 && cloud_of !== f) notes.push(w.no_cloud(cloud_of));
@@ -122,7 +130,7 @@ function play(on) {
 function show_all() {
   show_heading(recording.head.title, words().subtitle(recording));
   play(page.timer !== null);
-  show_layers();
+  if (!recording.head.from_table) show_layers();
   show_verdict();
   show_summary();
   show_settings();
@@ -146,6 +154,7 @@ const recording = new Recording(JSON.parse(document.getElementById('data').textC
 const summary = summarise(recording);
 const viewer = new Viewer(recording);
 const charts = new Charts(recording, document.getElementById('charts'), (f) => show_frame(f));
+if (recording.head.from_table) for (const figure of document.querySelectorAll('#views figure')) figure.remove();
 begin_page(recording.head.language);
 listen();
 show_all();

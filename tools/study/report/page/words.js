@@ -14,6 +14,8 @@ const WORDS = {
     other_language: '中文 (ZH)', theme: 'Dark / light', play: '▶ Play', pause: '❚❚ Pause', report: 'pose_wall report',
     subtitle: (r) => `${count(r.frames, 'frame')}, pose_wall ${r.head.version}` +
       (r.head.truth ? `, compared with ${r.head.truth}` : ''),
+    from_table: 'Made from the table alone: no clouds, no pictures of them. Limits and settings are those of --config, else the defaults.',
+    no_parts: 'The table has no parts of the levels: run --parts writes them.',
     interrupted: (r) => `Interrupted: the page shows ${r.frames} of ${r.head.inputs} frames.`,
     layers: ['other points', 'floor', 'left wall', 'right wall', 'dropped (range, body)'], planes: 'planes', boxes: 'body boxes',
     top_caption: 'From above, with the road to the right. Solid: raw, as measured in this frame alone. Dashed: the value, where it is held or differs from raw by more than noise. Thick part of a wall: from the first to the last inlier. Grey: not valid. Wheel, drag or two fingers: zoom and move; double click: back.',
@@ -86,6 +88,8 @@ const WORDS = {
   zh: {
     other_language: 'English (EN)', theme: '深色 / 浅色', play: '▶ 播放', pause: '❚❚ 暂停', report: 'pose_wall 报告',
     subtitle: (r) => `${r.frames} 帧，pose_wall ${r.head.version}` + (r.head.truth ? `，与 ${r.head.truth} 对比` : ''),
+    from_table: '仅由结果表生成：没有点云，也没有点云图。告警限与参数取自 --config，未给出时为默认值。',
+    no_parts: '表中没有保护级的组成：run --parts 会写出。',
     interrupted: (r) => `处理被中断：显示 ${r.head.inputs} 帧中的 ${r.frames} 帧。`,
     layers: ['其他点', '底板', '左墙', '右墙', '被滤除（距离、机身）'], planes: '平面', boxes: '机身滤除框',
     top_caption: '俯视图，巷道方向向右。实线：原始值（仅本帧测得）。虚线：输出值，仅在保持或与原始值之差超过噪声时绘出。墙面粗线：首末内点之间。灰色：非有效。滚轮或双指缩放，拖动或双指平移，双击复位。',
