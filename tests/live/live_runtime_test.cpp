@@ -6,6 +6,7 @@
 // when it is gone. Images can be asked for at any time. A recording played as fast as possible loses nothing.
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <array>
 #include <cmath>
@@ -125,6 +126,25 @@ TEST_F(LiveRuntimeTest, TimesOfNoUseStandInTheHealthUntilTheyAreGood) {
   for (std::int64_t i = 2; i < 32; ++i) take(i, 0);  // x, of 50 m: as ms a scan of 0.05 s
   EXPECT_EQ(fact(runtime_->health(), "times of points"), "good");
   EXPECT_EQ(runtime_->health().summary.find("of no use"), std::string::npos) << runtime_->health().summary;
+}
+
+// Of this process's threads, those that go before all usual work.
+int urgent_threads() {
+  int count = 0;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    if (sched_getscheduler(std::stoi(thread.path().filename())) == SCHED_FIFO) ++count;
+  }
+  return count;
+}
+
+TEST_F(LiveRuntimeTest, TheWorkerGoesBeforeOtherWorkOrHealthSaysWhyNot) {
+  const int before = urgent_threads();
+  open({"worker_priority=1"});
+  runtime_->take(road_frame(0, 0.0F));
+  runtime_->wait_idle();
+  const std::string refused = fact(runtime_->health(), "worker_priority refused");
+  EXPECT_EQ(urgent_threads() - before, refused.empty() ? 1 : 0) << refused;
+  runtime_->stop();
 }
 
 TEST_F(LiveRuntimeTest, NobodyWantsPointsNobodyGetsThem) {

@@ -160,7 +160,11 @@ class Recorder(unittest.TestCase):
             read = read_by_others([file])[0]
             self.assertTrue(read["whole"])
             self.assertEqual(read["index"]["statistics"], sum(read["topics"].values()))
+            self.assertEqual(read["index"]["messages"], sum(read["topics"].values()), "by the indexes alone")
             self.assertEqual(read["index"]["chunks"], read["chunks"])
+            members = set(read["index"]["members"]["/pose_wall/result"])
+            self.assertLess({"values", "publication", "age_ms", "steer"}, members)
+            self.assertEqual(read["index"]["members"]["/pose_wall/health"], ["parts"])
             self.assertIn("sensor_msgs/msg/PointCloud2", read["schemas"].values())
 
     def test_a_disk_that_fills_and_empties_stops_neither_measuring_nor_later_recording(self):

@@ -18,6 +18,7 @@
 #include "apps/live/edges.hpp"
 #include "apps/live/live_runtime.hpp"
 #include "apps/live/recorder/bounded_folder.hpp"
+#include "apps/live/recorder/json_schema.hpp"
 #include "apps/live/recorder/mcap_writer.hpp"
 #include "io/bags/open_bag.hpp"
 #include "io/box/box_replay.hpp"
@@ -463,4 +464,13 @@ TEST_F(BlackBoxTest, NoFolderIsNoBox) {
 }
 
 }  // namespace
+TEST(JsonSchema, SaysWhichMembersAMessageHas) {
+  EXPECT_EQ(json_schema_of(R"({"a": 1.5, "b": {"c": "x", "d": null}, "e": [{"f": true}], "g": []})"),
+            R"({"type":"object","properties":{"a":{"type":["number","null"]},"b":{"type":"object","properties":{)"
+            R"("c":{"type":"string"},"d":{"type":["number","null"]}}},"e":{"type":"array","items":{"type":"object",)"
+            R"("properties":{"f":{"type":"boolean"}}}},"g":{"type":"array"}},)"
+            R"("$schema":"https://json-schema.org/draft/2020-12/schema"})");
+  EXPECT_ANY_THROW(json_schema_of("{"));
+}
+
 }  // namespace pose_wall::tools::live

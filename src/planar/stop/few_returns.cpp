@@ -18,7 +18,12 @@ constexpr float kOnceAnHour = 1.0F / (1000.0F * 36000.0F);
 // more from nearer, at least as it is wider there.
 constexpr std::uint32_t kWide = 4;
 constexpr float kWideFrom_m = 6.0F, kNearest_m = 0.1F;  // nearer, counts of 255 would not hold them
-constexpr float kFactorialOfWide = 24.0F;               // of the distribution's term
+float wide_at(float x, float y) {
+  const float range_m = std::sqrt(x * x + y * y);
+  if (range_m >= kWideFrom_m) return static_cast<float>(kWide);
+  return static_cast<float>(kWide) * kWideFrom_m / (range_m > kNearest_m ? range_m : kNearest_m);
+}
+constexpr float kFactorialOfWide = 24.0F;  // of the distribution's term
 
 }  // namespace
 
@@ -85,9 +90,7 @@ Places::Around Places::look_around(Place* place, const Sight::Return& hit, std::
   add(&place->doubts[kind]);
   place->doubt_first_ms = first_ms;
   place->doubt_ms = now_ms;
-  const float range_m = std::sqrt(hit.x * hit.x + hit.y * hit.y);
-  const float nearer = range_m < kWideFrom_m ? kWideFrom_m / (range_m > kNearest_m ? range_m : kNearest_m) : 1.0F;
-  const float wide = static_cast<float>(kWide) * nearer;
+  const float wide = wide_at(hit.x, hit.y);
   return {static_cast<float>(in_frame) >= wide,
           3 * (now_ms - first_ms) >= 2 * delay_ms_ && static_cast<float>(in_delay) >= wide};
 }

@@ -147,9 +147,8 @@ bool Places::is_line_at(const Place& place, const Eigen::Vector2d& away, const E
 // three quarters of what stands out.
 bool Places::ends_line(const Place& place, const Eigen::Vector2d& away) const {
   constexpr std::int32_t kFar = 20, kSide = 14;  // 2 m in places, and its part of 45 degrees
-  constexpr double kFar2 = kFar * kFar;
-  constexpr std::int32_t kThick = 5;      // places: rock has some that nothing returned from
-  constexpr std::int32_t kStations = 12;  // steps of a sixth of a metre
+  constexpr std::int32_t kThick = 5;             // places: rock has some that nothing returned from
+  constexpr std::int32_t kStations = 12;         // steps of a sixth of a metre
   const auto is_end = [&](std::int32_t dx, std::int32_t dy) {
     const Place* const far = known_at(place.ix + dx, place.iy + dy);
     if (far == nullptr || far->thing_high_ms == 0) return false;
@@ -161,7 +160,7 @@ bool Places::ends_line(const Place& place, const Eigen::Vector2d& away) const {
     return true;
   };
   for (std::int32_t side = -kSide; side <= kSide; ++side) {
-    const auto nearest = static_cast<std::int32_t>(std::sqrt(kFar2 - side * side) + 0.5);
+    const auto nearest = static_cast<std::int32_t>(std::sqrt(1.0 * kFar * kFar - side * side) + 0.5);
     for (std::int32_t far = nearest; far <= nearest + kThick; ++far) {
       if (is_end(far, side) || is_end(-far, side) || is_end(side, far) || is_end(side, -far)) return true;
     }

@@ -43,10 +43,23 @@ function stream(bytes) {
   return told;
 }
 
-// By the summary, as Foxglove opens a file. There is none of a file that was cut.
+// By the summary and the indexes of messages, as Foxglove opens a file. There is none of a file that was cut.
 async function byIndex(bytes) {
   const reader = await McapIndexedReader.Initialize({ readable: inMemory(bytes) });
-  return { statistics: Number(reader.statistics.messageCount), chunks: reader.chunkIndexes.length };
+  const told = { statistics: Number(reader.statistics.messageCount), chunks: reader.chunkIndexes.length, messages: 0 };
+  let last = 0n;
+  for await (const message of reader.readMessages()) {
+    if (message.logTime < last) throw new Error('not in the order of time');
+    last = message.logTime;
+    ++told.messages;
+  }
+  told.members = {}; // by the schema, as a viewer lists them
+  for (const channel of reader.channelsById.values()) {
+    const schema = reader.schemasById.get(channel.schemaId);
+    if (schema.encoding !== 'jsonschema') continue;
+    told.members[channel.topic] = Object.keys(JSON.parse(new TextDecoder().decode(schema.data)).properties);
+  }
+  return told;
 }
 
 for (const file of process.argv.slice(2)) {

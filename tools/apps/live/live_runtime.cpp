@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -58,6 +59,7 @@ LiveRuntime::LiveRuntime(const LoadedConfig& loaded, std::function<BlackBox()> o
   settings_.lidar_frame = config_text(*config_.get(), "lidar_frame");
   settings_.extrinsic_by_tf = loaded.live.extrinsic_from == "tf";
   settings_.motion = loaded.motion;
+  settings_.worker_priority = static_cast<std::int32_t>(loaded.live.worker_priority);
   settings_.frame_points_max = static_cast<std::uint32_t>(loaded.live.frame_points_max);
   prepare_box();
   open();
@@ -73,6 +75,7 @@ void LiveRuntime::open() {
   pose_wall_runtime_options options{};
   require(pose_wall_runtime_options_init(&options), "the runtime's options");
   options.cloud_points_max = settings_.frame_points_max;
+  options.worker_priority = settings_.worker_priority;
   options.callback = called_back;
   options.callback_user = this;
   options.sink = box_.write;
@@ -324,9 +327,11 @@ PartHealth LiveRuntime::health() const {
     health.grade = Grade::kBad;
     health.summary = "waits for the transform from " + settings_.lidar_frame + "; nothing is measured";
   } else if (is_stale) {
-    // Silence is published ten times a second: who does not even tell that, hangs.
+    // Silence is published ten times a second: who does not even tell that, hangs or is kept from its work.
     health.grade = Grade::kBad;
-    health.summary = "the worker hangs: results are old, and all values invalid";
+    health.summary = is_alive() ? "results are late, and all values invalid: other work takes the processors; "
+                                  "worker_priority goes before it"
+                                : "the worker hangs: results are old, and all values invalid";
   } else if (!is_fresh) {
     health.grade = Grade::kBad;
     health.summary = publication.cause == 0 ? "no frame yet" : "no frame comes";
@@ -361,6 +366,7 @@ void LiveRuntime::add_runtime_facts(PartHealth* health) const {
     health->add("motion p99 ms", milliseconds(now.motion.p99_ns));
     health->add("frames without motion", now.motion_refused);
   }
+  if (now.priority_error != 0) health->add("worker_priority refused", std::strerror(now.priority_error));
   health->add("activity", pose_wall_runtime_activity_name(now.activity));
   health->add("opened", opened_.load());
   if (box_.write == nullptr) return;

@@ -64,6 +64,7 @@ class LiveRuntime final : public FrameTaker, public Images {
     std::string lidar_frame;
     bool extrinsic_by_tf = false;
     std::uint32_t frame_points_max = 0;
+    std::int32_t worker_priority = 0;
     pose_wall_motion_settings motion{};
   };
 

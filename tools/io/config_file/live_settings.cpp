@@ -73,6 +73,10 @@ const std::vector<Row>& rows() {
       {{"frame_points_max", kSources, Type::kInteger, "points", 1, 67108864, "",
         translatable("most points of one cloud; decides the memory. Larger clouds are refused")},
        &LiveSettings::frame_points_max},
+      {{"worker_priority", kSources, Type::kInteger, "1", 0, 99, "",
+        translatable("priority of the thread that measures, before all other work of this machine: 1 to 99, as "
+                     "SCHED_FIFO has it; 0: as other programs. The system must allow it (LimitRTPRIO)")},
+       &LiveSettings::worker_priority},
       {{"ros1", kSinks, Type::kSwitch, "1", 0, 0, "", translatable("1: publish results as a node of ROS 1")},
        &LiveSettings::ros1},
       {{"ros2", kSinks, Type::kSwitch, "1", 0, 0, "", translatable("1: publish results as a node of ROS 2")},

@@ -24,6 +24,7 @@ struct LiveSettings {
   std::string udp_sender;
   std::string ros_source;
   double frame_points_max = 262144;
+  double worker_priority = 0;
   bool ros1 = false, ros2 = false;
   std::string ros_distro = "humble";
   std::string http, modbus, mqtt;  // HOST:PORT; empty: off

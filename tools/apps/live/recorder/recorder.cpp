@@ -20,6 +20,7 @@
 #include "apps/live/edges.hpp"
 #include "apps/live/log.hpp"
 #include "apps/live/recorder/bounded_folder.hpp"
+#include "apps/live/recorder/json_schema.hpp"
 #include "apps/live/recorder/mcap_writer.hpp"
 #include "apps/live/result_json.hpp"
 #include "apps/live/ros_messages/ros_messages.hpp"
@@ -40,11 +41,12 @@ enum ChannelNumber : std::uint16_t { kResult, kHealth, kCloud };
 
 std::vector<McapChannel> channels(const LoadedConfig& loaded) {
   // Members may be added; what they mean is said in the README of `pose_wall run`.
-  const char* const kAnyObject = R"({"type": "object"})";
+  const std::string of_result = json_schema_of(result_json(LiveResult()));
+  const std::string of_health = json_schema_of(health_json({PartHealth()}));
   char topic[POSE_WALL_TEXT_MAX] = {};
   pose_wall_config_get_text(loaded.config.get(), "pointcloud_topic", topic, sizeof topic);
-  return {{"/pose_wall/result", "json", "pose_wall.Result", "jsonschema", kAnyObject},
-          {"/pose_wall/health", "json", "pose_wall.Health", "jsonschema", kAnyObject},
+  return {{"/pose_wall/result", "json", "pose_wall.Result", "jsonschema", of_result},
+          {"/pose_wall/health", "json", "pose_wall.Health", "jsonschema", of_health},
           {topic, "cdr", kPointCloud2Type.ros2_name(), "ros2msg", kPointCloud2Type.ros2_definition}};
 }
 

@@ -47,6 +47,7 @@ Object.assign(WORDS.zh, {
   part_names: { runtime: '运行时', source: '输入', sink: '输出', commands: '指令输入', 'planar stop': '障碍停车', 'planar roadway': '巷道地图', 'planar command': '驱动指令' },
   summaries: {
     measures: '正在测量', 'times of points are of no use': '点的时间不可用', 'frames come, nothing is measured': '有帧到达，但均未测得', 'no frame yet': '尚无帧', 'no frame comes': '没有新的帧',
+    'results are late, and all values invalid: other work takes the processors; worker_priority goes before it': '结果来迟，全部值无效：处理器被其他工作占用；worker_priority 可使测量优先',
     'the worker hangs: results are old, and all values invalid': '计算线程停滞：结果陈旧，全部值无效', 'nothing is measured': '均未测得',
     serves: '正在服务', sends: '正在发送', connected: '已连接', 'seeks the broker': '正在寻找代理服务器', 'tries again': '正在重试', through: '已播放完毕', plays: '正在播放',
     receives: '正在接收', 'waits for clouds': '等待点云', 'no cloud comes any more': '不再有点云到达', publishes: '正在发布', records: '正在记录',
