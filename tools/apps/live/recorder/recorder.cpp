@@ -41,7 +41,9 @@ enum ChannelNumber : std::uint16_t { kResult, kHealth, kCloud };
 
 std::vector<McapChannel> channels(const LoadedConfig& loaded) {
   // Members may be added; what they mean is said in the README of `pose_wall run`.
-  const std::string of_result = json_schema_of(result_json(LiveResult()));
+  LiveResult example;
+  example.config = *loaded.config.get();
+  const std::string of_result = json_schema_of(result_json(example));
   const std::string of_health = json_schema_of(health_json({PartHealth()}));
   char topic[POSE_WALL_TEXT_MAX] = {};
   pose_wall_config_get_text(loaded.config.get(), "pointcloud_topic", topic, sizeof topic);
