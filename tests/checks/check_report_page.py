@@ -202,7 +202,7 @@ def check_verdicts(browser, checks):
     checks.hold("the first line says that none may steer", text.startswith("May steer: none.\n") and
                 re.search(r"May not: roll, pitch, yaw \(valid in 0 % of the frames, else mostly level .*, limit 1.000°"
                           r": the wall is unseen beside the machine\); left front", text) is not None and
-                "To look at: show the surface at the sampling point." in text)
+                "To look at: mount the sensor where nothing hides the wall at the sampling point, " in text)
     grade, text = verdict("f === 0 && q === 2 ? 3 : 2")
     checks.hold("one valid value is not usable", grade == "bad" and
                 "Do not rely on yaw: valid in less than 50 % of the frames" in text)

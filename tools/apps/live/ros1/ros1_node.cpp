@@ -149,7 +149,7 @@ void Ros1Node::attend_master() {
 
 void Ros1Node::open() {
   auto ros = std::make_unique<Ros>();
-  // Nobody here caches parameters, and roscpp ends the process for a name that it does not like.
+  // Nobody here caches parameters: what is not needed is not answered.
   ros::XMLRPCManager::instance()->unbind("paramUpdate");
   for (const Subscription& subscription : subscriptions_) {
     ros::SubscribeOptions options(subscription.topic, subscription.queue, "*", "*");
