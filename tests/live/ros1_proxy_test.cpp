@@ -227,7 +227,7 @@ TEST_F(Ros1ProxyTest, NamesThatRosRefusesAreRefused) {
   for (const char* topic : {"", "two words", "1st", "a-b", "_hidden", "a\xC3\xA4"}) {
     EXPECT_THROW(proxy.subscribe(topic, 1, [](const std::string&, ByteView) {}), std::runtime_error) << topic;
   }
-  for (const char* topic : {"/lidar/points", "points_2", "~own", "/"}) {
+  for (const char* topic : {"/lidar/points", "points_2", "/"}) {
     EXPECT_NO_THROW(proxy.subscribe(topic, 1, [](const std::string&, ByteView) {})) << topic;
   }
 }

@@ -184,7 +184,8 @@ TEST(ReportOfMotion, OtherTablesAndMixturesAreRefused) {
     EXPECT_TRUE(contains(ran.errors, said)) << ran.errors;
     EXPECT_FALSE(std::filesystem::exists(page));
   };
-  refused({folder.write("other.csv", "frame,roll\n0,1\n")}, 1, "other.csv: the motion table has no column");
+  refused({folder.write("other.csv", "frame,roll\n0,1\n")}, 1,
+          "other.csv: this is no table of run (with roll, roll_state, ...), motion (along_m, ...)");
   refused({folder.file("none.csv")}, 1, "none.csv: there is no such file or folder");
   refused({folder.write("empty.csv", motion_csv({}))}, 1, "empty.csv: the table has no row");
   refused({good, folder.path()}, 2, "give a table alone");

@@ -124,7 +124,8 @@ bool Places::brings_doubt_only(const Sight& sight, const Way& way, const Turn2& 
   const Around around = look_around(place, hit, now_ms);
   if (!is_gone) return !(around.is_wide || around.is_lasting);
   if (place->dust_ms != now_ms) dust_.add(place->ix, place->iy);
-  // So many returns at once come by chance, too, in dust: those of a Poisson process.
+  // Four returns at once come by chance, too, in dust: those of a Poisson process. Near the sensor it takes more of
+  // them.
   const float by_chance = dust_.share_around(place->ix, place->iy);
   const bool is_no_chance = by_chance * by_chance * by_chance * by_chance <= kFactorialOfWide * kOnceAnHour;
   return !(is_thin_thing(place, by_chance, now_ms) || (around.is_wide && is_no_chance));

@@ -108,14 +108,13 @@ class Places {
   bool came_into_sight(const Place& place, const Eigen::Vector2d& away) const;
   bool has_stood(const Place& place, const Eigen::Vector2d& away) const;
   bool is_settled(const Place& place) const;
-  enum class Line { none, deeper, flush };
   struct LineAxis {
     std::int32_t along_x, along_y, along_most;  // a step, and so many places more or less, in sums of both axes
     std::int32_t chest_mm, deep_mm, to_sensor;  // the sign of what is nearer to the sensor
   };
   static LineAxis line_axis(const Eigen::Vector2d& away, const std::int32_t* axis);
-  Line line_with(const Place& place, const Place& near, const Eigen::Vector2d& away, const LineAxis& axis) const;
-  Line line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* step, std::int32_t times) const;
+  bool is_in_line_with(const Place& place, const Place& near, const Eigen::Vector2d& away, const LineAxis& axis) const;
+  bool goes_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* axis_step, std::int32_t side) const;
   static Eigen::Vector2d between_mm(const Place& from, const Place& to);
   bool is_line_at(const Place& place, const Eigen::Vector2d& away, const Eigen::Vector2d& along_mm, double at) const;
   bool ends_line(const Place& place, const Eigen::Vector2d& away) const;

@@ -19,8 +19,8 @@ constexpr std::int32_t kChest_mm = 230, kChestDiagonal_mm = 325;
 constexpr std::int32_t kDeep_mm = 500, kDeepDiagonal_mm = 707;
 constexpr std::int32_t kDeepPlaces = 5;   // as many of 0.1 m
 constexpr std::int32_t kChestPlaces = 3;  // of 0.1 m, which hold a chest's depth
-constexpr double kStationHalf_mm =
-    84.0;  // half of a sixth of a metre: wider, and the wall would fill in for a body's end
+// Half of a sixth of a metre, a step along a line: wider, and the wall would fill in for a body's end.
+constexpr double kStationHalf_mm = 84.0;
 constexpr double kAcross2 = 0.2 * 0.2;  // sine, squared: of a line that points at the sensor no side is the deeper one
 constexpr double kBody_m = 0.115;       // from a chest's front to its middle
 constexpr double kSomething_m = 1e-6;   // a place at the sensor has no direction
@@ -91,34 +91,30 @@ Eigen::Vector2d Places::between_mm(const Place& from, const Place& to) {
           kPlace_mm * (to.iy - from.iy) + to.high_y_mm - from.high_y_mm};
 }
 
-// How a place goes with another one that may be of its line: the place does not stand out, or is deeper.
-Places::Line Places::line_with(const Place& place, const Place& near, const Eigen::Vector2d& away,
-                               const LineAxis& axis) const {
+// Whether another place may be of a place's line: the place does not stand out of it.
+bool Places::is_in_line_with(const Place& place, const Place& near, const Eigen::Vector2d& away,
+                             const LineAxis& axis) const {
   const std::int32_t x_mm = kPlace_mm * (near.ix - place.ix) + near.high_x_mm - place.high_x_mm;
   const std::int32_t y_mm = kPlace_mm * (near.iy - place.iy) + near.high_y_mm - place.high_y_mm;
   const std::int32_t deeper_mm = axis.to_sensor * (x_mm * axis.along_y - y_mm * axis.along_x);
-  if (deeper_mm > axis.deep_mm || deeper_mm < -axis.chest_mm) return Line::none;
+  if (deeper_mm > axis.deep_mm || deeper_mm < -axis.chest_mm) return false;
   const Eigen::Vector2d away_there = away + Eigen::Vector2d(0.001 * x_mm, 0.001 * y_mm);
-  if (!was_seen_with(near, place) || !has_stood(near, away_there)) return Line::none;
-  return deeper_mm <= axis.chest_mm ? Line::flush : Line::deeper;
+  return was_seen_with(near, place) && has_stood(near, away_there);
 }
 
-// How a line goes on so many steps along an axis: there, or a place more or less far.
-Places::Line Places::line_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* step,
-                             std::int32_t times) const {
-  const LineAxis axis = line_axis(away, step);
-  Line line = Line::none;
+// Whether a line goes on a step along an axis: there, or a place more or less far.
+bool Places::goes_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* axis_step,
+                     std::int32_t side) const {
+  const LineAxis axis = line_axis(away, axis_step);
   for (std::int32_t dy = -kDeepPlaces; dy <= kDeepPlaces; ++dy) {
     for (std::int32_t dx = -kDeepPlaces; dx <= kDeepPlaces; ++dx) {
       const std::int32_t along = dx * axis.along_x + dy * axis.along_y;
       if (along > axis.along_most || along < -axis.along_most) continue;
-      const Place* const near = known_at(place.ix + times * step[0] + dx, place.iy + times * step[1] + dy);
-      const Line found = near == nullptr ? Line::none : line_with(place, *near, away, axis);
-      if (found == Line::flush) return found;
-      if (found == Line::deeper) line = found;
+      const Place* const near = known_at(place.ix + side * axis_step[0] + dx, place.iy + side * axis_step[1] + dy);
+      if (near != nullptr && is_in_line_with(place, *near, away, axis)) return true;
     }
   }
-  return line;
+  return false;
 }
 
 // Whether something of a line is near a point: up to half a step beside it along the line, and standing out of it by
@@ -143,8 +139,8 @@ bool Places::is_line_at(const Place& place, const Eigen::Vector2d& away, const E
 }
 
 // Whether a line of things goes from it to one 2 to 2.5 m off, without a gap in which a person would fit. The far end
-// lies on the wall. So half a metre from a body that leans on it, where that body ends, the line is off the wall by
-// three quarters of what stands out.
+// is to lie on the wall. So half a metre from a body that leans on it, where that body ends, the line is off the wall
+// by three quarters of what stands out.
 bool Places::ends_line(const Place& place, const Eigen::Vector2d& away) const {
   constexpr std::int32_t kFar = 20, kSide = 14;  // 2 m in places, and its part of 45 degrees
   constexpr std::int32_t kThick = 5;             // places: rock has some that nothing returned from
@@ -172,7 +168,7 @@ bool Places::ends_line(const Place& place, const Eigen::Vector2d& away) const {
 bool Places::is_in_line(const Place& place, const Eigen::Vector2d& away) const {
   constexpr std::int32_t kAxes[4][2] = {{5, 0}, {0, 5}, {4, 4}, {4, -4}};  // half a metre in places
   for (const auto& axis : kAxes) {
-    if (line_on(place, away, axis, 1) != Line::none && line_on(place, away, axis, -1) != Line::none) return true;
+    if (goes_on(place, away, axis, 1) && goes_on(place, away, axis, -1)) return true;
   }
   return ends_line(place, away);
 }

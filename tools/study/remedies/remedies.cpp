@@ -24,7 +24,7 @@ constexpr const char* kHelpOfPart[POSE_WALL_PARTS] = {
         "mount the sensor where nothing hides the wall at the sampling point, set s_front and s_back to where it is "
         "seen, or measure the piece beside the machine (region: on)"),
     translatable("wait until the value has followed"),
-    translatable("frames are missing or late"),
+    translatable("see why frames are missing or late"),
 };
 
 }  // namespace

@@ -42,7 +42,7 @@ std::string level_text(std::size_t quantity, double level, double limit);
 Steering steering_of(const pose_wall_result& result, const AlertLimits& limits);
 
 // "may steer: roll, pitch, yaw; may not: d_lf (level 0.140 m, limit 0.100 m: the wall is unseen beside the machine). To
-// look at: show the surface at the sampling point." Of a recording: "d_lf (valid in 12 % of the frames, else mostly
+// look at: mount the sensor where ...." Of a recording: "d_lf (valid in 12 % of the frames, else mostly
 // level 0.140 m, ...)". Values with one cause are told together, and each remedy once.
 std::string steer_line(Language language, const Steering& steering);
 

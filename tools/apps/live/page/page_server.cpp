@@ -57,6 +57,7 @@ class PageServer final : public Sink {
 
   void start() override {
     prepare();
+    broadcast_.post(Broadcast::kHello, hello_event(loaded_));  // a viewer gets it first
     try {
       server_.start();
     } catch (const std::exception& fault) {
@@ -66,7 +67,6 @@ class PageServer final : public Sink {
              fmt::format("http://{} shows the page; {}", loaded_.live.http,
                          is_loopback(place_.host) ? "only this machine reaches it"
                                                   : "everybody who reaches this address may look, nobody can change"));
-    tell(Broadcast::kHello, hello_event(loaded_));
   }
 
   void take(const LiveResult& result) override {
@@ -103,7 +103,8 @@ class PageServer final : public Sink {
   PartHealth health() const override {
     PartHealth health;
     health.part = part();
-    health.summary = "serves";
+    health.grade = server_.serves() ? Grade::kGood : Grade::kBad;
+    health.summary = server_.serves() ? "serves" : "serves no more: its loop failed";
     health.add("viewers", static_cast<std::uint64_t>(viewers_.load()));
     health.add("viewers turned away", turned_away_.load());
     health.add("events sent", sent_.load());
@@ -201,8 +202,10 @@ class PageServer final : public Sink {
     const std::lock_guard<std::mutex> locked(newest_lock_);
     if (!has_newest_) return json(503, R"({"error": "nothing was published yet"})");
     // Silence is published, too: what is older was left by a worker that hangs.
-    const bool is_old = monotonic_ns() - newest_.publication.published_ns > kOld_ns;
-    return json(is_old ? 503 : 200, result_json(newest_));
+    if (monotonic_ns() - newest_.publication.published_ns > kOld_ns) {
+      return json(503, R"({"error": "the newest result is older than a second: nothing may steer"})");
+    }
+    return json(200, result_json(newest_));
   }
 
   std::shared_ptr<const RoadwayNews> newest_roadway() {

@@ -23,6 +23,7 @@ Json schema_of(const Json& value) {
   }
   if (value.is_string()) return {{"type", "string"}};
   if (value.is_boolean()) return {{"type", "boolean"}};
+  if (value.is_null()) return Json::object();  // anything
   return {{"type", {"number", "null"}}};
 }
 

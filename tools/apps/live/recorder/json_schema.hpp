@@ -9,8 +9,9 @@
 
 namespace pose_wall::tools::live {
 
-// Members with their types. A number, or what is null in the example, may be null in others; of an empty list or object
-// nothing is said. Further members are allowed. Throws nlohmann::json::parse_error where the example is no JSON.
+// Members with their types. A number may be null in other messages. Of what is null in the example, and of what an
+// empty list holds, nothing is said. Further members are allowed. Throws nlohmann::json::parse_error where the example
+// is no JSON.
 std::string json_schema_of(const std::string& example);
 
 }  // namespace pose_wall::tools::live

@@ -35,11 +35,12 @@ bool is_letter(char one) {
   return (one >= 'a' && one <= 'z') || (one >= 'A' && one <= 'Z');
 }
 
-// https://wiki.ros.org/Names, "Valid Names": what roscpp's names::validate takes, less the empty one.
+// https://wiki.ros.org/Names, "Valid Names": what roscpp's names::validate takes, less the empty one, and less private
+// ones (~), which its node handle refuses.
 void require_topic_name(const std::string& topic) {
   std::string why = topic.empty() ? "it is empty" : "";
-  if (!topic.empty() && !is_letter(topic[0]) && topic[0] != '/' && topic[0] != '~') {
-    why = "it begins with neither a letter, / nor ~";
+  if (!topic.empty() && !is_letter(topic[0]) && topic[0] != '/') {
+    why = "it begins with neither a letter nor /";
   }
   for (std::size_t i = 1; i < topic.size(); ++i) {
     const char one = topic[i];

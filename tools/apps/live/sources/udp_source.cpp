@@ -251,8 +251,8 @@ class UdpSource final : public Source {
 
   bool is_silent() const { return monotonic_ns() - last_packet_ns_ > kSilent_ns; }
 
-  // Whoever is read gives no turn, and keeps another one out: anybody may send a packet now and then, a sensor turns.
-  bool keeps_out() const { return turns_ == 0 && are_two_; }
+  // Whoever is read gives no whole turn, and keeps another one out: anybody may send a packet now and then, or a stub.
+  bool keeps_out() const { return are_two_ && monotonic_ns() - whole_turn_ns_ > kSilent_ns; }
 
   // For a second nothing of use came, or no turn. What comes now may be of another run of the sensor, of another
   // sensor, or of one that was set up anew: then what was learned of it is wrong.
@@ -275,7 +275,7 @@ class UdpSource final : public Source {
 
   // The first turn began before it was listened to.
   void hand_on(const Scan& scan, FrameTaker& taker) {
-    ++turns_;
+    if (scan.is_complete) whole_turn_ns_ = monotonic_ns(), ++turns_;
     if (std::exchange(is_first_turn_, false) && !scan.is_complete) return;
     LiveFrame frame;
     frame.frame = frame_of(scan);
@@ -296,7 +296,8 @@ class UdpSource final : public Source {
   std::string wanted_;                   // of two that were heard the one that was read; "": any
   std::optional<std::uint32_t> sender_;  // as the settings name it
   bool is_first_turn_ = true;
-  std::uint64_t packets_of_use_ = 0, turns_ = 0;  // since it began anew
+  std::uint64_t packets_of_use_ = 0, turns_ = 0;  // since it began anew; whole turns
+  std::int64_t whole_turn_ns_ = 0;
   std::thread thread_;
   mutable std::mutex words_lock_;
   std::string part_ = "source udp", contradiction_, others_note_, others_counted_;

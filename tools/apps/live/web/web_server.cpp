@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 #include <libwebsockets.h>
 #include <netdb.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <optional>
@@ -26,8 +28,12 @@ constexpr unsigned short kHeaderBytesMost = 4096;  // of a request: a browser's 
 // under ground lose packets for a second or two.
 constexpr int kTimeout_s = 5;
 constexpr lws_usec_t kWakeEvery_us = 500'000;  // a viewer that is gone is noticed by what it does not take
-constexpr std::size_t kPieceBytes = 65536;     // of an answer, between those to others
-constexpr std::size_t kHeadBytes = 2048;       // of an answer: the usual headers take 500
+constexpr std::size_t kPieceBytes = 16384;     // of an answer, between those to others
+// The library comes back at once, again and again, while bytes wait that it does not read: those behind a request, or
+// the end of a connection. So many turns of the loop in so long serve sixteen viewers five times over.
+constexpr int kTurnsMost = 500;
+constexpr auto kTurnsIn = std::chrono::milliseconds(100), kRest = std::chrono::milliseconds(1);
+constexpr std::size_t kHeadBytes = 2048;  // of an answer: the usual headers take 500
 
 std::string header(lws* connection, lws_token_indexes which) {
   const int length = lws_hdr_total_length(connection, which);
@@ -44,6 +50,19 @@ bool is_get(lws* connection) {
 
 bool is_head(lws* connection) {
   return lws_hdr_total_length(connection, WSI_TOKEN_HEAD_URI) > 0;
+}
+
+// What it would send is not read, and the library would wait for it.
+bool has_body(lws* connection) {
+  const std::string length = header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH);
+  return (!length.empty() && length != "0") || !header(connection, WSI_TOKEN_HTTP_TRANSFER_ENCODING).empty();
+}
+
+// Whether a viewer has sent something behind its request, or has gone.
+bool says_more(lws* connection) {
+  char one = 0;
+  const ssize_t got = recv(lws_get_socket_fd(connection), &one, 1, MSG_PEEK | MSG_DONTWAIT);
+  return got >= 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR);
 }
 
 // "localhost:8080", "[::1]:8080".
@@ -106,9 +125,12 @@ struct WebLoop {
         return server->begin(connection, {static_cast<const char*>(in), length});
       case LWS_CALLBACK_HTTP_WRITEABLE:
         return server->go_on(connection);
+      case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+        return -1;  // nothing else is spoken here
       case LWS_CALLBACK_HTTP_BODY:
-      case LWS_CALLBACK_HTTP_BODY_COMPLETION:
-        return 0;  // is not read
+      case LWS_CALLBACK_HTTP_BODY_COMPLETION:  // is not read, and lengthens nothing
+        lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
+        return 0;
       case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
         server->wake_streams();
         return 0;
@@ -171,13 +193,20 @@ void WebServer::start() {
                     place_.host, place_.port));
   }
   ending_ = false;
+  serves_ = true;
   thread_ = std::thread([this] { serve(); });
 }
 
 void WebServer::serve() {
   WebLoop::Timer timer{{}, this};
   timer.set();
-  while (!ending_ && lws_service(context_, 0) >= 0) continue;
+  int turns = 0;
+  Clock::time_point since = Clock::now();
+  while (!ending_ && lws_service(context_, 0) >= 0) {
+    if (Clock::now() - since > kTurnsIn) turns = 0, since = Clock::now();
+    if (++turns > kTurnsMost) std::this_thread::sleep_for(kRest);
+  }
+  serves_ = false;
   lws_sul_cancel(&timer.entry);
 }
 
@@ -208,6 +237,7 @@ WebAnswer WebServer::answer_to(lws* connection, const std::string& path) const {
     answer.headers.emplace_back("allow", "GET, HEAD");
     return answer;
   }
+  if (has_body(connection)) return web_answer(400, "text/plain", "a request has no body here\n");
   // One small request could ask for the page a thousand times.
   if (!header(connection, WSI_TOKEN_HTTP_RANGE).empty()) return web_answer(416, "text/plain", "parts are not given\n");
   if (is_loopback(place_.host) && !is_loopback(host_of(header(connection, WSI_TOKEN_HOST)))) {
@@ -243,15 +273,21 @@ bool WebServer::send_head(lws* connection, const WebAnswer& answer) const {
 int WebServer::begin(lws* connection, const std::string& path) {
   WebAnswer answer = answer_to(connection, path);
   if (!send_head(connection, answer)) return -1;
-  const bool has_body = !is_head(connection) && (answer.stream || !answer.content->empty());
-  if (!has_body) return lws_http_transaction_completed(connection);
+  const bool closes = !(is_get(connection) || is_head(connection)) || has_body(connection);
+  if (is_head(connection) || (!answer.stream && answer.content->empty())) return complete(connection, closes);
   auto session = std::make_unique<Session>();
   session->content = std::move(answer.content);
   session->stream = std::move(answer.stream);
-  session->closes = !is_get(connection);
+  session->closes = closes;
   sessions_[connection] = std::move(session);
+  lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
   lws_callback_on_writable(connection);
   return 0;
+}
+
+// The library wants to be told to close what it says is not kept.
+int WebServer::complete(lws* connection, bool closes) {
+  return closes || lws_http_transaction_completed(connection) != 0 ? -1 : 0;
 }
 
 int WebServer::go_on(lws* connection) {
@@ -269,17 +305,18 @@ int WebServer::send_content(lws* connection, Session* session) {
   if (lws_write(connection, piece.data() + LWS_PRE, now, is_last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP) < 0)
     return -1;
   session->sent += now;
+  lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
   if (is_last) {
     const bool closes = session->closes;
     sessions_.erase(connection);
-    return closes ? -1 : lws_http_transaction_completed(connection);
+    return complete(connection, closes);
   }
-  lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
   lws_callback_on_writable(connection);
   return 0;
 }
 
 int WebServer::send_news(lws* connection, Session* session) {
+  if (says_more(connection)) return -1;
   session->sent_at.reset();
   lws_set_timeout(connection, NO_PENDING_TIMEOUT, 0);
   const std::shared_ptr<const std::string> news = session->stream->next();

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // A small web server that only gives: answers to GET, and streams of events. One thread serves all connections by an
-// event loop (libwebsockets), so a client that is slow, idle, silent or hostile costs a descriptor and nobody's time,
-// and the server stops within milliseconds, whatever its clients do.
+// event loop (libwebsockets). So a client that is slow, idle or silent costs a descriptor and nobody's time. The server
+// stops within milliseconds, whatever its clients do.
 
 #pragma once
 
@@ -67,6 +67,8 @@ class WebServer {
 
   // Viewers of streams that took nothing for seconds, and were ended.
   std::uint64_t cut_off() const { return cut_off_; }
+  // False once its loop has failed.
+  bool serves() const { return serves_; }
 
  private:
   friend struct WebLoop;
@@ -76,6 +78,7 @@ class WebServer {
   void wake_streams();
   int begin(lws* connection, const std::string& path);
   int go_on(lws* connection);
+  static int complete(lws* connection, bool closes);
   int send_content(lws* connection, Session* session);
   int send_news(lws* connection, Session* session);
   bool send_head(lws* connection, const WebAnswer& answer) const;
@@ -88,7 +91,7 @@ class WebServer {
   lws_context* context_ = nullptr;
   std::unordered_map<lws*, std::unique_ptr<Session>> sessions_;
   std::thread thread_;
-  std::atomic<bool> ending_{false};
+  std::atomic<bool> ending_{false}, serves_{true};
   std::atomic<std::uint64_t> cut_off_{0};
 };
 

@@ -38,7 +38,8 @@ LiveRecording.kRoom = 6000;  // five minutes at 10 Hz stay when the older half g
 LiveRecording.kSeries = ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 'age_s', 'truth', 'engine_ms', 'confidence', 'planes', 'floor', 'machine',
   'stage_ms', 'reasons', 'frame_reasons', 'counts', 'state', 'cause', 'steer', 'stamp_s'];
 
-// Silence of a sensor is told ten times a second, health once: so long without either is a break.
+// Silence of a sensor is told ten times a second: so long without a result is a break, or a worker that hangs. Health comes
+// from the server, whatever the worker does, and makes nothing current.
 const kLost_ms = 2000, kChartsEvery_ms = 400;
 const page = { language: 'en', frame: 0, paused: false, hello: null, told: null, heard_ms: 0, arrivals: [], drawn_charts_ms: 0, shown: 0 };
 let recording = null, viewer = null, charts = null, roadway = null;
@@ -207,7 +208,6 @@ function take_frame(event) {
 
 function take_hello(event) {
   page.hello = JSON.parse(event.data);
-  page.heard_ms = performance.now();
   if (page.hello.planar && !roadway) roadway = new RoadwayView(page.hello.planar);
   if (!recording) return;
   Object.assign(recording, { head: page.hello.head, words: page.hello.words });
@@ -219,7 +219,6 @@ function connect() {
   events.addEventListener('hello', take_hello);
   events.addEventListener('frame', take_frame);
   events.addEventListener('health', (event) => {
-    page.heard_ms = performance.now();
     if (!page.paused) show_health(JSON.parse(event.data).parts);
   });
   const of_roadway = (name, take) => events.addEventListener(name, (event) => { if (roadway) take(JSON.parse(event.data)); });

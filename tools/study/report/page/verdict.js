@@ -19,7 +19,10 @@ function summarise(recording) {
     for (const f of readable) {
       const i = recording.at(f, q), state = recording.state[i];
       ++states[state];
-      if (!may_steer(f, q)) steered.set(recording.steer[i], [...(steered.get(recording.steer[i]) || []), f]);
+      if (!may_steer(f, q)) {
+        if (!steered.has(recording.steer[i])) steered.set(recording.steer[i], []);
+        steered.get(recording.steer[i]).push(f);
+      }
       if (state !== 3) for (const bit of recording.reason_bits(recording.reasons[i])) reasons.set(bit, (reasons.get(bit) || 0) + 1);
       if (state === 0) continue;
       values.push(recording.value[i] * recording.unit(q));
