@@ -47,7 +47,8 @@ Object.assign(WORDS.zh, {
   part_names: { runtime: '运行时', source: '输入', sink: '输出', commands: '指令输入', 'planar stop': '障碍停车', 'planar roadway': '巷道地图', 'planar command': '驱动指令' },
   summaries: {
     measures: '正在测量', 'times of points are of no use': '点的时间不可用', 'frames come, nothing is measured': '有帧到达，但均未测得', 'no frame yet': '尚无帧', 'no frame comes': '没有新的帧',
-    'results are late, and all values invalid: other work takes the processors; worker_priority goes before it': '结果来迟，全部值无效：处理器被其他工作占用；worker_priority 可使测量优先',
+    'results are late, and all values invalid: other work takes the processors': '结果来迟，全部值无效：处理器被其他工作占用', 'worker_priority goes before it': 'worker_priority 可使测量优先',
+    'serves no more: its loop failed': '不再服务：其循环已失败',
     'the worker hangs: results are old, and all values invalid': '计算线程停滞：结果陈旧，全部值无效', 'nothing is measured': '均未测得',
     serves: '正在服务', sends: '正在发送', connected: '已连接', 'seeks the broker': '正在寻找代理服务器', 'tries again': '正在重试', through: '已播放完毕', plays: '正在播放',
     receives: '正在接收', 'waits for clouds': '等待点云', 'no cloud comes any more': '不再有点云到达', publishes: '正在发布', records: '正在记录',
@@ -61,6 +62,7 @@ Object.assign(WORDS.zh, {
   fact_values: { good: '良好', none: '无', none_moving: '无，而机器在移动', type: '类型不可读', one_time: '全部相同', unit: '单位不明' },
   fact_names: {
     'frames pushed': '收到帧', 'frames measured': '已测帧', silences: '中断次数', 'age ms': '距上次测得时间 ms', 'latency p50 ms': '延迟中位数 ms', 'latency p99 ms': '延迟 99 % ms',
+    'process started anew': '进程重新启动次数', 'process ended last': '进程上次结束', 'messages lost to a slow process': '因进程过慢丢失的消息', 'worker_priority refused': 'worker_priority 被拒绝',
     'latency mean ms': '平均延迟 ms', "stop's age when read, mean ms": '读取时停车应答的平均时龄 ms', "stop's age when read, worst ms": '读取时停车应答的最大时龄 ms',
     'latency worst ms': '最大延迟 ms', 'motion p99 ms': '运动计算 99 % ms', 'frames without motion': '无运动帧', 'times of points': '点的时间', activity: '当前动作', opened: '打开次数',
     'black box written': '黑匣子已写', 'black box lost': '黑匣子丢失', 'black box failed': '黑匣子失败', 'masters seen': '发现的 master', domain: '域', type: '类型', 'writers matched': '匹配的发布者',
