@@ -242,6 +242,17 @@ TEST(UdpSource, PacketsOfOthersAndWhatIsNoPacketAreCountedAndDropped) {
   }
 }
 
+// A source that anybody may send to, and two who do.
+struct TwoSenders {
+  TwoSenders() { source->start(catcher); }
+
+  const std::uint16_t port = free_udp_port();
+  FrameCatcher catcher;
+  const std::unique_ptr<Source> source = make_udp_source(live_config(port));
+  const LoopbackSender sender{port}, other{port, "127.0.0.2"};
+  Pace pace{*source};
+};
+
 // Four turns of each, packet by packet.
 void send_at_once(Pace& pace, const LoopbackSender& sender, const LoopbackSender& other) {
   const std::vector<std::string> ours = vlp16_turns(4), theirs = vlp16_turns(4, 50);
@@ -252,23 +263,18 @@ void send_at_once(Pace& pace, const LoopbackSender& sender, const LoopbackSender
 }
 
 TEST(UdpSource, ASecondSensorOnThePortIsNamedAndNotMixedIn) {
-  const std::uint16_t port = free_udp_port();
-  const auto source = make_udp_source(live_config(port));
-  FrameCatcher catcher;
-  source->start(catcher);
-  const LoopbackSender sender(port), other(port, "127.0.0.2");
-  Pace pace(*source);
-  send_at_once(pace, sender, other);
-  ASSERT_TRUE(catcher.wait_for_frames(3));
-  EXPECT_TRUE(becomes_true([&] { return source->health().summary.find("127.0.0.2") != std::string::npos; }))
-      << source->health().summary;
-  EXPECT_NE(fact(source->health(), "sources").find(" packets)"), std::string::npos);
+  TwoSenders two;
+  send_at_once(two.pace, two.sender, two.other);
+  ASSERT_TRUE(two.catcher.wait_for_frames(3));
+  EXPECT_TRUE(becomes_true([&] { return two.source->health().summary.find("127.0.0.2") != std::string::npos; }))
+      << two.source->health().summary;
+  EXPECT_NE(fact(two.source->health(), "sources").find(" packets)"), std::string::npos);
   // Counts would make each look a line of the log.
-  EXPECT_EQ(source->health().summary.find(" packets)"), std::string::npos) << source->health().summary;
-  source->stop();
+  EXPECT_EQ(two.source->health().summary.find(" packets)"), std::string::npos) << two.source->health().summary;
+  two.source->stop();
   for (std::uint32_t turn = 0; turn < 3; ++turn) {
     const RangeImage seen = image_of(16, 1800, turn);
-    EXPECT_NEAR(range_at(catcher.frames()[turn].frame, 0), seen.range_m[0], 0.012) << turn;
+    EXPECT_NEAR(range_at(two.catcher.frames()[turn].frame, 0), seen.range_m[0], 0.012) << turn;
   }
 }
 
@@ -278,47 +284,38 @@ void send_one(const LoopbackSender& sender) {
 
 // It is mounted elsewhere: its walls would be measured from where the first one stands.
 TEST(UdpSource, ASecondSensorDoesNotTakeThePlaceOfOneThatFellSilent) {
-  const std::uint16_t port = free_udp_port();
-  const auto source = make_udp_source(live_config(port));
-  FrameCatcher catcher;
-  source->start(catcher);
-  const LoopbackSender sender(port), other(port, "127.0.0.2");
-  Pace pace(*source);
-  send_at_once(pace, sender, other);
-  ASSERT_TRUE(catcher.wait_for_frames(3));
-  ASSERT_TRUE(becomes_true([&] { return source->health().summary == "the sensor is silent"; }));
-  const std::string frames = fact(source->health(), "frames");
-  pace.send(other, vlp16_turns(4, 60));
-  EXPECT_EQ(fact(source->health(), "frames"), frames);
+  TwoSenders two;
+  send_at_once(two.pace, two.sender, two.other);
+  ASSERT_TRUE(two.catcher.wait_for_frames(3));
+  ASSERT_TRUE(becomes_true([&] { return two.source->health().summary == "the sensor is silent"; }));
+  const std::string frames = fact(two.source->health(), "frames");
+  two.pace.send(two.other, vlp16_turns(4, 60));
+  EXPECT_EQ(fact(two.source->health(), "frames"), frames);
   EXPECT_TRUE(becomes_true([&] {
-    send_one(other);
-    return source->health().summary ==
+    send_one(two.other);
+    return two.source->health().summary ==
            "the sensor is silent; waits for 127.0.0.1; 127.0.0.2 is sending, and is not read: udp_sender chooses";
-  })) << source->health().summary;
-  pace.send(sender, vlp16_turns(4, 4));
-  EXPECT_TRUE(becomes_true([&] { return fact(source->health(), "frames") != frames; })) << source->health().summary;
-  source->stop();
+  })) << two.source->health().summary;
+  two.pace.send(two.sender, vlp16_turns(4, 4));
+  EXPECT_TRUE(becomes_true([&] { return fact(two.source->health(), "frames") != frames; }))
+      << two.source->health().summary;
+  two.source->stop();
 }
 
 // Anybody can send a packet now and then, also before the sensor does.
 TEST(UdpSource, AStrangersPacketNowAndThenKeepsNoSensorOut) {
-  const std::uint16_t port = free_udp_port();
-  const auto source = make_udp_source(live_config(port));
-  FrameCatcher catcher;
-  source->start(catcher);
-  const LoopbackSender sender(port), stranger(port, "127.0.0.2");
-  send_one(stranger);
-  EXPECT_TRUE(becomes_true([&] { return source->health().summary == "packets come, no turn yet"; }));
-  Pace pace(*source);
+  TwoSenders two;
+  send_one(two.other);
+  EXPECT_TRUE(becomes_true([&] { return two.source->health().summary == "packets come, no turn yet"; }));
   const std::vector<std::string> turns = vlp16_turns(40);  // 4 s
   const std::size_t second = turns.size() / 4;
-  for (std::size_t i = 0; i < turns.size() && fact(source->health(), "frames") == "0"; ++i) {
-    if (i % second == 0) send_one(stranger);
-    pace.send(sender, std::string_view(turns[i]));
+  for (std::size_t i = 0; i < turns.size() && fact(two.source->health(), "frames") == "0"; ++i) {
+    if (i % second == 0) send_one(two.other);
+    two.pace.send(two.sender, std::string_view(turns[i]));
     std::this_thread::sleep_for(std::chrono::microseconds(1330));  // as the sensor does
   }
-  source->stop();
-  ASSERT_FALSE(catcher.frames().empty()) << source->health().summary;
+  two.source->stop();
+  ASSERT_FALSE(two.catcher.frames().empty()) << two.source->health().summary;
 }
 
 TEST(UdpSource, WhoSendsInPlaceOfTheOneThatIsWaitedForIsNamed) {

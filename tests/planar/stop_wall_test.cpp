@@ -118,7 +118,7 @@ TEST(StopWall, TheFirstMetreTakesNoMoreThanThreeSeconds) {
 
 // Whichever way the wall goes: a line that begins at a chest and ends on the wall is no wall.
 TEST(StopWall, APersonBesideASlantingWallIsNoEndOfIt) {
-  constexpr double kWall_m = 2.4;
+  constexpr double kWall_m = 2.4;  // near enough that whoever stands there can reach the machine
   for (const double slant_rad : {0.1, 0.2, 0.3}) {
     for (const double radius_m : {0.17, 0.25}) {
       for (const double gap_m : {0.0, 0.2}) {

@@ -113,7 +113,7 @@ class Places {
     std::int32_t chest_mm, deep_mm, to_sensor;  // the sign of what is nearer to the sensor
   };
   static LineAxis line_axis(const Eigen::Vector2d& away, const std::int32_t* axis);
-  bool is_in_line_with(const Place& place, const Place& near, const Eigen::Vector2d& away, const LineAxis& axis) const;
+  bool is_of_line(const Place& place, const Place& near, const Eigen::Vector2d& away, const LineAxis& axis) const;
   bool goes_on(const Place& place, const Eigen::Vector2d& away, const std::int32_t* axis_step, std::int32_t side) const;
   static Eigen::Vector2d between_mm(const Place& from, const Place& to);
   bool is_line_at(const Place& place, const Eigen::Vector2d& away, const Eigen::Vector2d& along_mm, double at) const;

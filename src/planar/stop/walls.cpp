@@ -92,14 +92,12 @@ Eigen::Vector2d Places::between_mm(const Place& from, const Place& to) {
 }
 
 // Whether another place may be of a place's line: the place does not stand out of it.
-bool Places::is_in_line_with(const Place& place, const Place& near, const Eigen::Vector2d& away,
-                             const LineAxis& axis) const {
-  const std::int32_t x_mm = kPlace_mm * (near.ix - place.ix) + near.high_x_mm - place.high_x_mm;
-  const std::int32_t y_mm = kPlace_mm * (near.iy - place.iy) + near.high_y_mm - place.high_y_mm;
-  const std::int32_t deeper_mm = axis.to_sensor * (x_mm * axis.along_y - y_mm * axis.along_x);
+bool Places::is_of_line(const Place& place, const Place& near, const Eigen::Vector2d& away,
+                        const LineAxis& axis) const {
+  const Eigen::Vector2d there_mm = between_mm(place, near);
+  const double deeper_mm = axis.to_sensor * (there_mm.x() * axis.along_y - there_mm.y() * axis.along_x);
   if (deeper_mm > axis.deep_mm || deeper_mm < -axis.chest_mm) return false;
-  const Eigen::Vector2d away_there = away + Eigen::Vector2d(0.001 * x_mm, 0.001 * y_mm);
-  return was_seen_with(near, place) && has_stood(near, away_there);
+  return was_seen_with(near, place) && has_stood(near, away + 0.001 * there_mm);
 }
 
 // Whether a line goes on a step along an axis: there, or a place more or less far.
@@ -111,7 +109,7 @@ bool Places::goes_on(const Place& place, const Eigen::Vector2d& away, const std:
       const std::int32_t along = dx * axis.along_x + dy * axis.along_y;
       if (along > axis.along_most || along < -axis.along_most) continue;
       const Place* const near = known_at(place.ix + side * axis_step[0] + dx, place.iy + side * axis_step[1] + dy);
-      if (near != nullptr && is_in_line_with(place, *near, away, axis)) return true;
+      if (near != nullptr && is_of_line(place, *near, away, axis)) return true;
     }
   }
   return false;

@@ -14,7 +14,7 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
+constexpr std::uint32_t kNone = 0xFFFFFFFF;  // no reason, gate or part has this number
 constexpr const char* kNothing = "";
 
 // What helps against a cause: words of its own, else those of a gate, else those of a part of a level.

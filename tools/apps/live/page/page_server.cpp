@@ -25,7 +25,7 @@ namespace pose_wall::tools::live {
 namespace {
 
 constexpr std::size_t kViewersMost = 16;  // each takes a frame's events ten times a second
-// A viewer hears something at least so often, so that one that is gone is noticed.
+// A viewer hears something at least so often, so that one that is gone is noticed: at each turn of the server's timer.
 constexpr std::int64_t kSilentMost_ns = 500'000'000;
 // Ten publications of silence.
 constexpr std::int64_t kOld_ns = 1'000'000'000;

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <string_view>
@@ -73,6 +74,19 @@ std::optional<HostPort> parse_master_uri(const std::string& uri) {
   std::string rest = uri.substr(kScheme.size());
   if (!rest.empty() && rest.back() == '/') rest.pop_back();
   return parse_host_port(rest);
+}
+
+bool is_told(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
+MasterAddress master_of_environment() {
+  constexpr const char* kUsual = "http://localhost:11311";  // https://wiki.ros.org/ROS/EnvironmentVariables
+  const std::string uri = is_told("ROS_MASTER_URI") ? std::getenv("ROS_MASTER_URI") : kUsual;
+  const std::optional<HostPort> place = parse_master_uri(uri);
+  if (place) return {uri, *place};
+  throw std::runtime_error(fmt::format("ROS_MASTER_URI: '{}' is no address of a master; allowed: {}", uri, kUsual));
 }
 
 // By a thread of its own, because nobody can hurry a name server: it may outlive the line.

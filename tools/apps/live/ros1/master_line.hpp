@@ -22,6 +22,15 @@ namespace pose_wall::tools::live {
 // "http://HOST:PORT" or "http://HOST:PORT/" in its parts; nothing where it is none.
 std::optional<HostPort> parse_master_uri(const std::string& uri);
 
+struct MasterAddress {
+  std::string uri;
+  HostPort place;
+};
+// By ROS_MASTER_URI, else the usual one. Throws std::runtime_error that says what is allowed.
+MasterAddress master_of_environment();
+// Whether a variable of the environment says something.
+bool is_told(const char* variable);
+
 class MasterLine {
  public:
   // Listens at a free port of loopback from now on. Throws std::runtime_error where there is none.

@@ -30,10 +30,10 @@ namespace pose_wall::tools::live {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2;
+constexpr int kExitDone = 0, kExitFailed = 1, kExitUsage = 2;  // as pose_walld
 // Ros1Proxy misses it after two seconds.
 constexpr auto kStatusEvery = std::chrono::milliseconds(200);
-constexpr int kLook_ms = 100;
+constexpr int kLook_ms = 100;  // half of it: no status is late by more
 // proc(5), oom_score_adj: half of the memory is added to what it takes.
 constexpr int kGoesFirst = 500;
 

@@ -20,7 +20,6 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr const char* kUsualMaster = "http://localhost:11311";
 constexpr auto kLookForMaster = std::chrono::milliseconds(500);
 constexpr double kSpin_s = 0.05;
 constexpr std::uint32_t kQueueOut = 2;
@@ -28,11 +27,6 @@ constexpr std::uint32_t kQueueOut = 2;
 constexpr auto kFarewell = std::chrono::milliseconds(250);
 // roscpp tries again where the master went away between two calls; what was not registered then, the next look finds.
 constexpr double kRetry_s = 0.1;
-
-bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value != nullptr && *value != '\0';
-}
 
 // Hands on the bytes of any type as roscpp received them, without a copy.
 class BytesTaker final : public ros::SubscriptionCallbackHelper {
@@ -64,16 +58,7 @@ struct Ros1Node::Ros {
 };
 
 Ros1Node::Ros1Node(std::string name)
-    : name_(std::move(name)),
-      master_uri_(is_set("ROS_MASTER_URI") ? std::getenv("ROS_MASTER_URI") : kUsualMaster),
-      queue_(std::make_unique<ros::CallbackQueue>()) {
-  const std::optional<HostPort> master = parse_master_uri(master_uri_);
-  if (!master) {
-    throw std::runtime_error(
-        fmt::format("ROS_MASTER_URI: '{}' is no address of a master; allowed: {}", master_uri_, kUsualMaster));
-  }
-  master_ = *master;
-}
+    : name_(std::move(name)), master_(master_of_environment()), queue_(std::make_unique<ros::CallbackQueue>()) {}
 
 Ros1Node::~Ros1Node() {
   stop();
@@ -92,7 +77,7 @@ std::size_t Ros1Node::advertise(const std::string& topic, const RosType& type, b
 void Ros1Node::start() {
   if (master_thread_.joinable()) return;
   ending_ = false;
-  line_ = std::make_unique<MasterLine>(master_);
+  line_ = std::make_unique<MasterLine>(master_.place);
   if (!ros::isInitialized()) {
     ros::init(ros::M_string{{"__master", line_->uri()}}, name_,
               ros::init_options::NoSigintHandler | ros::init_options::NoRosout);

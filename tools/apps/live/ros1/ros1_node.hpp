@@ -82,8 +82,8 @@ class Ros1Node {
   void count_peers();
   void send(std::size_t number, const std::string& message);  // under the lock, with ros_
 
-  std::string name_, master_uri_;
-  HostPort master_;
+  std::string name_;
+  MasterAddress master_;
   std::vector<Subscription> subscriptions_;
   std::vector<Advertised> advertised_;
   std::unique_ptr<ros::CallbackQueue> queue_;

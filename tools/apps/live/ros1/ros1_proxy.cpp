@@ -15,21 +15,14 @@
 #include <utility>
 
 #include "apps/live/log.hpp"
-#include "apps/live/ros1/master_line.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr const char* kUsualMaster = "http://localhost:11311";
 // As many as roscpp keeps for a subscriber that is slow (Ros1Node).
 constexpr std::size_t kMessagesWaiting = 2;
 // How often it looks whether the process has been silent for too long.
 constexpr std::chrono::milliseconds kLook{100};
-
-bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value != nullptr && *value != '\0';
-}
 
 bool is_letter(char one) {
   return (one >= 'a' && one <= 'z') || (one >= 'A' && one <= 'Z');
@@ -59,17 +52,10 @@ double seconds(std::chrono::milliseconds time) {
 Ros1Proxy::Ros1Proxy(std::string name, std::string program, Times times)
     : name_(std::move(name)),
       program_(std::move(program)),
-      master_uri_(is_set("ROS_MASTER_URI") ? std::getenv("ROS_MASTER_URI") : kUsualMaster),
       times_(times),
+      master_(master_of_environment()),
       wakes_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-      queue_(kMessagesWaiting) {
-  const std::optional<HostPort> master = parse_master_uri(master_uri_);
-  if (!master) {
-    throw std::runtime_error(
-        fmt::format("ROS_MASTER_URI: '{}' is no address of a master; allowed: {}", master_uri_, kUsualMaster));
-  }
-  master_ = *master;
-}
+      queue_(kMessagesWaiting) {}
 
 Ros1Proxy::~Ros1Proxy() {
   stop();
@@ -89,9 +75,9 @@ std::size_t Ros1Proxy::advertise(const std::string& topic, const RosType& type, 
 // With the master on this machine, nobody else is expected until ROS_IP or ROS_HOSTNAME names an address. roscpp then
 // takes results and clouds on loopback alone, but lets itself be called on all addresses, whatever it is told.
 void Ros1Proxy::listen_where_allowed() const {
-  const bool is_told = is_set("ROS_IP") || is_set("ROS_HOSTNAME");
-  const bool is_local = is_loopback(master_.host);
-  if (!is_told && is_local) {
+  const bool names_address = is_told("ROS_IP") || is_told("ROS_HOSTNAME");
+  const bool is_local = is_loopback(master_.place.host);
+  if (!names_address && is_local) {
     setenv("ROS_IP", "127.0.0.1", 1);
     log_line(Grade::kGood, "ros1", "sends on loopback, for the master is there; ROS_IP=ADDRESS lets other machines in");
   }
@@ -287,7 +273,7 @@ std::string Ros1Proxy::trouble() const {
     return fmt::format("its process has not answered for {} s; after {} s it is started anew", seconds(times_.quiet),
                        seconds(times_.silent));
   }
-  return status_.has_master ? "" : "waits for the master at " + master_uri_;
+  return status_.has_master ? "" : "waits for the master at " + master_.uri;
 }
 
 void Ros1Proxy::add_facts(PartHealth* health) const {

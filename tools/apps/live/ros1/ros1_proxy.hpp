@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "apps/live/health.hpp"
+#include "apps/live/ros1/master_line.hpp"
 #include "apps/live/ros1/node_process.hpp"
 #include "apps/live/ros1/node_words.hpp"
 #include "apps/live/ros1/parcels.hpp"
@@ -98,9 +99,9 @@ class Ros1Proxy {
   bool send_waiting();
   bool is_silent();
 
-  std::string name_, program_, master_uri_;
+  std::string name_, program_;
   Times times_;
-  HostPort master_;
+  MasterAddress master_;
   std::vector<Subscription> subscriptions_;
   std::vector<Advertised> advertised_;
   std::thread thread_;

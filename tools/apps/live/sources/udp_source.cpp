@@ -257,14 +257,15 @@ class UdpSource final : public Source {
   // For a second nothing of use came, or no turn. What comes now may be of another run of the sensor, of another
   // sensor, or of one that was set up anew: then what was learned of it is wrong.
   void begin_anew() {
+    const bool has_turned = whole_turn_ns_ > began_ns_;
     began_ns_ = monotonic_ns();
     if (packets_of_use_ > 0) ++silences_;
     packets_of_use_ = 0;
     // Where two sensors sent at once, the other one must not take the place of the one that was read.
-    if (turns_ > 0 && are_two_ && assembler_ && assembler_->senders().chosen())
+    if (has_turned && are_two_ && assembler_ && assembler_->senders().chosen()) {
       wanted_ = assembler_->senders().chosen()->address;
+    }
     are_two_ = false;
-    turns_ = 0;
     assembler_.reset();
     metadata_.ask_again();
     is_first_turn_ = true;
@@ -275,7 +276,7 @@ class UdpSource final : public Source {
 
   // The first turn began before it was listened to.
   void hand_on(const Scan& scan, FrameTaker& taker) {
-    if (scan.is_complete) whole_turn_ns_ = monotonic_ns(), ++turns_;
+    if (scan.is_complete) whole_turn_ns_ = monotonic_ns();
     if (std::exchange(is_first_turn_, false) && !scan.is_complete) return;
     LiveFrame frame;
     frame.frame = frame_of(scan);
@@ -296,8 +297,8 @@ class UdpSource final : public Source {
   std::string wanted_;                   // of two that were heard the one that was read; "": any
   std::optional<std::uint32_t> sender_;  // as the settings name it
   bool is_first_turn_ = true;
-  std::uint64_t packets_of_use_ = 0, turns_ = 0;  // since it began anew; whole turns
-  std::int64_t whole_turn_ns_ = 0;
+  std::uint64_t packets_of_use_ = 0;  // since it began anew
+  std::int64_t whole_turn_ns_ = 0;    // when the last one came
   std::thread thread_;
   mutable std::mutex words_lock_;
   std::string part_ = "source udp", contradiction_, others_note_, others_counted_;

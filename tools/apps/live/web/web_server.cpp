@@ -15,6 +15,7 @@
 #include <cstring>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 namespace pose_wall::tools::live {
 namespace {
@@ -63,6 +64,15 @@ bool says_more(lws* connection) {
   char one = 0;
   const ssize_t got = recv(lws_get_socket_fd(connection), &one, 1, MSG_PEEK | MSG_DONTWAIT);
   return got >= 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR);
+}
+
+// The library writes its own words before the bytes. Who takes nothing of them is ended in time. False: it has gone.
+bool write_to(lws* connection, std::string_view bytes, lws_write_protocol kind) {
+  std::vector<unsigned char> piece(LWS_PRE + bytes.size());
+  std::memcpy(piece.data() + LWS_PRE, bytes.data(), bytes.size());
+  if (lws_write(connection, piece.data() + LWS_PRE, bytes.size(), kind) < 0) return false;
+  lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
+  return true;
 }
 
 // "localhost:8080", "[::1]:8080".
@@ -299,13 +309,10 @@ int WebServer::go_on(lws* connection) {
 
 int WebServer::send_content(lws* connection, Session* session) {
   const std::size_t left = session->content->size() - session->sent, now = std::min(left, kPieceBytes);
-  std::vector<unsigned char> piece(LWS_PRE + now);
-  std::memcpy(piece.data() + LWS_PRE, session->content->data() + session->sent, now);
   const bool is_last = now == left;
-  if (lws_write(connection, piece.data() + LWS_PRE, now, is_last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP) < 0)
-    return -1;
+  const auto piece = std::string_view(*session->content).substr(session->sent, now);
+  if (!write_to(connection, piece, is_last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP)) return -1;
   session->sent += now;
-  lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
   if (is_last) {
     const bool closes = session->closes;
     sessions_.erase(connection);
@@ -321,11 +328,8 @@ int WebServer::send_news(lws* connection, Session* session) {
   lws_set_timeout(connection, NO_PENDING_TIMEOUT, 0);
   const std::shared_ptr<const std::string> news = session->stream->next();
   if (!news) return 0;
-  std::vector<unsigned char> piece(LWS_PRE + news->size());
-  std::memcpy(piece.data() + LWS_PRE, news->data(), news->size());
-  if (lws_write(connection, piece.data() + LWS_PRE, news->size(), LWS_WRITE_HTTP) < 0) return -1;
+  if (!write_to(connection, *news, LWS_WRITE_HTTP)) return -1;
   session->sent_at = Clock::now();
-  lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
   lws_callback_on_writable(connection);
   return 0;
 }

@@ -5,14 +5,14 @@ function may_steer(f, q) { return recording.steer[recording.at(f, q)] >= recordi
 
 function steer_text(cause) { return recording.words.steer_texts[page.language][cause]; }
 
-// In degrees or m. share: NaN, for a frame is no share of anything.
-function steering_of(f) {
-  return QUANTITIES.map((name, q) => {
-    const i = recording.at(f, q), state = recording.state[i];
-    return { q, may: may_steer(f, q), cause: recording.steer[i], share: NaN, limit: recording.alert(q),
-      is_measured: state >= DEGRADED && Number.isFinite(recording.raw[i]), level: recording.bound_of(f, q) };
-  });
+// Of one value, in degrees or m. share: NaN, for a frame is no share of anything.
+function steering_of_value(f, q) {
+  const i = recording.at(f, q), state = recording.state[i];
+  return { q, may: may_steer(f, q), cause: recording.steer[i], share: NaN, limit: recording.alert(q),
+    is_measured: state >= DEGRADED && Number.isFinite(recording.raw[i]), level: recording.bound_of(f, q) };
 }
+
+function steering_of(f) { return QUANTITIES.map((name, q) => steering_of_value(f, q)); }
 
 // Once, where all are the same.
 function each_once(texts) { return [...new Set(texts)].length === 1 ? texts[0] : words().listed(texts); }

@@ -4,7 +4,7 @@
 // By the most frequent cause, as the rule of tools/study/steer/steer_tally.cpp. causes: of each its frames.
 function steer_of_all(q, causes, share) {
   const [cause, frames] = [...causes].sort((a, b) => b[1].length - a[1].length || a[0] - b[0])[0] || [0, []];
-  const levels = frames.map((f) => steering_of(f)[q]).filter((x) => x.is_measured && !Number.isNaN(x.level)).map((x) => x.level);
+  const levels = frames.map((f) => steering_of_value(f, q)).filter((x) => x.is_measured && !Number.isNaN(x.level)).map((x) => x.level);
   return { q, cause, share, limit: recording.alert(q), is_measured: 2 * levels.length > frames.length, level: quantile(levels, 0.5) };
 }
 
