@@ -103,7 +103,12 @@ void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
   if (!live.can.empty()) add(make_can_sink(loaded_, runtime_, guard_.get()));
   if (commands_ && loaded_.planar.command_can != 0.0) add(make_can_commands(loaded_, *commands_));
   if (!live.mqtt.empty()) add(make_mqtt_sink(loaded_, *this));
-  if (!live.http.empty()) add(make_page_sink(loaded_, *this, guard_.get()));
+  if (live.http.empty()) return;
+  std::unique_ptr<Commissioning> commissioning;
+  if (live.commissioning) commissioning = make_commissioning(loaded_, *this, [this] { restarts_ = true; });
+  WebPart* const more = commissioning.get();
+  add(make_page_sink(loaded_, *this, guard_.get(), more));  // before what it answers for: sinks end in this order
+  if (commissioning) add(std::move(commissioning));
 }
 
 void Daemon::add(std::unique_ptr<Sink> sink) {
@@ -194,7 +199,7 @@ void Daemon::run(const std::atomic<bool>& stop_asked, std::atomic<bool>& looked,
   service_.ready();
   const auto status_every = std::chrono::duration<double>(loaded_.live.status_every_s);
   Clock::time_point status_last = Clock::now();
-  while (!stop_asked && !source_->is_finished()) {
+  while (!stop_asked && !restarts_ && !source_->is_finished()) {
     look_around(looked);
     if (Clock::now() - status_last >= status_every) {
       status_last = Clock::now();
@@ -202,13 +207,16 @@ void Daemon::run(const std::atomic<bool>& stop_asked, std::atomic<bool>& looked,
     }
     std::this_thread::sleep_for(kLook);
   }
-  service_.stopping();
-  const bool was_asked = stop_asked;
+  if (!restarts_) service_.stopping();
+  const bool was_asked = stop_asked || restarts_;
   if (!was_asked) is_through();
   const std::string failure = was_asked ? "" : source_->failure();
   // What failed stands in the source's line of status.
   if (failure.empty()) {
-    log_line(Grade::kGood, "pose_walld", was_asked ? "stops, as asked" : "the recording is through");
+    log_line(Grade::kGood, "pose_walld",
+             restarts_   ? "ends, to start with the settings that were saved"
+             : was_asked ? "stops, as asked"
+                         : "the recording is through");
   }
   log_status();
   stop();

@@ -35,6 +35,9 @@ class Daemon final : public HealthBoard {
   // be played to its end or holds no cloud.
   void run(const std::atomic<bool>& stop, std::atomic<bool>& looked, const std::function<void()>& is_through);
 
+  // Whether it ended to be started again with settings that were saved meanwhile.
+  bool restarts() const { return restarts_; }
+
   std::vector<PartHealth> all() const override;
 
  private:
@@ -59,6 +62,7 @@ class Daemon final : public HealthBoard {
   std::unique_ptr<StopGuard> guard_;  // where the key `planar` is on
   std::unique_ptr<SinkThread> roadway_;
   std::vector<std::unique_ptr<SinkThread>> sinks_;
+  std::atomic<bool> restarts_{false};
   ServiceManager service_;
   HealthLog health_log_;
 };

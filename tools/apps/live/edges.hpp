@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,7 @@
 #include "apps/live/planar/planar_news.hpp"
 #include "apps/live/sink.hpp"
 #include "apps/live/source.hpp"
+#include "apps/live/web/web_part.hpp"
 #include "io/config_file/load_config.hpp"
 
 namespace pose_wall::tools::live {
@@ -57,8 +59,13 @@ std::unique_ptr<Sink> make_can_sink(const LoadedConfig& loaded, const Images& im
 // Reads commands of the drive from planar_command_can.
 std::unique_ptr<Sink> make_can_commands(const LoadedConfig& loaded, CommandBoard& commands);
 std::unique_ptr<Sink> make_mqtt_sink(const LoadedConfig& loaded, const HealthBoard& health);
-// stop: as above.
-std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop);
+// stop: as above. more: what else the server answers; none: nothing.
+std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop,
+                                     WebPart* more);
+// restart: called once the page asks for a start with the settings that it has saved. From any thread.
+class Commissioning : public Sink, public WebPart {};
+std::unique_ptr<Commissioning> make_commissioning(const LoadedConfig& loaded, const HealthBoard& health,
+                                                  std::function<void()> restart);
 std::unique_ptr<Sink> make_recorder(const LoadedConfig& loaded, const HealthBoard& health);
 
 // What the runtime writes its black box with: a ring file for each start, in a folder of bounded size.

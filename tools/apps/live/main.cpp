@@ -9,9 +9,11 @@
 
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <thread>
 
@@ -92,7 +94,8 @@ class StopSignals {
   std::thread thread_;
 };
 
-int run(Words words) {
+// True: with other settings, again.
+bool run(Words words) {
   if (!words.http.empty()) words.settings.push_back("http=" + words.http);
   if (!words.modbus.empty()) words.settings.push_back("modbus=" + words.modbus);
   const LoadedConfig loaded = load_config(words.config_file, words.settings);
@@ -102,7 +105,15 @@ int run(Words words) {
   StopSignals signals;
   Daemon daemon(loaded, replay);
   daemon.run(signals.asked(), signals.looked(), [&signals] { signals.ask_at_end(); });
-  return kExitDone;
+  return daemon.restarts();
+}
+
+// The same program with the same words takes this one's place: for systemd it is the same process. What a library left
+// open would keep its port.
+void start_again(char** argv) {
+  close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
+  execv("/proc/self/exe", argv);
+  throw std::runtime_error(fmt::format("cannot be started again: {}", std::strerror(errno)));
 }
 
 std::string footer() {
@@ -158,7 +169,8 @@ int main_of(int argc, char** argv) {
   add_options(&app, &words);
   try {
     app.parse(argc, argv);
-    return run(words);
+    if (run(words)) start_again(argv);
+    return kExitDone;
   } catch (const CLI::ParseError& fault) {
     if (fault.get_exit_code() == 0) return app.exit(fault);
     fmt::print(stderr, "pose_walld: {}\n{}\n", parse_fault_text(app, fault), tr("See pose_walld --help."));

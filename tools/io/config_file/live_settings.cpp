@@ -86,9 +86,28 @@ const std::vector<Row>& rows() {
        &LiveSettings::ros_distro},
       {{"http", kSinks, Type::kHostPort, "", 0, 0, "",
         translatable(
-            "address of the page, HOST:PORT; empty: no page. Everybody who reaches it can read; nobody can change "
-            "anything")},
+            "address of the page, HOST:PORT; empty: no page. Everybody who reaches it can read, unless http_login is "
+            "set. Nobody can change anything, unless commissioning is on")},
        &LiveSettings::http},
+      {{"http_names", kSinks, Type::kText, "", 0, 0, "",
+        translatable("more names under which the page may be asked for, with blanks between, as roadheader7.mine. "
+                     "This machine's own name and addresses are known")},
+       &LiveSettings::http_names},
+      {{"http_login", kSinks, Type::kText, "", 0, 0, "",
+        translatable("file of those who may look: NAME:HASH in each line, the hash by `openssl passwd -6`. Empty: "
+                     "everybody. Beyond loopback it needs http_certificate")},
+       &LiveSettings::http_login},
+      {{"http_certificate", kSinks, Type::kText, "", 0, 0, "",
+        translatable("file with certificate and key (PEM): the page is then served by HTTPS. Empty: by HTTP")},
+       &LiveSettings::http_certificate},
+      {{"commissioning", kSinks, Type::kSwitch, "1", 0, 0, "",
+        translatable("1: who knows the code in the log may commission the machine from the page. It needs "
+                     "commissioned, and beyond loopback http_certificate")},
+       &LiveSettings::commissioning},
+      {{"commissioned", kSinks, Type::kText, "", 0, 0, "",
+        translatable("folder of what was commissioned from the page. Its settings.yaml stands over this file; empty: "
+                     "none. A key site.pem in it (Ed25519) signs the evidence")},
+       &LiveSettings::commissioned},
       {{"modbus", kSinks, Type::kHostPort, "", 0, 0, "",
         translatable(
             "address of the Modbus TCP server, HOST:PORT; empty: none. It serves reads of input registers, and writes "
@@ -197,6 +216,19 @@ bool set_live_value(LiveSettings* settings, const OutsideKey& key, const std::st
   if (value != "0" && value != "1") return false;
   settings->*std::get<bool LiveSettings::*>(member) = value == "1";
   return true;
+}
+
+std::string broken_page_rule(const LiveSettings& settings) {
+  if (settings.commissioning && settings.commissioned.empty()) {
+    return tr("commissioning needs commissioned, a folder for what is saved");
+  }
+  if (settings.commissioning && settings.http.empty()) return tr("commissioning needs http, the address of the page");
+  const std::optional<HostPort> place = parse_host_port(settings.http);
+  if (!place || is_loopback(place->host) || !settings.http_certificate.empty()) return "";
+  // Whoever listens on the way would know the code or the password.
+  if (settings.commissioning) return tr("commissioning beyond loopback needs http_certificate");
+  if (!settings.http_login.empty()) return tr("http_login beyond loopback needs http_certificate");
+  return "";
 }
 
 std::optional<HostPort> parse_host_port(const std::string& text) {

@@ -28,7 +28,11 @@ struct LiveSettings {
   bool ros1 = false, ros2 = false;
   std::string ros_distro = "humble";
   std::string http, modbus, mqtt;  // HOST:PORT; empty: off
-  std::string can;                 // interface; empty: off
+  std::string http_names;          // with blanks between
+  std::string http_login, http_certificate;
+  bool commissioning = false;
+  std::string commissioned;  // a folder
+  std::string can;           // interface; empty: off
   std::string can_frames = "11bit";
   double can_first = 0, can_address = 128;
   std::string mqtt_topic = "pose_wall";
@@ -59,6 +63,9 @@ std::optional<HostPort> parse_host_port(const std::string& text);
 
 // "192.168.1.201" as captures number it (Sender::address); nothing where it is no IPv4 address.
 std::optional<std::uint32_t> parse_ipv4(const std::string& text);
+
+// The rule over the keys of the page that is broken; empty: none.
+std::string broken_page_rule(const LiveSettings& settings);
 
 // "localhost" and addresses of 127.0.0.0/8 and ::1. A name that begins as such an address is none.
 bool is_loopback(const std::string& host);

@@ -57,11 +57,27 @@ class ConfigLoader {
     apply("--set", setting.substr(0, equals), setting.substr(equals + 1), false);
   }
 
+  // What was commissioned from the page stands over the files. A word of the command line may name its folder.
+  void apply_commissioned(const std::vector<std::string>& settings) {
+    const std::string word = "commissioned=";
+    std::string folder = loaded_.live.commissioned;
+    for (const std::string& setting : settings) {
+      if (setting.compare(0, word.size(), word) == 0) folder = setting.substr(word.size());
+    }
+    if (folder.empty()) return;
+    const std::string file = commissioned_file(folder);
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored)) return apply_file({file, "", ""});
+    note(say("commissioned: {} is not there yet: nothing was commissioned", file));
+  }
+
   void check_rules() {
     if (loaded_.live.extrinsic_from == "tf" && loaded_.live.source == "udp") {
       fault(say("extrinsic_from ({}): tf comes by ROS, so source ({}) must be ros1 or ros2",
                 loaded_.origin("extrinsic_from"), loaded_.origin("source")));
     }
+    const std::string page_rule = broken_page_rule(loaded_.live);
+    if (!page_rule.empty()) fault(page_rule);
     const std::string planar_rule = broken_planar_rule(loaded_.planar);
     if (!planar_rule.empty()) fault(planar_rule);
     const std::string command_rule = broken_command_rule(loaded_.planar, loaded_.live);
@@ -218,12 +234,20 @@ std::string LoadedConfig::origin(const std::string& key) const {
   return set != origins.end() ? set->second : "default";
 }
 
+std::string commissioned_file(const std::string& folder) {
+  return (std::filesystem::path(folder) / "settings.yaml").string();
+}
+
 LoadedConfig load_config(const std::string& files, const std::vector<std::string>& settings) {
   ConfigLoader loader;
   for (const ConfigPlace& place : find_configs(files)) loader.apply_file(place);
+  loader.apply_commissioned(settings);
   for (const std::string& setting : settings) loader.apply_setting(setting);
   loader.check_rules();
-  return loader.take();
+  LoadedConfig loaded = loader.take();
+  loaded.asked_files = files;
+  loaded.asked_settings = settings;
+  return loaded;
 }
 
 void tell_notes(const LoadedConfig& loaded, bool quiet) {

@@ -20,7 +20,9 @@ namespace pose_wall::tools {
 
 struct LoadedConfig {
   api::Config config;
-  std::string file;       // that was read, or files with commas between them; empty: none
+  std::string file;                         // that was read, or files with commas between them; empty: none
+  std::string asked_files;                  // as load_config was asked, so that it can be asked again
+  std::vector<std::string> asked_settings;  // likewise
   std::string notes;      // what a person should know of their choice and order, a line each; empty: nothing
   LiveSettings live;      // of pose_walld; the engine does not read them
   PlanarSettings planar;  // likewise
@@ -37,9 +39,13 @@ class ConfigError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Defaults, then each file or config of that name in turn (find_configs; "": none), then each KEY=VALUE in turn; then
-// the rules over several keys. All faults are collected before anything is thrown. Throws ConfigError.
+// Defaults, then each file or config of that name in turn (find_configs; "": none), then what was commissioned, then
+// each KEY=VALUE in turn; then the rules over several keys. All faults are collected before anything is thrown. Throws
+// ConfigError.
 LoadedConfig load_config(const std::string& files, const std::vector<std::string>& settings);
+
+// Where the page saves the settings of a machine, in the folder of the key `commissioned`.
+std::string commissioned_file(const std::string& folder);
 
 // The notes, on stderr.
 void tell_notes(const LoadedConfig& loaded, bool quiet);

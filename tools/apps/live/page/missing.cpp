@@ -7,7 +7,7 @@
 
 namespace pose_wall::tools::live {
 
-std::unique_ptr<Sink> make_page_sink(const LoadedConfig&, const HealthBoard&, const StopBoard*) {
+std::unique_ptr<Sink> make_page_sink(const LoadedConfig&, const HealthBoard&, const StopBoard*, WebPart*) {
   throw EdgeMissing("this build has no page: install libwebsockets-dev, configure and build again");
 }
 

@@ -43,16 +43,18 @@ WebAnswer json(int status, const std::string& content) {
 
 class PageServer final : public Sink {
  public:
-  PageServer(const LoadedConfig& loaded, const HealthBoard& board, const StopBoard* stop)
+  PageServer(const LoadedConfig& loaded, const HealthBoard& board, const StopBoard* stop, WebPart* more)
       : loaded_(loaded),
         board_(board),
         stop_(stop),
+        more_(more),
         line_(stop_settings_of(loaded.planar), config_text(*loaded.config.get(), "forward_axis")),
         place_(*parse_host_port(loaded.live.http)),
-        server_(place_, {{"content-security-policy", kPolicy},
-                         {"x-content-type-options", "nosniff"},
-                         {"referrer-policy", "no-referrer"},
-                         {"cache-control", "no-store"}}) {}
+        server_(place_, WebAccess(loaded.live, place_),
+                {{"content-security-policy", kPolicy},
+                 {"x-content-type-options", "nosniff"},
+                 {"referrer-policy", "no-referrer"},
+                 {"cache-control", "no-store"}}) {}
   ~PageServer() override { stop(); }
 
   void start() override {
@@ -144,6 +146,7 @@ class PageServer final : public Sink {
     server_.get("/planar.json", [this] { return planar(); });
     server_.get("/map.png", [this] { return map(); });
     server_.get("/health", [this] { return health_of_all(); });
+    if (more_ != nullptr) more_->serve(server_);
   }
 
   // What one viewer is sent.
@@ -242,6 +245,7 @@ class PageServer final : public Sink {
   LoadedConfig loaded_;
   const HealthBoard& board_;
   const StopBoard* stop_;
+  WebPart* more_;
   const StopLine line_;
   HostPort place_;
   Broadcast broadcast_;
@@ -260,8 +264,9 @@ class PageServer final : public Sink {
 
 }  // namespace
 
-std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop) {
-  return std::make_unique<PageServer>(loaded, health, stop);
+std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop,
+                                     WebPart* more) {
+  return std::make_unique<PageServer>(loaded, health, stop, more);
 }
 
 }  // namespace pose_wall::tools::live

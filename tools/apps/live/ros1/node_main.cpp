@@ -9,7 +9,6 @@
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -116,8 +115,6 @@ class NodeServer {
 void live_and_die_with_daemon() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGPIPE}) std::signal(signal, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Files and ports of the daemon that a library of it left open; systems before Linux 5.9 cannot.
-  syscall(SYS_close_range, kNodeSocket + 1, ~0U, 0);
   // Where memory is short, this one goes before the daemon.
   std::ofstream("/proc/self/oom_score_adj") << kGoesFirst;
 }

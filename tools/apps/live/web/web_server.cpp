@@ -11,8 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -53,7 +55,11 @@ bool is_head(lws* connection) {
   return lws_hdr_total_length(connection, WSI_TOKEN_HEAD_URI) > 0;
 }
 
-// What it would send is not read, and the library would wait for it.
+bool is_post(lws* connection) {
+  return lws_hdr_total_length(connection, WSI_TOKEN_POST_URI) > 0;
+}
+
+// What it would send is not read where nobody takes it, and the library would wait for it.
 bool has_body(lws* connection) {
   const std::string length = header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH);
   return (!length.empty() && length != "0") || !header(connection, WSI_TOKEN_HTTP_TRANSFER_ENCODING).empty();
@@ -73,12 +79,6 @@ bool write_to(lws* connection, std::string_view bytes, lws_write_protocol kind) 
   if (lws_write(connection, piece.data() + LWS_PRE, bytes.size(), kind) < 0) return false;
   lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
   return true;
-}
-
-// "localhost:8080", "[::1]:8080".
-std::string host_of(const std::string& header) {
-  if (!header.empty() && header.front() == '[') return header.substr(1, header.find(']') - 1);
-  return header.substr(0, header.rfind(':'));
 }
 
 struct Address {
@@ -119,7 +119,12 @@ WebAnswer web_answer(int status, std::string type, std::string content) {
 // Of one request.
 struct WebServer::Session {
   std::shared_ptr<const std::string> content;
-  std::size_t sent = 0;
+  std::ifstream file;       // in place of the content
+  std::uint64_t bytes = 0;  // of either
+  std::uint64_t sent = 0;
+  const Take* take = nullptr;  // who takes the body, while it comes
+  Clock::time_point began = Clock::now();
+  WebRequest request;
   bool closes = false;  // after the answer: what else was sent is not read
   std::unique_ptr<WebStream> stream;
   std::optional<Clock::time_point> sent_at;  // of news that the viewer has not taken yet
@@ -138,9 +143,9 @@ struct WebLoop {
       case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
         return -1;  // nothing else is spoken here
       case LWS_CALLBACK_HTTP_BODY:
-      case LWS_CALLBACK_HTTP_BODY_COMPLETION:  // is not read, and lengthens nothing
-        lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
-        return 0;
+        return server->gather_body(connection, {static_cast<const char*>(in), length});
+      case LWS_CALLBACK_HTTP_BODY_COMPLETION:
+        return server->end_body(connection);
       case LWS_CALLBACK_EVENT_WAIT_CANCELLED:
         server->wake_streams();
         return 0;
@@ -165,15 +170,23 @@ struct WebLoop {
   };
 };
 
-WebServer::WebServer(HostPort place, std::vector<std::pair<std::string, std::string>> usual_headers)
-    : place_(std::move(place)), usual_headers_(std::move(usual_headers)) {}
+WebServer::WebServer(HostPort place, WebAccess access, std::vector<std::pair<std::string, std::string>> usual_headers)
+    : place_(std::move(place)), access_(std::move(access)), usual_headers_(std::move(usual_headers)) {}
 
 WebServer::~WebServer() {
   stop();
 }
 
 void WebServer::get(const std::string& path, Give give) {
+  gives_[path] = [give = std::move(give)](const WebRequest& /*request*/) { return give(); };
+}
+
+void WebServer::get(const std::string& path, Take give) {
   gives_[path] = std::move(give);
+}
+
+void WebServer::post(const std::string& path, Take take) {
+  takes_[path] = std::move(take);
 }
 
 void WebServer::start() {
@@ -191,6 +204,11 @@ void WebServer::start() {
   info.keepalive_timeout = kTimeout_s;
   info.server_string = "pose_walld";
   info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
+  const std::string& certificate = access_.certificate_file();
+  if (!certificate.empty()) {
+    info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
+    info.ssl_cert_filepath = info.ssl_private_key_filepath = certificate.c_str();
+  }
   if (address) {
     if (!address->is_ipv6) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
     const bool is_any = address->numbers == "0.0.0.0" || address->numbers == "::";
@@ -198,9 +216,9 @@ void WebServer::start() {
     context_ = lws_create_context(&info);
   }
   if (context_ == nullptr) {
-    throw std::runtime_error(
-        fmt::format("cannot listen at {}:{}: the port is taken, not allowed, or the address is not this machine's",
-                    place_.host, place_.port));
+    throw std::runtime_error(fmt::format(
+        "cannot listen at {}:{}: the port is taken, not allowed, or the address is not this machine's{}", place_.host,
+        place_.port, certificate.empty() ? "" : "; or the certificate and its key do not fit"));
   }
   ending_ = false;
   serves_ = true;
@@ -239,29 +257,41 @@ void WebServer::wake_streams() {
   }
 }
 
-// Nothing but reading; and on loopback only under this machine's own names, or a page of somebody else's whose name is
-// pointed here could read it (DNS rebinding).
-WebAnswer WebServer::answer_to(lws* connection, const std::string& path) const {
-  if (!is_get(connection) && !is_head(connection)) {
+// Why it is not answered. One small request with ranges could ask for the page a thousand times.
+std::optional<WebAnswer> WebServer::refusal_of(lws* connection, const std::string& path) {
+  const bool is_taken = takes_.count(path) > 0, is_reading = is_get(connection) || is_head(connection);
+  if (!is_reading && !(is_taken && is_post(connection))) {
     WebAnswer answer = web_answer(405, "text/plain", "only GET and HEAD: nothing can be changed here\n");
     answer.headers.emplace_back("allow", "GET, HEAD");
     return answer;
   }
-  if (has_body(connection)) return web_answer(400, "text/plain", "a request has no body here\n");
-  // One small request could ask for the page a thousand times.
+  if (is_reading && has_body(connection)) return web_answer(400, "text/plain", "a request has no body here\n");
   if (!header(connection, WSI_TOKEN_HTTP_RANGE).empty()) return web_answer(416, "text/plain", "parts are not given\n");
-  if (is_loopback(place_.host) && !is_loopback(host_of(header(connection, WSI_TOKEN_HOST)))) {
-    return web_answer(421, "text/plain", "ask for localhost or 127.0.0.1\n");
+  if (!access_.is_own_name(header(connection, WSI_TOKEN_HOST))) {
+    return web_answer(421, "text/plain",
+                      is_loopback(place_.host) ? "ask for localhost or 127.0.0.1\n"
+                                               : "ask by this machine's address or name, or by one of http_names\n");
   }
-  const auto give = gives_.find(path);
-  return give == gives_.end() ? web_answer(404, "text/plain", "there is nothing of this name\n") : give->second();
+  const WebAccess::Login login = access_.login(header(connection, WSI_TOKEN_HTTP_AUTHORIZATION));
+  if (login == WebAccess::Login::kTooOften) {
+    WebAnswer answer = web_answer(429, "text/plain", "too many logins at once: try again\n");
+    answer.headers.emplace_back("retry-after", "1");
+    return answer;
+  }
+  if (login != WebAccess::Login::kGood) {
+    WebAnswer answer = web_answer(401, "text/plain", "log in by name and password\n");
+    answer.headers.emplace_back("www-authenticate", R"(Basic realm="pose_wall", charset="UTF-8")");
+    return answer;
+  }
+  if (is_reading && gives_.count(path) == 0) return web_answer(404, "text/plain", "there is nothing of this name\n");
+  return std::nullopt;
 }
 
-bool WebServer::send_head(lws* connection, const WebAnswer& answer) const {
+bool WebServer::send_head(lws* connection, const WebAnswer& answer, std::uint64_t bytes) const {
   std::array<unsigned char, LWS_PRE + kHeadBytes> head{};
   unsigned char* const begin = head.data() + LWS_PRE;
   unsigned char *at = begin, *const end = head.data() + head.size();
-  const lws_filepos_t length = answer.stream ? LWS_ILLEGAL_HTTP_CONTENT_LEN : answer.content->size();
+  const lws_filepos_t length = answer.stream ? LWS_ILLEGAL_HTTP_CONTENT_LEN : bytes;
   if (lws_add_http_common_headers(connection, static_cast<unsigned>(answer.status), answer.type.c_str(), length, &at,
                                   end) != 0) {
     return false;
@@ -281,11 +311,72 @@ bool WebServer::send_head(lws* connection, const WebAnswer& answer) const {
 
 // The library closes the connection for all that is not 0.
 int WebServer::begin(lws* connection, const std::string& path) {
-  WebAnswer answer = answer_to(connection, path);
-  if (!send_head(connection, answer)) return -1;
-  const bool closes = !(is_get(connection) || is_head(connection)) || has_body(connection);
-  if (is_head(connection) || (!answer.stream && answer.content->empty())) return complete(connection, closes);
+  std::optional<WebAnswer> refusal = refusal_of(connection, path);
+  if (refusal) return give(connection, std::move(*refusal), is_post(connection) || has_body(connection));
+  if (is_post(connection)) return begin_body(connection, takes_.at(path));
+  const WebRequest request{header(connection, WSI_TOKEN_HTTP_COOKIE), ""};
+  return give(connection, gives_.at(path)(request), false);
+}
+
+// A page of somebody else's can have a browser send text, and nothing that is called JSON.
+int WebServer::begin_body(lws* connection, const Take& take) {
+  const std::string kind = header(connection, WSI_TOKEN_HTTP_CONTENT_TYPE);
+  const std::string length = header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH);
+  std::uint64_t bytes = 0;
+  const auto [end, fault] = std::from_chars(length.data(), length.data() + length.size(), bytes);
+  if (kind.compare(0, std::strlen("application/json"), "application/json") != 0) {
+    return give(connection, web_answer(415, "text/plain", "a message is application/json here\n"), true);
+  }
+  if (fault != std::errc() || end != length.data() + length.size() || bytes == 0) {
+    return give(connection, web_answer(411, "text/plain", "a message tells its length here\n"), true);
+  }
+  if (bytes > kBodyBytesMost) {
+    return give(connection,
+                web_answer(413, "text/plain", fmt::format("a message has at most {} bytes here\n", kBodyBytesMost)),
+                true);
+  }
   auto session = std::make_unique<Session>();
+  session->take = &take;
+  session->request.cookies = header(connection, WSI_TOKEN_HTTP_COOKIE);
+  sessions_[connection] = std::move(session);
+  lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
+  return 0;
+}
+
+// A message must be there in time as a whole: bytes that come one by one lengthen nothing.
+int WebServer::gather_body(lws* connection, std::string_view bytes) {
+  const auto session = sessions_.find(connection);
+  if (session == sessions_.end() || session->second->take == nullptr) {  // it was refused, and is not read
+    lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
+    return 0;
+  }
+  std::string& body = session->second->request.body;
+  body.append(bytes);
+  const bool is_late = Clock::now() - session->second->began > std::chrono::seconds(kTimeout_s);
+  return is_late || body.size() > kBodyBytesMost ? -1 : 0;
+}
+
+int WebServer::end_body(lws* connection) {
+  const auto session = sessions_.find(connection);
+  if (session == sessions_.end() || session->second->take == nullptr) return gather_body(connection, {});
+  const Take& take = *session->second->take;
+  const WebRequest request = std::move(session->second->request);
+  sessions_.erase(session);
+  return give(connection, take(request), false);
+}
+
+int WebServer::give(lws* connection, WebAnswer answer, bool closes) {
+  auto session = std::make_unique<Session>();
+  if (!answer.file.empty()) {
+    session->file.open(answer.file, std::ios::binary | std::ios::ate);
+    if (!session->file) answer = web_answer(404, "text/plain", "the file is gone\n");
+  }
+  session->bytes = session->file.is_open() ? static_cast<std::uint64_t>(session->file.tellg())
+                   : answer.content        ? answer.content->size()
+                                           : 0;
+  session->file.seekg(0);
+  if (!send_head(connection, answer, session->bytes)) return -1;
+  if (is_head(connection) || (!answer.stream && session->bytes == 0)) return complete(connection, closes);
   session->content = std::move(answer.content);
   session->stream = std::move(answer.stream);
   session->closes = closes;
@@ -302,15 +393,22 @@ int WebServer::complete(lws* connection, bool closes) {
 
 int WebServer::go_on(lws* connection) {
   const auto session = sessions_.find(connection);
-  if (session == sessions_.end()) return 0;
+  if (session == sessions_.end() || session->second->take != nullptr) return 0;
   return session->second->stream ? send_news(connection, session->second.get())
                                  : send_content(connection, session->second.get());
 }
 
 int WebServer::send_content(lws* connection, Session* session) {
-  const std::size_t left = session->content->size() - session->sent, now = std::min(left, kPieceBytes);
-  const bool is_last = now == left;
-  const auto piece = std::string_view(*session->content).substr(session->sent, now);
+  const auto now = static_cast<std::size_t>(std::min<std::uint64_t>(session->bytes - session->sent, kPieceBytes));
+  const bool is_last = session->sent + now == session->bytes;
+  std::string from_file;
+  if (session->file.is_open()) {
+    from_file.resize(now);
+    if (!session->file.read(from_file.data(), static_cast<std::streamsize>(now))) return -1;  // it became shorter
+  }
+  const std::string_view piece = session->file.is_open()
+                                     ? std::string_view(from_file)
+                                     : std::string_view(*session->content).substr(session->sent, now);
   if (!write_to(connection, piece, is_last ? LWS_WRITE_HTTP_FINAL : LWS_WRITE_HTTP)) return -1;
   session->sent += now;
   if (is_last) {

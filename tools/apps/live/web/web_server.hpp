@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// A small web server that only gives: answers to GET, and streams of events. One thread serves all connections by an
-// event loop (libwebsockets). So a client that is slow, idle or silent costs a descriptor and nobody's time. The server
-// stops within milliseconds, whatever its clients do.
+// A small web server: answers to GET, streams of events, and short messages by POST where somebody takes them. One
+// thread serves all connections by an event loop (libwebsockets). So a client that is slow, idle or silent costs a
+// descriptor and nobody's time. The server stops within milliseconds, whatever its clients do.
 
 #pragma once
 
@@ -11,12 +11,15 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "apps/live/web/web_access.hpp"
 #include "io/config_file/live_settings.hpp"
 
 struct lws;
@@ -41,24 +44,34 @@ struct WebAnswer {
   std::shared_ptr<const std::string> content;
   std::vector<std::pair<std::string, std::string>> headers;  // "retry-after", "5": beside those of all answers
   std::unique_ptr<WebStream> stream;                         // in place of the content
+  std::string file;                                          // likewise: a file of any size, read as it is sent
 };
 WebAnswer web_answer(int status, std::string type, std::shared_ptr<const std::string> content);
 WebAnswer web_answer(int status, std::string type, std::string content);
+
+struct WebRequest {
+  std::string cookies;  // as the browser sends them
+  std::string body;     // of a POST: JSON
+};
 
 class WebServer {
  public:
   // In the server's thread: must not wait, as everybody else does meanwhile.
   using Give = std::function<WebAnswer()>;
+  using Take = std::function<WebAnswer(const WebRequest&)>;
 
   // usual_headers: of each answer.
-  WebServer(HostPort place, std::vector<std::pair<std::string, std::string>> usual_headers);
+  WebServer(HostPort place, WebAccess access, std::vector<std::pair<std::string, std::string>> usual_headers);
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
   ~WebServer();
 
-  // Before start. Any other path gets 404, any other method than GET and HEAD 405.
+  // Before start. A path that nobody has named gets 404, another method 405. A body is JSON of at most kBodyBytesMost.
+  static constexpr std::size_t kBodyBytesMost = 65536;
   void get(const std::string& path, Give give);
-  // Throws std::runtime_error where the address cannot be listened at.
+  void get(const std::string& path, Take give);
+  void post(const std::string& path, Take take);
+  // Throws std::runtime_error where the address cannot be listened at, or the certificate is of no use.
   void start();
   // Streams have news, or may have; from any thread.
   void wake();
@@ -77,17 +90,22 @@ class WebServer {
   void serve();
   void wake_streams();
   int begin(lws* connection, const std::string& path);
+  int begin_body(lws* connection, const Take& take);
+  int gather_body(lws* connection, std::string_view bytes);
+  int end_body(lws* connection);
+  int give(lws* connection, WebAnswer answer, bool closes);
   int go_on(lws* connection);
   static int complete(lws* connection, bool closes);
   int send_content(lws* connection, Session* session);
   int send_news(lws* connection, Session* session);
-  bool send_head(lws* connection, const WebAnswer& answer) const;
-  WebAnswer answer_to(lws* connection, const std::string& path) const;
+  bool send_head(lws* connection, const WebAnswer& answer, std::uint64_t bytes) const;
+  std::optional<WebAnswer> refusal_of(lws* connection, const std::string& path);
   void end(lws* connection);
 
   HostPort place_;
+  WebAccess access_;
   std::vector<std::pair<std::string, std::string>> usual_headers_;
-  std::unordered_map<std::string, Give> gives_;
+  std::unordered_map<std::string, Take> gives_, takes_;
   lws_context* context_ = nullptr;
   std::unordered_map<lws*, std::unique_ptr<Session>> sessions_;
   std::thread thread_;
