@@ -5,6 +5,7 @@ class LiveRecording extends Recording {
   constructor(hello, first) {
     super({ ...first, head: hello.head, words: hello.words });
     this.room = LiveRecording.kRoom;
+    this.points_frame = 0;
     for (const name of LiveRecording.kSeries) {
       const one = this[name];
       this[name] = new one.constructor(this.room * one.length);
@@ -18,6 +19,7 @@ class LiveRecording extends Recording {
       const kept = this.room / 2;
       for (const name of LiveRecording.kSeries) this[name].copyWithin(0, (this.frames - kept) * this[`${name}_width`]);
       this.frames = kept;
+      this.points_frame -= this.room - kept;
       this.source = this.source.slice(-kept);
       this.error = this.error.slice(-kept);
     }
@@ -26,13 +28,15 @@ class LiveRecording extends Recording {
     this.source.push(data.source[0]);
     this.error.push(data.error[0]);
     this.positive_means = one.positive_means;
-    if (one.point_label.length) Object.assign(this, { point_cm: one.point_cm, point_label: one.point_label });
+    if (one.point_label.length) Object.assign(this, { point_cm: one.point_cm, point_label: one.point_label, points_frame: this.frames });
     ++this.frames;
   }
 
   // One cloud is kept, the newest.
   cloud_at() { return this.point_label.length ? 0 : -1; }
   cloud_range() { return [0, this.point_label.length]; }
+  // What has gone with the older half stood as the first frame that is left.
+  frame_of_cloud() { return Math.max(0, this.points_frame); }
 }
 LiveRecording.kRoom = 6000;  // five minutes at 10 Hz stay when the older half goes
 LiveRecording.kSeries = ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 'age_s', 'truth', 'engine_ms', 'confidence', 'planes', 'floor', 'machine',
