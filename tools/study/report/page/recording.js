@@ -25,6 +25,7 @@ class Recording {
     this.has_truth = this.truth.some(Number.isFinite);
   }
 
+  number_of(frame) { return frame; }
   at(frame, quantity) { return 7 * frame + quantity; }
   is_angle(quantity) { return quantity < 3; }
   // To degrees, or metres as they are.

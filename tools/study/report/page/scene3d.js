@@ -378,11 +378,13 @@ function face_corners(box, face) {
   });
 }
 
-// Lines across a patch, at most 60 each way.
+// Lines across a patch, at most 60 each way; in pieces, for software that draws WebGL loses a line that begins behind the
+// eye.
 function grid_lines([a, b, c, d], step_m) {
   const across = (from, to, from_2, to_2) => {
     const count = Math.min(60, Math.floor(Math.hypot(...to.map((v, i) => v - from[i])) / step_m));
-    return Array.from({ length: count + 1 }, (_, k) => [towards(from, to, k / count), towards(from_2, to_2, k / count)]);
+    return Array.from({ length: count + 1 }, (_, k) => [towards(from, to, k / count), towards(from_2, to_2, k / count)])
+      .map(([begin_m, end_m]) => Array.from({ length: 9 }, (_, k) => towards(begin_m, end_m, k / 8)));
   };
   return [...across(a, b, d, c), ...across(a, d, b, c)];
 }
