@@ -153,6 +153,7 @@ function show_settings() {
 function show_frame() {
   const f = page.frame = recording.frames - 1, w = words();
   show_tiles(f);
+  if (roadway) viewer.space.sweep = roadway.sweep(recording.head.machine.forward);
   viewer.draw(f);
   document.getElementById('drawn-note').textContent = drawn_text(f);
   const notes = [w.counts(recording.counts.subarray(10 * f, 10 * f + 10))];
