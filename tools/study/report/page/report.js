@@ -20,8 +20,7 @@ function show_verdict() {
     if (help) say(help);
   }
   say(typeof headline === 'function' ? headline(facts) : headline, 'headline');
-  const timeline = new Timeline(recording, (f) => show_frame(f)), compare = new Compare();
-if (recording.head.from_table) say(w.from_table);
+  if (recording.head.from_table) say(w.from_table);
   if (!recording.head.complete) say(w.interrupted(recording));
   if (summary.unreadable) say(w.verdict_unreadable(summary.unreadable));
   const name_those = (text, is_meant) => {
