@@ -12,6 +12,7 @@ cd "$(dirname "$0")/.."
 # shellcheck disable=SC2086  # a list of words
 need_packages $packages_to_build $packages_to_read
 need_cmake
+need_three
 step "Configuring" cmake --preset release -DPOSE_WALL_BUILD_TESTS=OFF
 step "Building" cmake --build --preset release --target pose_wall_cli
 echo

@@ -14,6 +14,7 @@ cd "$(dirname "$0")/.."
 # shellcheck disable=SC2086  # lists of words
 need_packages $packages_to_build $packages_to_read $packages_to_live python3-rosmaster python3-rostopic
 need_cmake
+need_three
 step "Configuring" cmake --preset release -DPOSE_WALL_BUILD_TESTS=OFF
 step "Building" cmake --build --preset release --target pose_walld pose_wall_sensor
 

@@ -25,6 +25,7 @@ fi
 # shellcheck disable=SC2086  # a list of words
 need_packages $packages
 need_cmake
+need_three
 step "Configuring $preset" cmake --preset "$preset" -DPOSE_WALL_BUILD_TESTS=ON
 step "Building $preset" cmake --build --preset "$preset"
 step "Testing $preset" ctest --preset "$preset" "$@"

@@ -13,6 +13,7 @@ cd "$(dirname "$0")/.."
 need_packages $packages_to_build $packages_to_read $packages_to_survey \
   $packages_to_live $packages_to_test $packages_to_test_live
 need_cmake
+need_three
 need_peers
 step "Configuring" cmake --preset release -DPOSE_WALL_BUILD_TESTS=ON
 step "Building" cmake --build --preset release --target pose_walld pose_wall_sensor pose_wall_cli pose_wall_live_tests \

@@ -103,3 +103,18 @@ need_peers() {
   step "Getting the JavaScript clients" sh -c 'npm ci --prefix build --no-audit --no-fund ||
     echo "npm has no registry here: the tests with clients in JavaScript will be skipped"'
 }
+
+# three.js and esbuild for the 3D view of the pages, from npm's registry, in build/three/node_modules, before CMake looks
+# there. Where it cannot be reached, the pages do without that view, and say so.
+need_three() {
+  if ! command -v npm > /dev/null; then
+    echo "There is no npm here: the pages will have no 3D view"
+    return 0
+  fi
+  mkdir -p build/three
+  cp tools/study/report/three/package.json tools/study/report/three/package-lock.json build/three/
+  cmp -s build/three/package-lock.json build/three/fetched && return 0
+  step "Getting three.js" sh -c 'npm ci --prefix build/three --ignore-scripts --no-audit --no-fund &&
+    cp build/three/package-lock.json build/three/fetched ||
+    echo "npm has no registry here: the pages will have no 3D view"'
+}

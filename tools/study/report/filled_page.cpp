@@ -35,6 +35,7 @@ std::string filled_page(const Assets& parts, std::string data, const std::string
   put_in(&text, "/*@script@*/", parts.script);
   // From the end on: what a name was replaced by is not looked at for names again.
   put_in(&text, "@data@", script_safe(std::move(data)));
+  if (!parts.library.empty()) put_in(&text, "/*@library@*/", parts.library);
   put_in(&text, "@title@", picture::escaped(title));
   return text;
 }

@@ -98,7 +98,9 @@ std::string page(const PageHead& head, const LoadedConfig& loaded, const PageDat
   Json all = data.json();
   all["head"] = head_json(head, loaded);
   all["words"] = words_json();
-  return filled_page(assets(), json_text(all), head.title);
+  Assets parts = assets();
+  if (data.clouds() > 0) parts.library = three_library();
+  return filled_page(parts, json_text(all), head.title);
 }
 
 }  // namespace pose_wall::tools::report

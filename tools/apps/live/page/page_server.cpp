@@ -141,6 +141,7 @@ class PageServer final : public Sink {
     give("/", assets.html, "text/html; charset=utf-8");
     give("/page.css", assets.style, "text/css; charset=utf-8");
     give("/page.js", assets.script, "text/javascript; charset=utf-8");
+    give("/three.js", report::three_library(), "text/javascript; charset=utf-8");
     server_.get("/events", [this] { return view(); });
     server_.get("/state.json", [this] { return state(); });
     server_.get("/planar.json", [this] { return planar(); });

@@ -58,6 +58,8 @@ std::string stop_json(const StopNews& news, const StopLine& line) {
                        {"allowed_speed_m_s", number(result.allowed_speed_m_s)},
                        {"heartbeat", news.rounds}};
   json["age_ms"] = has_frame ? ordered_json((result.now_ns - result.stamp_ns) / 1'000'000) : ordered_json(nullptr);
+  json["speed_m_s"] = has_frame ? number(result.speed_m_s) : ordered_json(nullptr);
+  json["turn_rad_s"] = has_frame ? number(result.turn_rad_s, 1e4) : ordered_json(nullptr);
   const bool has_place = has_frame && std::isfinite(result.nearest_m[0]) && std::isfinite(result.nearest_m[1]);
   json["nearest_m"] =
       has_place ? ordered_json{number(result.nearest_m[0]), number(result.nearest_m[1])} : ordered_json(nullptr);

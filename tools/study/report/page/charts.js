@@ -73,6 +73,7 @@ class Charts {
 
   draw_one(canvas, q) {
     const { pen, width, height } = begin(canvas);
+    if (this.is_apart && this.recording.other) return this.draw_apart(pen, q, width, height);
     const inside = Math.max(1, width - Charts.kLeft - Charts.kRight), bottom = height - 22;
     const [low, high] = this.ranges[q];
     const x_of = (f) => Charts.kLeft + (f - this.from) / (this.to - this.from) * inside;
@@ -85,13 +86,53 @@ class Charts {
     const columns = this.columns(q, inside);
     this.draw_band(pen, columns, x_of, y_of);
     this.draw_lines(pen, columns, x_of, y_of, this.recording.alert(q));
+    if (this.recording.other) this.draw_second(pen, q, x_of, y_of);
     pen.restore();
     this.draw_states(pen, columns, x_of, bottom, inside);
     if (this.frame !== undefined) stroke(pen, [[x_of(this.frame), 0], [x_of(this.frame), height]], colour('ink'), 1);
+    return undefined;
   }
 
-  draw_axes(pen, q, width, bottom, x_of, y_of) {
-    const [low, high] = this.ranges[q], step = round_step(high - low, 4);
+  // The values of a second run.
+  draw_second(pen, q, x_of, y_of) {
+    const r = this.recording;
+    this.draw_run(pen, (f) => r.other.value[r.at(f, q)] * r.unit(q), x_of, y_of);
+  }
+
+  // A line by frames, broken where there is no number.
+  draw_run(pen, value_of, x_of, y_of) {
+    const style = colour('second'), first = Math.max(0, Math.floor(this.from)), last = Math.min(this.recording.frames - 1, Math.ceil(this.to));
+    let run = [];
+    const finish = () => {
+      if (run.length === 1) dot(pen, run[0], 2, style);
+      stroke(pen, run, style, 1.4);
+      run = [];
+    };
+    for (let f = first; f <= last; ++f) {
+      const v = value_of(f);
+      if (Number.isFinite(v)) run.push([x_of(f), y_of(v)]); else finish();
+    }
+    finish();
+  }
+
+  // The second run less the first, in a range of its own.
+  draw_apart(pen, q, width, height) {
+    const r = this.recording, inside = Math.max(1, width - Charts.kLeft - Charts.kRight), bottom = height - 22;
+    let most = 0.01 * r.alert(q);
+    for (let f = 0; f < r.frames; ++f) if (Math.abs(r.other.difference(f, q)) > most) most = Math.abs(r.other.difference(f, q));
+    const x_of = (f) => Charts.kLeft + (f - this.from) / (this.to - this.from) * inside, y_of = (v) => 4 + (1.15 * most - v) / (2.3 * most) * (bottom - 4);
+    this.draw_axes(pen, q, width, bottom, x_of, y_of, [-1.15 * most, 1.15 * most]);
+    pen.save();
+    pen.beginPath();
+    pen.rect(Charts.kLeft, 4, inside, bottom - 4);
+    pen.clip();
+    this.draw_run(pen, (f) => r.other.difference(f, q), x_of, y_of);
+    pen.restore();
+    if (this.frame !== undefined) stroke(pen, [[x_of(this.frame), 0], [x_of(this.frame), height]], colour('ink'), 1);
+  }
+
+  draw_axes(pen, q, width, bottom, x_of, y_of, range = this.ranges[q]) {
+    const [low, high] = range, step = round_step(high - low, 4);
     for (let v = Math.ceil(low / step) * step; v <= high; v += step) {
       stroke(pen, [[Charts.kLeft, y_of(v)], [width - Charts.kRight, y_of(v)]], colour('line'), 1);
       label(pen, (Math.abs(v) < step / 2 ? 0 : v).toFixed(Math.max(0, Math.ceil(-Math.log10(step)))), Charts.kLeft - 6, y_of(v) + 4, colour('faint'), 'right');
@@ -99,9 +140,9 @@ class Charts {
     const unit = this.recording.is_angle(q) ? '°' : 'm';
     label(pen, `${name_text(q)} [${unit}]`, Charts.kLeft + 6, 16, colour('ink'));
     if (q !== QUANTITIES.length - 1) return;
-    const first = this.recording.stamp_s[0], at = (f) => this.recording.stamp_s[Math.round(f)] - first;
-    for (const f of [Math.ceil(this.from), Math.floor(this.to)]) {
-      label(pen, `${WORDS[page.language].frame} ${f}, ${number_text(at(f), 1)} s`, x_of(f), bottom + 20, colour('faint'), f === Math.ceil(this.from) ? 'left' : 'right');
+    for (const [f, text] of clock_ticks(this.recording, this.from, this.to, (width - Charts.kLeft) / 100)) {
+      stroke(pen, [[x_of(f), bottom + 7], [x_of(f), bottom + 10]], colour('faint'), 1);
+      label(pen, text, Math.min(x_of(f), width - 32), bottom + 20, colour('faint'), 'center');
     }
   }
 

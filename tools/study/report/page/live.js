@@ -2,9 +2,11 @@
 
 // A recording whose frames come one by one. When its room is full the older half goes.
 class LiveRecording extends Recording {
-  constructor(hello, first) {
+  constructor(hello, first, number) {
     super({ ...first, head: hello.head, words: hello.words });
     this.room = LiveRecording.kRoom;
+    this.points_frame = 0;
+    this.numbers = [number];
     for (const name of LiveRecording.kSeries) {
       const one = this[name];
       this[name] = new one.constructor(this.room * one.length);
@@ -13,26 +15,33 @@ class LiveRecording extends Recording {
     }
   }
 
-  append(data) {
+  append(data, number) {
     if (this.frames === this.room) {
       const kept = this.room / 2;
       for (const name of LiveRecording.kSeries) this[name].copyWithin(0, (this.frames - kept) * this[`${name}_width`]);
       this.frames = kept;
+      this.points_frame -= this.room - kept;
       this.source = this.source.slice(-kept);
+      this.numbers = this.numbers.slice(-kept);
       this.error = this.error.slice(-kept);
     }
     const one = new Recording({ ...data, head: this.head, words: this.words });
     for (const name of LiveRecording.kSeries) this[name].set(one[name], this.frames * this[`${name}_width`]);
     this.source.push(data.source[0]);
+    this.numbers.push(number);
     this.error.push(data.error[0]);
     this.positive_means = one.positive_means;
-    if (one.point_label.length) Object.assign(this, { point_cm: one.point_cm, point_label: one.point_label });
+    if (one.point_label.length) Object.assign(this, { point_cm: one.point_cm, point_label: one.point_label, points_frame: this.frames });
     ++this.frames;
   }
+
+  number_of(frame) { return this.numbers[frame]; }
 
   // One cloud is kept, the newest.
   cloud_at() { return this.point_label.length ? 0 : -1; }
   cloud_range() { return [0, this.point_label.length]; }
+  // What has gone with the older half stood as the first frame that is left.
+  frame_of_cloud() { return Math.max(0, this.points_frame); }
 }
 LiveRecording.kRoom = 6000;  // five minutes at 10 Hz stay when the older half goes
 LiveRecording.kSeries = ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 'age_s', 'truth', 'engine_ms', 'confidence', 'planes', 'floor', 'machine',
@@ -144,6 +153,7 @@ function show_settings() {
 function show_frame() {
   const f = page.frame = recording.frames - 1, w = words();
   show_tiles(f);
+  if (roadway) viewer.space.sweep = roadway.sweep(recording.head.machine.forward);
   viewer.draw(f);
   document.getElementById('drawn-note').textContent = drawn_text(f);
   const notes = [w.counts(recording.counts.subarray(10 * f, 10 * f + 10))];
@@ -171,6 +181,7 @@ function show_all() {
   document.getElementById('theme').textContent = w.theme;
   document.getElementById('pause').textContent = page.paused ? w.resume_live : w.pause_live;
   show_link();
+  show_hints();
   if (!recording) return;
   document.getElementById('subtitle').textContent = recording.head.title;
   show_layers();
@@ -192,12 +203,13 @@ function take_frame(event) {
   if (!page.hello) return;
   const is_first = !recording;
   if (is_first) {
-    recording = new LiveRecording(page.hello, told.data);
+    recording = new LiveRecording(page.hello, told.data, told.frame);
     viewer = new Viewer(recording);
     charts = new Charts(recording, document.getElementById('charts'), () => {});
+    add_savers();
     show_all();
   } else {
-    recording.append(told.data);
+    recording.append(told.data, told.frame);
   }
   // Frames that came together are drawn once.
   if (!page.paused && !page.drawing) {

@@ -25,6 +25,7 @@ class Recording {
     this.has_truth = this.truth.some(Number.isFinite);
   }
 
+  number_of(frame) { return frame; }
   at(frame, quantity) { return 7 * frame + quantity; }
   is_angle(quantity) { return quantity < 3; }
   // To degrees, or metres as they are.
@@ -57,6 +58,19 @@ class Recording {
     for (let bit = 0; bit < this.words.reason_names.length; ++bit) if (bits >>> bit & 1) out.push(bit);
     return out;
   }
+
+  // Of the machine's outline four corners, from left of the nose clockwise; the sensor; four sampling points. As drawn.
+  machine_point(frame, k) { return Array.from(this.machine.subarray(27 * frame + 3 * k, 27 * frame + 3 * k + 3)); }
+  // Where base lies in what is drawn of a frame: its origin, and the ways ahead, to the left and up.
+  axes_of(frame) {
+    const { length_m, width_m } = this.head.machine, corners = [0, 1, 2, 3].map((k) => this.machine_point(frame, k));
+    const middle = (a, b) => [0, 1, 2].map((i) => (corners[a][i] + corners[b][i]) / 2), origin = [0, 1, 2].map((i) => (middle(0, 1)[i] + middle(2, 3)[i]) / 2);
+    const ahead = middle(0, 1).map((v, i) => (v - origin[i]) / (length_m / 2)), aside = middle(0, 3).map((v, i) => (v - origin[i]) / (width_m / 2));
+    const up = [0, 1, 2].map((i) => ahead[(i + 1) % 3] * aside[(i + 2) % 3] - ahead[(i + 2) % 3] * aside[(i + 1) % 3]);
+    return { origin, ahead, aside, up };
+  }
+  // The frame whose points these are.
+  frame_of_cloud(cloud) { return this.cloud_frame[cloud]; }
 
   // The last frame up to this one whose points are kept: its place in the list of clouds, or -1.
   cloud_at(frame) {

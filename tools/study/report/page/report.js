@@ -105,7 +105,7 @@ function show_frame(f) {
   page.frame = Math.min(Math.max(0, f), recording.frames - 1);
   f = page.frame;
   document.getElementById('slider').value = f;
-  document.getElementById('frame-name').textContent = `${w.frame} ${f} · ${recording.source[f].split('/').pop()}`;
+  document.getElementById('frame-name').textContent = [`${w.frame} ${f}`, moment_text(recording, recording.stamp_s[f], 1), recording.source[f].split('/').pop()].join(' · ');
   const cloud_of = recording.head.from_table ? -1 : viewer.draw(f);
   const { may, may_not } = steer_sentences(steering_of(f));
   document.getElementById('steer-frame').textContent = recording.error[f] ? '' : w.sentences([may, may_not]);
@@ -117,6 +117,7 @@ function show_frame(f) {
   if (cloud_of >= 0 && cloud_of !== f) notes.push(w.no_cloud(cloud_of));
   document.getElementById('frame-note').textContent = notes.join(' · ');
   charts.mark(f);
+  timeline.mark(f);
 }
 
 function play(on) {
@@ -134,6 +135,8 @@ function show_all() {
   show_verdict();
   show_summary();
   show_settings();
+  show_hints();
+  compare.show();
   show_frame(page.frame);
 }
 
@@ -154,7 +157,9 @@ const recording = new Recording(JSON.parse(document.getElementById('data').textC
 const summary = summarise(recording);
 const viewer = new Viewer(recording);
 const charts = new Charts(recording, document.getElementById('charts'), (f) => show_frame(f));
+const timeline = new Timeline(recording, (f) => show_frame(f)), compare = new Compare();
 if (recording.head.from_table) for (const figure of document.querySelectorAll('#views figure')) figure.remove();
+add_savers();
 begin_page(recording.head.language);
 listen();
 show_all();

@@ -37,6 +37,26 @@ class RoadwayView {
   // Only go lets the machine drive as fast as it likes.
   grade() { return this.is_stop_known() ? { go: 'good', slow: 'fair', stop: 'bad' }[this.stop.state] : 'bad'; }
 
+  // In base, for three dimensions: the machine as the stop reckons with it, and its way until it stands, by the motion
+  // that was measured. Nothing is drawn ahead of a machine whose motion nobody knows.
+  sweep([forward_x, forward_y]) {
+    const { outline_m: [x_min, x_max, y_min, y_max], floor_z_m, top_m, latency_s, deceleration_m_s2 } = this.planar;
+    const is_known = this.is_stop_known(), tint = { good: 'valid', fair: 'degraded', bad: 'invalid' }[this.grade()];
+    const speed = (is_known && this.stop.speed_m_s) || 0, turn = (is_known && this.stop.turn_rad_s) || 0;
+    const way_m = Math.abs(speed) * latency_s + speed * speed / (2 * deceleration_m_s2), time_s = speed ? way_m / Math.abs(speed) : 0;
+    const steps = Math.min(12, Math.ceil(way_m / 0.25)), patches = [];
+    for (let k = 0; k <= steps; ++k) {
+      const share = steps ? k / steps : 0, yaw = turn * time_s * share, way = Math.sign(speed) * way_m * share;
+      // Along the chord of the arc.
+      const [c, s] = [Math.cos(yaw), Math.sin(yaw)], [hc, hs] = [Math.cos(yaw / 2), Math.sin(yaw / 2)];
+      const to = [way * (hc * forward_x - hs * forward_y), way * (hs * forward_x + hc * forward_y)];
+      const ring = (z) => [[x_min, y_min], [x_max, y_min], [x_max, y_max], [x_min, y_max]].map(([x, y]) => [to[0] + c * x - s * y, to[1] + s * x + c * y, z]);
+      patches.push({ corners: ring(floor_z_m), tint });
+      if (k === 0 || k === steps) patches.push({ corners: ring(floor_z_m + top_m), tint });
+    }
+    return { patches, nearest: is_known && this.stop.nearest_m ? [...this.stop.nearest_m, floor_z_m + 0.5] : null };
+  }
+
   is_place_old() { return performance.now() - this.place_heard_ms > kNoScan_ms; }
 
   show() {

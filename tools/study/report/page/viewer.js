@@ -72,6 +72,7 @@ class Viewer {
     const again = () => this.draw(this.frame);
     this.top = new View(document.getElementById('top'), [{ axis: 0, sign: 1 }, { axis: 1, sign: 1 }], { centre: [0, 0], metres: [26, 12] }, again);
     this.section = new View(document.getElementById('section'), [{ axis: 1, sign: -1 }, { axis: 2, sign: 1 }], { centre: [0, 0.2], metres: [9, 6] }, again);
+    this.space = new SpaceView(this);
   }
 
   draw(frame) {
@@ -79,6 +80,7 @@ class Viewer {
     const cloud = this.recording.cloud_at(frame);
     this.draw_view(this.top, cloud, () => true);
     this.draw_view(this.section, cloud, (k) => Math.abs(this.recording.point_cm[3 * k]) <= 150);
+    this.space.show(frame);
     return cloud < 0 ? -1 : this.recording.cloud_frame[cloud];
   }
 
@@ -126,7 +128,7 @@ class Viewer {
   // [found, normal along, left, up, d, along_min, along_max, rms] of a side.
   wall(side) { return this.recording.planes.subarray(8 * (2 * this.frame + side), 8 * (2 * this.frame + side) + 8); }
   floor_up() { return this.recording.floor[3 * this.frame + 1]; }
-  machine_point(k) { return Array.from(this.recording.machine.subarray(27 * this.frame + 3 * k, 27 * this.frame + 3 * k + 3)); }
+  machine_point(k) { return this.recording.machine_point(this.frame, k); }
 
   draw_walls(pen, view) {
     for (const side of [0, 1]) {
@@ -177,12 +179,9 @@ class Viewer {
     return points.map((p) => [x + c * (p[0] - x) + s * (p[1] - y), y - s * (p[0] - x) + c * (p[1] - y), p[2]]);
   }
 
-  // A point of base as it is drawn, by the machine's outline, which is drawn in the same frame.
+  // A point of base as it is drawn.
   base_point([x, y, z]) {
-    const { forward, left, length_m, width_m } = this.recording.head.machine, corners = [0, 1, 2, 3].map((k) => this.machine_point(k));
-    const middle = (a, b) => [0, 1, 2].map((i) => (corners[a][i] + corners[b][i]) / 2), origin = [0, 1, 2].map((i) => (middle(0, 1)[i] + middle(2, 3)[i]) / 2);
-    const ahead = middle(0, 1).map((v, i) => (v - origin[i]) / (length_m / 2)), aside = middle(0, 3).map((v, i) => (v - origin[i]) / (width_m / 2));
-    const up = [0, 1, 2].map((i) => ahead[(i + 1) % 3] * aside[(i + 2) % 3] - ahead[(i + 2) % 3] * aside[(i + 1) % 3]);
+    const { forward, left } = this.recording.head.machine, { origin, ahead, aside, up } = this.recording.axes_of(this.frame);
     const f = x * forward[0] + y * forward[1], l = x * left[0] + y * left[1];
     return [0, 1, 2].map((i) => origin[i] + f * ahead[i] + l * aside[i] + z * up[i]);
   }
