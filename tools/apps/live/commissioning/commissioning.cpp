@@ -164,7 +164,7 @@ class CommissioningDesk final : public Commissioning {
       case Door::Try::kOpened:
         break;
     }
-    log_line(Grade::kWarning, kPart, "a page is open; another one that was open is shut");
+    log_line(Grade::kWarning, kPart, "a page is open, and any other one is shut");
     tell_code();
     WebAnswer answer = json_answer(200, {{"open", true}});
     answer.headers.emplace_back("set-cookie", fmt::format("{}{}; Path=/; HttpOnly; SameSite=Strict{}", kCookie,

@@ -22,7 +22,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr int kLowestPriority = 19;  // as nice(1) has it
+constexpr int kNice = 10;  // a third of what others get when all want the processors, and not nothing
 constexpr auto kLook = std::chrono::milliseconds(20);
 constexpr long kKeptBytes = 1'000'000;  // what doctor tells as JSON has 10,000
 
@@ -53,7 +53,7 @@ ErrandOutcome run_errand(const std::vector<std::string>& words, const std::atomi
   all.insert(all.end(), words.begin(), words.end());
   const Paper output = new_paper(), errors = new_paper();
   const pid_t child = start_child(all, {{fileno(output.get()), STDOUT_FILENO}, {fileno(errors.get()), STDERR_FILENO}});
-  setpriority(PRIO_PROCESS, static_cast<id_t>(child), kLowestPriority);
+  setpriority(PRIO_PROCESS, static_cast<id_t>(child), kNice);
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
     if (given_up) kill(child, SIGKILL);

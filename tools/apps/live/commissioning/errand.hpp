@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// The command `pose_wall` as a child of the daemon, with the lowest priority: what it works out for minutes must not
+// The command `pose_wall` as a child of the daemon, with a low priority: what it works out for minutes must not
 // delay what is measured meanwhile.
 
 #pragma once

@@ -66,9 +66,10 @@ class PageServer final : public Sink {
       throw std::runtime_error(fmt::format("http: {}", fault.what()));
     }
     log_line(Grade::kGood, part(),
-             fmt::format("http://{} shows the page; {}", loaded_.live.http,
-                         is_loopback(place_.host) ? "only this machine reaches it"
-                                                  : "everybody who reaches this address may look, nobody can change"));
+             fmt::format("{}://{} shows the page; {}", server_.access().scheme(), loaded_.live.http,
+                         is_loopback(place_.host)            ? "only this machine reaches it"
+                         : server_.access().asks_for_login() ? "who has a login may look"
+                                                             : "everybody who reaches this address may look"));
   }
 
   void take(const LiveResult& result) override {

@@ -78,6 +78,7 @@ class WebServer {
   // Ends every connection. May be called twice.
   void stop();
 
+  const WebAccess& access() const { return access_; }
   // Viewers of streams that took nothing for seconds, and were ended.
   std::uint64_t cut_off() const { return cut_off_; }
   // False once its loop has failed.

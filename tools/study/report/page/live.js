@@ -51,7 +51,7 @@ LiveRecording.kSeries = ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 
 // from the server, whatever the worker does, and makes nothing current.
 const kLost_ms = 2000, kChartsEvery_ms = 400;
 const page = { language: 'en', frame: 0, paused: false, hello: null, told: null, heard_ms: 0, arrivals: [], drawn_charts_ms: 0, shown: 0 };
-let recording = null, viewer = null, charts = null, roadway = null;
+let commission = null, recording = null, viewer = null, charts = null, roadway = null;
 
 // A text is told to those who hear the page only when it changes.
 function put(id, text) {
@@ -182,6 +182,7 @@ function show_all() {
   document.getElementById('pause').textContent = page.paused ? w.resume_live : w.pause_live;
   show_link();
   show_hints();
+  if (commission) commission.show();
   if (!recording) return;
   document.getElementById('subtitle').textContent = recording.head.title;
   show_layers();
@@ -259,3 +260,4 @@ page.language = (navigator.language || 'en').startsWith('zh') ? 'zh' : 'en';
 document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
 show_all();
 connect();
+commission = new CommissionPanel();

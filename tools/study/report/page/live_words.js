@@ -44,8 +44,9 @@ Object.assign(WORDS.zh, {
   place_is: (state) => `位置：${state}。`, place_at: (x, y, yaw) => `横 ${x} 米，纵 ${y} 米，转角 ${yaw}°`, no_place_yet: '尚无扫描。', no_scan_comes: '没有新的扫描：所示为最后一次的位置。',
   place_states: { first: '开始建图', tracked: '已知', doubtful: '存疑', blind: '所见过少', searching: '正在搜索', unknown: '不在此图中', ambiguous: '不唯一', unique: '已知', 'no floor': '未测得底板', refused: '扫描被拒绝' },
   // Of the daemon, which speaks English; what is not listed stays as it is.
-  part_names: { runtime: '运行时', source: '输入', sink: '输出', commands: '指令输入', 'planar stop': '障碍停车', 'planar roadway': '巷道地图', 'planar command': '驱动指令' },
+  part_names: { runtime: '运行时', commissioning: '调试', source: '输入', sink: '输出', commands: '指令输入', 'planar stop': '障碍停车', 'planar roadway': '巷道地图', 'planar command': '驱动指令' },
   summaries: {
+    'waits for the code': '等待代码', 'a page is open': '有页面正在调试',
     measures: '正在测量', 'times of points are of no use': '点的时间不可用', 'frames come, nothing is measured': '有帧到达，但均未测得', 'no frame yet': '尚无帧', 'no frame comes': '没有新的帧',
     'results are late, and all values invalid: other work takes the processors': '结果来迟，全部值无效：处理器被其他工作占用', 'worker_priority goes before it': 'worker_priority 可使测量优先',
     'serves no more: its loop failed': '不再服务：其循环已失败',
@@ -59,8 +60,9 @@ Object.assign(WORDS.zh, {
     'place: unique': '位置：唯一', 'place: searching': '位置：正在搜索', 'place: unknown': '位置：不在此图中', 'place: ambiguous': '位置：不唯一', 'place: doubtful': '位置：存疑',
     'waits for the sensor: no packet yet': '等待传感器：尚无数据包', 'the sensor is silent': '传感器无数据', 'packets come, no turn yet': '有数据包，尚未满一圈',
   },
-  fact_values: { good: '良好', none: '无', none_moving: '无，而机器在移动', type: '类型不可读', one_time: '全部相同', unit: '单位不明' },
+  fact_values: { record: '录制', examine: '检查', check: '试算', save: '保存', restart: '重新启动', good: '良好', none: '无', none_moving: '无，而机器在移动', type: '类型不可读', one_time: '全部相同', unit: '单位不明' },
   fact_names: {
+    'works at': '正在进行', 'codes that were wrong': '错误代码次数',
     'frames pushed': '收到帧', 'frames measured': '已测帧', silences: '中断次数', 'age ms': '距上次测得时间 ms', 'latency p50 ms': '延迟中位数 ms', 'latency p99 ms': '延迟 99 % ms',
     'process started anew': '进程重新启动次数', 'process ended last': '进程上次结束', 'messages lost to a slow process': '因进程过慢丢失的消息', 'worker_priority refused': 'worker_priority 被拒绝',
     'latency mean ms': '平均延迟 ms', "stop's age when read, mean ms": '读取时停车应答的平均时龄 ms', "stop's age when read, worst ms": '读取时停车应答的最大时龄 ms',
