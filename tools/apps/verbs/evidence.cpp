@@ -94,6 +94,15 @@ int run_evidence(const EvidenceOptions& options) {
   return done_or_complaint("evidence", [&] { return options.zip.empty() ? pack(options) : verify(options); });
 }
 
+constexpr const char* kFooter = translatable(
+    "Examples:\n  openssl genpkey -algorithm ed25519 -out site.pem && chmod 600 site.pem\n"
+    "  openssl pkey -in site.pem -pubout -out site.pub.pem\n"
+    "  pose_wall evidence commissioning -o evidence.zip --key site.pem\n"
+    "  pose_wall evidence --verify evidence.zip --public-key site.pub.pem\n"
+    "Exit status: 0 packed, or proven whole and, with --public-key, signed by the site; 1 a file cannot be read or\n"
+    "written, or the zip is damaged, forged, or not signed by that key; 2 bad usage, key or settings; 130 "
+    "interrupted.");
+
 }  // namespace
 
 void add_evidence(CLI::App& app, int& exit_code) {
@@ -119,14 +128,7 @@ void add_evidence(CLI::App& app, int& exit_code) {
       ->check(one_of({"table", "json"}))
       ->capture_default_str();
   verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
-  verb->footer(tr(
-      "Examples:\n  openssl genpkey -algorithm ed25519 -out site.pem && chmod 600 site.pem\n"
-      "  openssl pkey -in site.pem -pubout -out site.pub.pem\n"
-      "  pose_wall evidence commissioning -o evidence.zip --key site.pem\n"
-      "  pose_wall evidence --verify evidence.zip --public-key site.pub.pem\n"
-      "Exit status: 0 packed, or proven whole and, with --public-key, signed by the site; 1 a file cannot be read or\n"
-      "written, or the zip is damaged, forged, or not signed by that key; 2 bad usage, key or settings; 130 "
-      "interrupted."));
+  verb->footer(tr(kFooter));
   verb->callback([options, &exit_code] { exit_code = run_evidence(*options); });
 }
 
