@@ -152,7 +152,7 @@ def check_settings(trial):
     settings = json.loads(members_of(trial.zip)["manifest.json"])["settings"]
     trial.check(f"CRC {crc}: {settings}", settings["config_crc32"] == crc and settings["planar_stop_crc32"] is not None)
     marks = []
-    for text in ("planar: map\nplanar_clearance: 0.3\n", "planar: off\n", "source: ros1\nextrinsic_from: tf\n"):
+    for text in ("planar: map\nplanar_x_max: 3\n", "planar: off\n", "source: ros1\nextrinsic_from: tf\n"):
         (trial.folder / "settings.yaml").write_text(text)
         ran = trial.run(trial.folder, "-o", trial.place / "s.zip", "--force", "--format", "json")
         marks.append(json.loads(ran.stdout)["settings"])
