@@ -35,7 +35,7 @@ announce() { printf '\n### %s (%s s so far)\n' "$1" "$SECONDS"; }
 # Packages of the project, and what is needed beyond.
 need_all() {
   # shellcheck disable=SC2086  # lists of words
-  need_packages $packages_to_build $packages_to_read $packages_to_survey $packages_to_live $packages_to_test \
+  need_packages $packages_to_build $packages_to_read $packages_to_survey $packages_to_prove $packages_to_live $packages_to_test \
     $packages_to_test_live $packages_to_test_python clang clang-format clang-tidy "$@"
 }
 

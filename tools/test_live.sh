@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 . tools/shell/packages.sh
 
 # shellcheck disable=SC2086  # lists of words
-need_packages $packages_to_build $packages_to_read $packages_to_survey \
+need_packages $packages_to_build $packages_to_read $packages_to_survey $packages_to_prove \
   $packages_to_live $packages_to_test $packages_to_test_live
 need_cmake
 need_three

@@ -72,6 +72,7 @@ std::vector<VerbCase> cases_of(const Begun& begun) {
       {{"demo", "-q", "-o", file("demo")}, file("demo/demo.svg")},
       {{"report", "-q", "-o", file("r.html"), frames}, file("r.html")},
       {{"info", frames}, ""},
+      {{"evidence", "-q", frames, "-o", file("evidence.zip")}, file("evidence.zip")},
       {{"eval", "-c", begun.config, "--frames", frames, "--range-noise", "0.02", begun.results, begun.truth}, ""},
       {{"campaign", "-q", "--size", "small", "-o", file("card")}, file("card/card.md")},
       {{"replay-box", "-q", file("broken.pcd")}, ""},

@@ -80,6 +80,7 @@ constexpr Example kExamples[] = {
     {"pose_wall campaign --size small --output card", translatable("many random roads, with a card of all errors")},
     {"pose_wall explain -c road/pose_wall.yaml --frame 12 road/frames", translatable("explanation of frame 12")},
     {"pose_wall check-config road/pose_wall.yaml", translatable("resolved settings")},
+    {"pose_wall evidence commissioning -o evidence.zip --key site.pem", translatable("a signed zip of a folder")},
 };
 
 std::string command_footer() {
@@ -105,6 +106,7 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_demo(app, exit_code);
   add_report(app, exit_code);
   add_info(app, exit_code);
+  add_evidence(app, exit_code);
   add_eval(app, exit_code);
   add_campaign(app, exit_code);
   add_replay_box(app, exit_code);

@@ -14,6 +14,9 @@ packages_to_read="liblz4-dev libzstd-dev libbz2-dev libsqlite3-dev libpcap-dev"
 # Optional: what `pose_wall sim --surface` reads surfaces and casts rays with.
 # shellcheck disable=SC2034
 packages_to_survey="libembree-dev libassimp-dev"
+# Optional: what `pose_wall evidence` packs and signs with; openssl is the other maker of its test.
+# shellcheck disable=SC2034
+packages_to_prove="libzip-dev libssl-dev openssl"
 # Optional: the edges of pose_walld; a build without them says so when one is asked for.
 # shellcheck disable=SC2034
 packages_to_live="linux-libc-dev libmodbus-dev libpaho-mqtt-dev libcpp-httplib-dev libssl-dev libbrotli-dev zlib1g-dev
@@ -41,7 +44,8 @@ presets_to_test="release debug asan tsan msan fuzz arm64 arm64-clang arm64-asan 
 # shellcheck disable=SC2086  # lists of words
 packages_of() { # preset: what it takes to build it and to run its tests
   case $1 in
-    release | debug | asan) echo $packages_to_build $packages_to_read $packages_to_survey $packages_to_test ;;
+    release | debug | asan)
+      echo $packages_to_build $packages_to_read $packages_to_survey $packages_to_prove $packages_to_test ;;
     tsan) echo $packages_to_build $packages_to_test ;;
     msan | fuzz | coverage) echo $packages_to_build $packages_to_read $packages_to_test clang llvm libclang-rt-dev ;;
     arm64 | arm64-asan) echo $packages_to_cross $packages_to_test ;;

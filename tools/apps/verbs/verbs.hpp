@@ -29,6 +29,7 @@ void add_demo(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
+void add_evidence(CLI::App& app, int& exit_code);
 void add_campaign(CLI::App& app, int& exit_code);
 void add_replay_box(CLI::App& app, int& exit_code);
 void add_explain(CLI::App& app, int& exit_code);

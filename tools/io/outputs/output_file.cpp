@@ -50,6 +50,19 @@ OutputFile::~OutputFile() {
   std::filesystem::remove(part_of(path_), ignored);
 }
 
+std::filesystem::path OutputFile::part() const {
+  return part_of(path_);
+}
+
+void OutputFile::take_part() {
+  std::error_code error;
+  std::filesystem::rename(part(), path_, error);
+  if (error) {
+    throw std::runtime_error(say("{}: cannot be written{}", path_.string(), ": " + system_error_text(error.value())));
+  }
+  stream_.close();
+}
+
 void OutputFile::write(std::string_view text) {
   stream_.close();
   write_whole_file(path_, text);

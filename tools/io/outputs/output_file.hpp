@@ -26,6 +26,10 @@ class OutputFile {
   // Then it takes the path's place. Throws std::runtime_error that names the file.
   void write(std::string_view text);
 
+  // For who writes the part himself: where it is, and then it takes the path's place. Throws likewise.
+  std::filesystem::path part() const;
+  void take_part();
+
  private:
   std::filesystem::path path_;
   std::ofstream stream_;
