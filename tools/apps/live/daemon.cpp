@@ -20,6 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kLook = std::chrono::milliseconds(50);
+// As a worker's (live_runtime.cpp): the loop writes the log, and who reads that may be slow.
+constexpr std::int64_t kLoopHangs_ns = 10'000'000'000;
 // A recording waits so long for a disk, and no longer: a stop within a second must not wait for it.
 constexpr auto kDiskStall = std::chrono::milliseconds(500);
 
@@ -175,7 +177,17 @@ std::vector<PartHealth> Daemon::all() const {
   return parts;
 }
 
+std::vector<std::string> Daemon::hung() const {
+  std::vector<std::string> hung;
+  if (!runtime_.is_alive()) hung.emplace_back("the runtime's worker hangs");
+  if (guard_ && !guard_->is_alive()) hung.emplace_back("the obstacle stop hangs");
+  const std::int64_t looked_ns = looked_ns_;
+  if (looked_ns != 0 && monotonic_ns() - looked_ns > kLoopHangs_ns) hung.emplace_back("the daemon's own loop hangs");
+  return hung;
+}
+
 void Daemon::look_around(std::atomic<bool>& looked) {
+  looked_ns_ = monotonic_ns();
   health_log_.note(all());
   if (looked.exchange(false)) {
     log_line(guard_ ? Grade::kGood : Grade::kWarning, "planar stop",

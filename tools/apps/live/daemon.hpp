@@ -36,6 +36,8 @@ class Daemon final : public HealthBoard {
   void run(const std::atomic<bool>& stop, std::atomic<bool>& looked, const std::function<void()>& is_through);
 
   std::vector<PartHealth> all() const override;
+  std::vector<std::string> hung() const override;
+  std::optional<pose_wall_runtime_statistics> statistics() const override { return runtime_.statistics(); }
 
  private:
   class Taker;
@@ -61,6 +63,7 @@ class Daemon final : public HealthBoard {
   std::vector<std::unique_ptr<SinkThread>> sinks_;
   ServiceManager service_;
   HealthLog health_log_;
+  std::atomic<std::int64_t> looked_ns_{0};  // when the daemon's own loop last went round; 0: not yet
 };
 
 }  // namespace pose_wall::tools::live
