@@ -3,7 +3,7 @@
 # Copyright (c) 2026 the pose_wall authors
 """What monitors read of pose_walld, with the parser of Prometheus' makers: metrics, liveness and readiness. A sensor
 that falls silent makes it not ready, but it lives; then nothing may steer by its metrics. Who hangs as a whole answers
-nobody, which monitors take for dead.
+nobody, which monitors take for dead. All answers and events are as the daemon's own OpenAPI document describes them.
 
 usage: monitor_peer.py ROOT POSE_WALL POSE_WALLD POSE_WALL_SENSOR"""
 
@@ -22,13 +22,16 @@ sys.path[:0] = [str(ROOT / "tests/live")]
 
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
-live_peer.need("python3-prometheus-client", modules=("prometheus_client",))
+live_peer.need("python3-prometheus-client python3-jsonschema", modules=("prometheus_client", "jsonschema"))
+import jsonschema  # noqa: E402  pylint: disable=wrong-import-position
 from prometheus_client.openmetrics import parser  # noqa: E402  pylint: disable=wrong-import-position
 
 VALUES = ["roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"]
 
 
-class Monitor(unittest.TestCase):
+class Watched(unittest.TestCase):
+    """A daemon, and what it answers."""
+
     def start(self, *words):
         program = live_peer.Program(*words)
         self.addCleanup(program.kill)
@@ -65,6 +68,8 @@ class Monitor(unittest.TestCase):
     def replay(self, *more):
         return self.daemon(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL))[1:], *more)
 
+
+class Monitor(Watched):
     def test_a_daemon_that_measures_is_ready_and_tells_its_numbers(self):
         daemon = self.replay("--set", "planar=map")
         self.assertTrue(daemon.says("runtime: measures"), daemon.log())
@@ -125,6 +130,97 @@ class Monitor(unittest.TestCase):
             os.kill(daemon.process.pid, signal.SIGCONT)
         self.assertTrue(self.says("/live", 200))
         self.assertTrue(self.says("/ready", 200), "it comes back")
+
+
+def without_more(schema):
+    """The same schema, but what it does not describe is refused: the page must name each member."""
+    if isinstance(schema, list):
+        return [without_more(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    closed = {name: without_more(part) for name, part in schema.items()}
+    if schema.get("type") == "object" and "additionalProperties" not in schema:
+        closed["additionalProperties"] = False
+    return closed
+
+
+class Described(Watched):
+    """Live answers are as the daemon's own OpenAPI document says, word for word."""
+
+    def setUp(self):
+        super().setUp()
+        self.running = self.replay("--set", "planar=map", "--set", "motion=on")
+        self.assertTrue(self.running.says("runtime: measures"), self.running.log())
+        status, kind, text = self.ask("/openapi.json")
+        self.assertEqual((status, kind), (200, "application/json"))
+        self.document = json.loads(text)
+
+    def check(self, reference, instance):
+        name = reference["$ref"].split("/")[-1]
+        root = without_more(self.document)
+        resolver = jsonschema.RefResolver("", root)
+        jsonschema.Draft202012Validator(root["components"]["schemas"][name], resolver=resolver).validate(instance)
+
+    def test_the_schemas_are_schemas_and_all_are_used(self):
+        text = json.dumps(self.document)
+        self.assertEqual(self.document["openapi"], "3.1.0")
+        for name, schema in self.document["components"]["schemas"].items():
+            jsonschema.Draft202012Validator.check_schema(schema)
+            self.assertIn(f'"#/components/schemas/{name}"', text, "used")
+
+    def test_each_answer_is_as_described(self):
+        self.assertTrue(self.says("/ready", 200))
+        self.assertTrue(live_peer.becomes_true(lambda: json.loads(self.ask("/planar.json")[2])["roadway"]))
+        for path, operations in self.document["paths"].items():
+            if path == "/events":
+                continue
+            with self.subTest(path=path):
+                if path == "/map.png":
+                    self.assertTrue(self.is_picture(path))
+                    continue
+                status, kind, text = self.ask(path)
+                content = operations["get"]["responses"][str(status)]["content"]  # a busy machine may be late
+                self.assertIn(kind.split(";")[0], content)
+                schema = content[kind.split(";")[0]]["schema"]
+                if "$ref" in schema:
+                    self.check(schema, json.loads(text))
+
+    def is_picture(self, path):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
+        self.addCleanup(connection.close)
+        def is_one():
+            connection.request("GET", path)
+            return connection.getresponse().read()[:4] == b"\x89PNG"
+        return live_peer.becomes_true(is_one)
+
+    def test_each_event_is_as_described(self):
+        kinds = self.document["paths"]["/events"]["get"]["x-events"]
+        seen = {}
+        with socket.create_connection(("127.0.0.1", self.port), 10) as viewer:
+            viewer.sendall(b"GET /events HTTP/1.1\r\nHost: localhost\r\n\r\n")
+            lines, name = viewer.makefile("r", encoding="utf-8"), None
+            for line in lines:
+                if line.startswith("event: "):
+                    name = line[7:].strip()
+                elif line.startswith("data: "):
+                    seen.setdefault(name, json.loads(line[6:]))
+                if set(seen) == set(kinds):
+                    break
+        for name, data in seen.items():
+            with self.subTest(event=name):
+                self.check(kinds[name], data)
+
+    def test_what_is_refused_is_as_described(self):
+        self.running.kill()
+        udp = live_peer.free_port(socket.SOCK_DGRAM)
+        daemon = self.daemon("--config", ROOT / "config/vlp16.yaml", "--set", f"udp_port={udp}")
+        self.assertTrue(daemon.says("listens"), daemon.log())
+        for path, status in (("/ready", 503), ("/health", 503), ("/planar.json", 404)):
+            self.assertEqual(self.ask(path)[0], status)
+            answer = self.document["paths"][path]["get"]["responses"][str(status)]
+            self.check(answer["content"]["application/json"]["schema"], json.loads(self.ask(path)[2]))
+        self.assertTrue(self.says("/state.json", 200), daemon.log())
+        self.check({"$ref": "State"}, json.loads(self.ask("/state.json")[2]))  # of silence
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@
 #include "apps/live/clocks.hpp"
 #include "apps/live/edges.hpp"
 #include "apps/live/log.hpp"
+#include "apps/live/page/api/openapi.hpp"
 #include "apps/live/page/broadcast.hpp"
 #include "apps/live/page/events.hpp"
 #include "apps/live/page/open_metrics.hpp"
@@ -139,6 +140,7 @@ class PageServer final : public Sink {
     give("/", assets.html, "text/html; charset=utf-8");
     give("/page.css", assets.style, "text/css; charset=utf-8");
     give("/page.js", assets.script, "text/javascript; charset=utf-8");
+    give("/openapi.json", openapi(), "application/json");
     server_.get("/events", [this] { return view(); });
     server_.get("/state.json", [this] { return state(); });
     server_.get("/planar.json", [this] { return planar(); });
@@ -219,7 +221,7 @@ class PageServer final : public Sink {
   WebAnswer planar() {
     if (stop_ == nullptr) return json(404, R"({"error": "the key planar is off"})");
     const std::shared_ptr<const RoadwayNews> roadway = newest_roadway();
-    return json(200, fmt::format(R"({{"stop": {}, "roadway": {}}})", stop_json(stop_->stop_now(), line_),
+    return json(200, fmt::format(R"({{"schema": 1, "stop": {}, "roadway": {}}})", stop_json(stop_->stop_now(), line_),
                                  roadway ? roadway_json(*roadway) : "null"));
   }
 
