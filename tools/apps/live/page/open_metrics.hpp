@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// OpenMetrics 1.0 as text. Debian's prometheus-cpp writes the older text of Prometheus (0.0.4): no `# EOF`, no units,
-// no sets of states, six digits behind the point, and a line break in a label ends the line.
+// OpenMetrics 1.0 as text. Debian's prometheus-cpp 1.0.1 writes the older text of Prometheus (0.0.4): no `# EOF`, no
+// units, no sets of states, no info.
 
 #pragma once
 
