@@ -133,6 +133,10 @@ class Words(Folder):
                      "planar_map: /nowhere/trail.pwt: cannot be read: No such file or directory")
         blocked = self.folder / "file"
         blocked.write_text("")
+        self.refused(["--set", port, "--set", "planar=map", "--set", f"planar_map={self.folder}/none/trail.pwt"], 1,
+                     f"planar_map: {self.folder}/none/trail.pwt: there is no folder {self.folder}/none")
+        self.refused(["--set", "mqtt=127.0.0.1:1883", "--set", "mqtt_user=a", "--set", "mqtt_password_file=/nowhere"],
+                     1, "mqtt_password_file: /nowhere: cannot be read: No such file or directory")
         self.refused(["--set", f"recording={blocked}/x"], 1, f"{blocked}/x: ")
         self.refused(["--set", f"black_box={blocked}/x"], 1, f"{blocked}/x: ")
 
@@ -150,6 +154,79 @@ class Words(Folder):
             self.assertNotIn(word, done.stdout)
         self.refused(["--language", "zh", "--sped", "2"], 2, "未知选项 --sped；是否指“--speed”？", "参见 pose_walld --help。")
         self.refused(["--language", "zh", "--speed", "2"], 2, "使用 --speed 时需同时给出 --replay")
+
+
+class Settings(Folder):
+    """SIGHUP reads the settings again."""
+
+    def setUp(self):
+        super().setUp()
+        self.file = self.folder / "pose_wall.yaml"
+        self.port = live_peer.free_port(socket.SOCK_DGRAM)
+
+    def write(self, *lines):
+        self.file.write_text("\n".join([f"udp_port: {self.port}", *lines, ""]), encoding="utf-8")
+
+    def daemon(self, *lines):
+        self.write(*lines)
+        daemon = self.start(POSE_WALLD, "--config", self.file, stdin=subprocess.DEVNULL)
+        self.assertTrue(daemon.says("listens"), daemon.log())
+        return daemon
+
+    def reload(self, daemon, *lines):
+        self.write(*lines)
+        daemon.process.send_signal(signal.SIGHUP)
+
+    def test_what_can_change_changes_and_the_rest_is_named(self):
+        daemon = self.daemon("status_every_s: 3600", "hold_max: 1.0")
+        self.reload(daemon, "status_every_s: 1", "hold_max: 2.0", "planar: map", f"recording: {self.folder}/kept")
+        self.assertTrue(daemon.says("settings: read again: 2 changed, 2 wait for a restart"), daemon.log())
+        for line in ("settings: status_every_s: 1 instead of 3600", f"settings: recording: {self.folder}/kept instead",
+                     "settings: hold_max: 2 instead of 1: waits for a restart",
+                     "settings: planar: map instead of off: waits for a restart"):
+            self.assertTrue(any(line in said for said in daemon.lines), line + "\n" + daemon.log())
+        self.assertTrue(daemon.says("frames measured 0"), "a status line comes each second")
+        self.assertTrue(live_peer.becomes_true(lambda: list((self.folder / "kept").glob("*.mcap"))))
+        self.reload(daemon, "status_every_s: 1", "hold_max: 1.0")
+        self.assertTrue(daemon.says("settings: read again: 1 changed, 0 wait for a restart"), daemon.log())
+        recording, = (self.folder / "kept").glob("*.mcap")
+        self.assertEqual(recording.read_bytes()[-8:], b"\x89MCAP0\r\n", "it is whole, and nothing writes any more")
+        self.assertIsNone(daemon.process.poll())
+        self.assertTrue(daemon.stops_by_itself(), daemon.log())
+
+    def test_a_faulty_file_changes_nothing(self):
+        daemon = self.daemon("status_every_s: 3600")
+        self.reload(daemon, "status_every_s: 1", "hold_mx: 2.0")
+        self.assertTrue(daemon.says("settings: read again and refused: nothing is changed"), daemon.log())
+        self.assertTrue(daemon.says("unknown key 'hold_mx'; did you mean 'hold_max'?"), daemon.log())
+        self.file.unlink()
+        daemon.process.send_signal(signal.SIGHUP)
+        self.assertTrue(daemon.says("no such file"), daemon.log())
+        time.sleep(1.5)
+        self.assertFalse(any("frames measured" in line for line in daemon.lines), "no status line came")
+        self.assertTrue(daemon.stops_by_itself(), daemon.log())
+
+    def test_the_log_is_as_grave_as_asked(self):
+        daemon = self.daemon("log_level: error", "status_every_s: 1")
+        self.assertTrue(daemon.says("runtime: no frame yet"), daemon.log())
+        self.assertTrue(any("config: log_level: error" in line for line in daemon.lines), "the start is always told")
+        self.assertTrue(daemon.stops_by_itself(), daemon.log())
+        self.assertFalse(any("stops, as asked" in line for line in daemon.lines), daemon.log())
+        daemon = self.daemon("log_level: error", "status_every_s: 1")
+        self.reload(daemon, "log_level: info", "status_every_s: 1")
+        self.assertTrue(daemon.says("settings: log_level: info instead of error"), daemon.log())
+        self.assertTrue(daemon.stops_by_itself(), daemon.log())
+        self.assertTrue(daemon.says("stops, as asked"), daemon.log())
+
+    def test_at_a_terminal_it_ends_with_it(self):
+        mine, its = os.openpty()
+        self.addCleanup(os.close, mine)
+        self.write()
+        daemon = self.start(POSE_WALLD, "--config", self.file, stdin=its)
+        os.close(its)
+        self.assertTrue(daemon.says("listens"), daemon.log())
+        daemon.process.send_signal(signal.SIGHUP)
+        self.assertEqual(daemon.process.wait(live_peer.PATIENCE_S), 0, daemon.log())
 
 
 class Service(Folder):
@@ -177,7 +254,7 @@ class Service(Folder):
         self.assertIn(b"STOPPING=1", rest)
 
     def test_stops_by_every_usual_signal(self):
-        for stop in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        for stop in (signal.SIGINT, signal.SIGTERM):
             daemon = self.start(POSE_WALLD, "--set", f"udp_port={live_peer.free_port(socket.SOCK_DGRAM)}")
             self.assertTrue(daemon.says("listens"))
             daemon.process.send_signal(stop)

@@ -43,6 +43,14 @@ TEST(LiveSettings, AreRefusedWithWhatIsAllowed) {
   EXPECT_NE(fault_of("extrinsic_from=tf").find("source (default) must be ros1 or ros2"), std::string::npos);
 }
 
+TEST(LiveSettings, ALoginWithoutItsPartsIsRefused) {
+  EXPECT_EQ(fault_of("mqtt_password_file=/x"), "mqtt_password_file needs mqtt_user");
+  EXPECT_EQ(fault_of("mqtt_ca_file=/x"), "mqtt_ca_file and mqtt_cert_file need mqtt_tls: 1");
+  EXPECT_EQ(fault_of("mqtt_cert_file=/x"), "mqtt_ca_file and mqtt_cert_file need mqtt_tls: 1");
+  EXPECT_EQ(fault_of("mqtt_key_file=/x"), "mqtt_key_file needs mqtt_cert_file");
+  EXPECT_NE(fault_of("log_level=debug").find("allowed: one of info, warning, error"), std::string::npos);
+}
+
 TEST(LiveSettings, EverySensorThatIsKnownCanBeChosen) {
   for (const std::string& name : sensor_names()) {
     EXPECT_EQ(load_config("", {"sensor=" + name}).live.sensor, name);

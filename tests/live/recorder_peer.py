@@ -164,7 +164,7 @@ class Recorder(unittest.TestCase):
             self.assertEqual(read["index"]["chunks"], read["chunks"])
             members = set(read["index"]["members"]["/pose_wall/result"])
             self.assertLess({"values", "publication", "age_ms", "steer"}, members)
-            self.assertEqual(read["index"]["members"]["/pose_wall/health"], ["parts"])
+            self.assertEqual(read["index"]["members"]["/pose_wall/health"], ["schema", "parts"])
             self.assertIn("sensor_msgs/msg/PointCloud2", read["schemas"].values())
 
     def test_a_disk_that_fills_and_empties_stops_neither_measuring_nor_later_recording(self):

@@ -184,18 +184,29 @@ TEST_F(RoadwaySinkTest, ASavedMapIsWhereAMachineIsFoundAgain) {
   EXPECT_NE(std::count(alone.map->cells.begin(), alone.map->cells.end(), 100), 0);
 }
 
-TEST_F(RoadwaySinkTest, AMapThatIsThereAlreadyIsKeptAndAFolderThatIsMissingHurtsNobody) {
+TEST_F(RoadwaySinkTest, AMapThatIsThereAlreadyIsKeptAndAFolderThatIsGoneLaterHurtsNobody) {
   test::TempFolder folder;
   folder.write("trail.pwt", "an earlier one");
   Hall hall = furnished_hall();
-  for (const char* file : {"/trail.pwt", "/missing/trail.pwt"}) {
+  std::filesystem::create_directory(folder.path() + "/gone");
+  for (const char* file : {"/trail.pwt", "/gone/trail.pwt"}) {
     open("map", {"planar_map=" + folder.path() + file});
+    std::filesystem::remove(folder.path() + "/gone");
     EXPECT_TRUE(drive(2, &hall).pose);
     sink_->stop();
+    std::filesystem::create_directory(folder.path() + "/gone");
   }
   std::ifstream earlier(folder.path() + "/trail.pwt");
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(earlier), {}), "an earlier one");
   EXPECT_FALSE(std::filesystem::exists(folder.path() + "/map.yaml"));
+}
+
+TEST_F(RoadwaySinkTest, AFolderThatIsMissingAtTheStartIsNamed) {
+  test::TempFolder folder;
+  const std::string path = folder.path() + "/missing/trail.pwt";
+  const std::string said = test::said_by<std::runtime_error>([&] { open("map", {"planar_map=" + path}); });
+  EXPECT_EQ(said, "planar_map: " + path + ": there is no folder " + folder.path() +
+                      "/missing; allowed: a file in a folder that is there");
 }
 
 TEST_F(RoadwaySinkTest, MapsThatCannotBeReadAreNamed) {

@@ -12,6 +12,7 @@
 
 #include "apps/live/clocks.hpp"
 #include "apps/live/planar/roadway_sink.hpp"
+#include "apps/live/setting_changes.hpp"
 #include "io/config_file/key_table.hpp"
 #include "io/config_file/resolved_frames.hpp"
 
@@ -20,12 +21,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kLook = std::chrono::milliseconds(50);
+// As a worker's (live_runtime.cpp): the loop writes the log, and who reads that may be slow.
+constexpr std::int64_t kLoopHangs_ns = 10'000'000'000;
 // A recording waits so long for a disk, and no longer: a stop within a second must not wait for it.
 constexpr auto kDiskStall = std::chrono::milliseconds(500);
 
-void log_lines(const std::string& part, const std::string& text) {
+void log_lines(const std::string& part, const std::string& text, Grade grade = Grade::kGood) {
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) log_line(Grade::kGood, part, line);
+  for (std::string line; std::getline(lines, line);) log_line(grade, part, line);
 }
 
 // What one wants to see of a part every minute: its counters.
@@ -46,6 +49,7 @@ class Daemon::Taker final : public FrameTaker {
   void set_extrinsic(const std::optional<Extrinsic>& extrinsic) override { daemon_.runtime_.set_extrinsic(extrinsic); }
   void wait_idle() override {
     daemon_.runtime_.wait_idle();
+    if (const auto recorder = daemon_.recorder()) recorder->wait_for_room(kDiskStall);
     for (const auto& sink : daemon_.sinks_) sink->wait_for_room(kDiskStall);
   }
 
@@ -89,8 +93,7 @@ void Daemon::make_planar() {
 
 void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
   const LiveSettings& live = loaded_.live;
-  // First, for sinks end in this order: what is kept is on the disk before a network can hold anything up.
-  if (!live.recording.empty()) add(make_recorder(loaded_, *this));
+  if (!live.recording.empty()) recorder_ = std::make_shared<SinkThread>(make_recorder(loaded_, *this));
   if (replay) {
     source_ = make_replay_source(*replay);
   } else if (live.source == "udp") {
@@ -124,6 +127,7 @@ void Daemon::add(RosEdge edge) {
 void Daemon::post(const std::shared_ptr<const LiveResult>& result) {
   if (guard_) guard_->note_motion(*result);
   if (roadway_) roadway_->post(result);
+  if (const auto recorder = this->recorder()) recorder->post(result);
   for (const auto& sink : sinks_) sink->post(result);
 }
 
@@ -155,10 +159,17 @@ void Daemon::log_status() const {
   for (const PartHealth& part : all()) log_line(part.grade, part.part, facts_text(part));
 }
 
+std::shared_ptr<SinkThread> Daemon::recorder() const {
+  const std::lock_guard<std::mutex> locked(recorder_lock_);
+  return recorder_;
+}
+
+// The map first: a wrong one is named before anybody is served.
 void Daemon::start() {
+  if (roadway_) roadway_->start();
+  if (recorder_) recorder_->start();
   for (const auto& sink : sinks_) sink->start();
   if (guard_) guard_->start();
-  if (roadway_) roadway_->start();
   runtime_.start();
   source_->start(*taker_);
 }
@@ -168,6 +179,8 @@ void Daemon::stop() {
   if (guard_) guard_->stop();
   runtime_.stop();
   if (roadway_) roadway_->stop();
+  // Before the others: what is kept is on the disk before a network can hold anything up.
+  if (const auto recorder = this->recorder()) recorder->stop();
   for (const auto& sink : sinks_) sink->stop();
 }
 
@@ -176,13 +189,68 @@ std::vector<PartHealth> Daemon::all() const {
   if (guard_) parts.push_back(guard_->health());
   if (commands_) parts.push_back(commands_->health(monotonic_ns()));
   if (roadway_) parts.push_back(roadway_->health());
+  if (const auto recorder = this->recorder()) parts.push_back(recorder->health());
   for (const auto& sink : sinks_) parts.push_back(sink->health());
   return parts;
 }
 
-void Daemon::look_around(std::atomic<bool>& looked) {
+std::vector<std::string> Daemon::hung() const {
+  std::vector<std::string> hung;
+  if (!runtime_.is_alive()) hung.emplace_back("the runtime's worker hangs");
+  if (guard_ && !guard_->is_alive()) hung.emplace_back("the obstacle stop hangs");
+  const std::int64_t looked_ns = looked_ns_;
+  if (looked_ns != 0 && monotonic_ns() - looked_ns > kLoopHangs_ns) hung.emplace_back("the daemon's own loop hangs");
+  return hung;
+}
+
+// A recorder that is gone has written all that it was given.
+void Daemon::renew_recorder() {
+  std::shared_ptr<SinkThread> before;
+  {
+    const std::lock_guard<std::mutex> locked(recorder_lock_);
+    before = std::move(recorder_);
+  }
+  if (before) before->stop();
+  if (loaded_.live.recording.empty()) return;
+  try {
+    const auto fresh = std::make_shared<SinkThread>(make_recorder(loaded_, *this));
+    fresh->start();
+    const std::lock_guard<std::mutex> locked(recorder_lock_);
+    recorder_ = fresh;
+  } catch (const std::exception& fault) {
+    log_line(Grade::kBad, "settings", fmt::format("recording: {}; nothing is recorded", fault.what()));
+  }
+}
+
+void Daemon::take_settings(const std::function<LoadedConfig()>& read) {
+  LoadedConfig fresh;
+  try {
+    fresh = read();
+  } catch (const std::exception& fault) {
+    log_lines("settings", fault.what(), Grade::kBad);
+    log_line(Grade::kBad, "settings", "read again and refused: nothing is changed");
+    return;
+  }
+  const std::vector<SettingChange> changes = setting_changes(loaded_, fresh);
+  const bool records_otherwise = take_changes(changes, &loaded_);
+  const Grade level = log_level_of(loaded_.live.log_level);
+  set_log_level(Grade::kGood);  // whatever the level was, this is told
+  std::size_t taken = 0;
+  for (const SettingChange& change : changes) {
+    taken += change.is_taken ? 1 : 0;
+    log_line(change.is_taken ? Grade::kGood : Grade::kWarning, "settings", change_text(change));
+  }
+  if (records_otherwise) renew_recorder();
+  log_line(Grade::kGood, "settings",
+           fmt::format("read again: {} changed, {} wait for a restart", taken, changes.size() - taken));
+  set_log_level(level);
+}
+
+void Daemon::look_around(const Wishes& wishes) {
+  looked_ns_ = monotonic_ns();
   health_log_.note(all());
-  if (looked.exchange(false)) {
+  if (wishes.reload.exchange(false)) take_settings(wishes.read_settings);
+  if (wishes.looked.exchange(false)) {
     log_line(guard_ ? Grade::kGood : Grade::kWarning, "planar stop",
              guard_ ? "somebody has looked: nothing is close around the machine"
                     : "somebody has looked, but the key `planar` is off");
@@ -192,24 +260,23 @@ void Daemon::look_around(std::atomic<bool>& looked) {
   if (runtime_.is_alive() && (!guard_ || guard_->is_alive())) service_.alive();
 }
 
-void Daemon::run(const std::atomic<bool>& stop_asked, std::atomic<bool>& looked,
-                 const std::function<void()>& is_through) {
+void Daemon::run(const Wishes& wishes) {
   log_start();
   start();
   service_.ready();
-  const auto status_every = std::chrono::duration<double>(loaded_.live.status_every_s);
+  set_log_level(log_level_of(loaded_.live.log_level));
   Clock::time_point status_last = Clock::now();
-  while (!stop_asked && !restarts_ && !source_->is_finished()) {
-    look_around(looked);
-    if (Clock::now() - status_last >= status_every) {
+  while (!wishes.stop && !restarts_ && !source_->is_finished()) {
+    look_around(wishes);
+    if (Clock::now() - status_last >= std::chrono::duration<double>(loaded_.live.status_every_s)) {
       status_last = Clock::now();
       log_status();
     }
     std::this_thread::sleep_for(kLook);
   }
   if (!restarts_) service_.stopping();
-  const bool was_asked = stop_asked || restarts_;
-  if (!was_asked) is_through();
+  const bool was_asked = wishes.stop || restarts_;
+  if (!was_asked) wishes.is_through();
   const std::string failure = was_asked ? "" : source_->failure();
   // What failed stands in the source's line of status.
   if (failure.empty()) {

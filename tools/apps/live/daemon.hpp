@@ -8,6 +8,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -29,16 +30,26 @@ class Daemon final : public HealthBoard {
   Daemon(const LoadedConfig& loaded, const std::optional<ReplayPlan>& replay);
   ~Daemon() override { stop(); }
 
-  // Until `stop` is true, or a recording is through. `looked` is true where somebody has looked around the machine
-  // (StopGuard::confirm); it becomes false as it is heeded. is_through: called once where a recording is, before the
-  // parts end. Throws what the starts of source and sinks throw, and std::runtime_error for a recording that could not
-  // be played to its end or holds no cloud.
-  void run(const std::atomic<bool>& stop, std::atomic<bool>& looked, const std::function<void()>& is_through);
+  // What is asked from outside.
+  struct Wishes {
+    const std::atomic<bool>& stop;
+    // Become false as they are heeded. looked: somebody has looked around the machine (StopGuard::confirm). reload: the
+    // settings are to be read again.
+    std::atomic<bool>&looked, &reload;
+    std::function<LoadedConfig()> read_settings;
+    std::function<void()> is_through;  // called once where a recording is, before the parts end
+  };
+
+  // Until `stop` is true, or a recording is through. Throws what the starts of source and sinks throw, and
+  // std::runtime_error for a recording that could not be played to its end or holds no cloud.
+  void run(const Wishes& wishes);
 
   // Whether it ended to be started again with settings that were saved meanwhile.
   bool restarts() const { return restarts_; }
 
   std::vector<PartHealth> all() const override;
+  std::vector<std::string> hung() const override;
+  std::optional<pose_wall_runtime_statistics> statistics() const override { return runtime_.statistics(); }
 
  private:
   class Taker;
@@ -52,7 +63,10 @@ class Daemon final : public HealthBoard {
   void log_status() const;
   void start();
   void stop();
-  void look_around(std::atomic<bool>& looked);
+  void look_around(const Wishes& wishes);
+  void take_settings(const std::function<LoadedConfig()>& read);
+  void renew_recorder();
+  std::shared_ptr<SinkThread> recorder() const;
 
   LoadedConfig loaded_;
   LiveRuntime runtime_;
@@ -61,10 +75,13 @@ class Daemon final : public HealthBoard {
   std::unique_ptr<Source> source_;
   std::unique_ptr<StopGuard> guard_;  // where the key `planar` is on
   std::unique_ptr<SinkThread> roadway_;
+  mutable std::mutex recorder_lock_;
+  std::shared_ptr<SinkThread> recorder_;  // may be another one after the settings were read again
   std::vector<std::unique_ptr<SinkThread>> sinks_;
   std::atomic<bool> restarts_{false};
   ServiceManager service_;
   HealthLog health_log_;
+  std::atomic<std::int64_t> looked_ns_{0};  // when the daemon's own loop last went round; 0: not yet
 };
 
 }  // namespace pose_wall::tools::live

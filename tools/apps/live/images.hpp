@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/live/health.hpp"
@@ -37,6 +38,10 @@ class HealthBoard {
   virtual ~HealthBoard() = default;
 
   virtual std::vector<PartHealth> all() const = 0;
+  // Threads that hang, in words: what a new start may mend.
+  virtual std::vector<std::string> hung() const { return {}; }
+  // Of the runtime; nothing where there is none.
+  virtual std::optional<pose_wall_runtime_statistics> statistics() const { return std::nullopt; }
 };
 
 }  // namespace pose_wall::tools::live

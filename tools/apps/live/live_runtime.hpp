@@ -54,6 +54,7 @@ class LiveRuntime final : public FrameTaker, public Images {
   // False when the worker has been at one thing for so long that it hangs.
   bool is_alive() const;
   PartHealth health() const;
+  pose_wall_runtime_statistics statistics() const;
 
  private:
   void take_extrinsic(const std::optional<Extrinsic>& extrinsic);
@@ -78,7 +79,6 @@ class LiveRuntime final : public FrameTaker, public Images {
   std::shared_ptr<const LiveFrame> frame_of(std::uint64_t number);
   std::shared_ptr<const LabelledPoints> points() const;
   std::int32_t latest(pose_wall_publication* newest) const;
-  pose_wall_runtime_statistics statistics() const;
   void add_runtime_facts(PartHealth* health) const;
 
   api::Config config_;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
@@ -18,6 +19,8 @@ namespace {
 constexpr int kSameMost = 3;
 // A part has some five ways to fare; words that are always others, as of errors with a number, stop here.
 constexpr std::size_t kSummariesMost = 8;
+
+std::atomic<Grade> least_grave{Grade::kGood};
 
 // sd-daemon(3): a line may begin with its syslog level.
 const char* journal_level(Grade grade) {
@@ -89,7 +92,16 @@ const char* grade_name(Grade grade) {
   return "?";
 }
 
+void set_log_level(Grade least) {
+  least_grave = least;
+}
+
+Grade log_level_of(const std::string& name) {
+  return name == "error" ? Grade::kBad : name == "warning" ? Grade::kWarning : Grade::kGood;
+}
+
 void log_line(Grade grade, const std::string& part, const std::string& fact) {
+  if (grade < least_grave.load()) return;
   static const bool to_journal = std::getenv("JOURNAL_STREAM") != nullptr;
   const std::string line =
       fmt::format("{}{}{}: {}\n", to_journal ? journal_level(grade) : time_text(),

@@ -17,6 +17,11 @@
 
 namespace pose_wall::tools::live {
 
+// Less grave lines are not written from now on. From any thread.
+void set_log_level(Grade least);
+// "info", "warning", "error"; as the key log_level has it.
+Grade log_level_of(const std::string& name);
+
 // From any thread; a line is written whole.
 void log_line(Grade grade, const std::string& part, const std::string& fact);
 

@@ -43,7 +43,7 @@ struct Words {
   ReplayPlan replay;
 };
 
-// Signals become a wish in a thread of its own; after it the stop must come in time.
+// Signals become wishes in a thread of its own; after that to stop the stop must come in time.
 class StopSignals {
  public:
   StopSignals() {
@@ -71,11 +71,14 @@ class StopSignals {
   }
   // By SIGUSR1: somebody has looked around the machine.
   std::atomic<bool>& looked() { return looked_; }
+  // By SIGHUP: the settings are to be read again.
+  std::atomic<bool>& reload() { return reload_; }
 
  private:
   void wait() {
     int signal = 0;
-    while (sigwait(&signals_, &signal) == 0 && signal == SIGUSR1) looked_ = true;
+    while (sigwait(&signals_, &signal) == 0 && is_wish(signal)) {
+    }
     if (done_) return;
     asked_ = true;
     // Further signals hurry nothing and cancel nothing.
@@ -88,8 +91,15 @@ class StopSignals {
     _exit(kExitFailed);
   }
 
+  // Where somebody started it at a terminal, SIGHUP says that the terminal is gone.
+  bool is_wish(int signal) {
+    if (signal == SIGUSR1) return looked_ = true;
+    return signal == SIGHUP && !at_terminal_ && (reload_ = true);
+  }
+
+  const bool at_terminal_ = isatty(STDIN_FILENO) == 1;
   sigset_t signals_{};
-  std::atomic<bool> asked_{false}, looked_{false}, done_{false};
+  std::atomic<bool> asked_{false}, looked_{false}, reload_{false}, done_{false};
   std::atomic<std::chrono::seconds> at_most_{kStopAtMost};
   std::thread thread_;
 };
@@ -104,7 +114,9 @@ bool run(Words words) {
   if (!words.replay.inputs.empty()) replay = words.replay;
   StopSignals signals;
   Daemon daemon(loaded, replay);
-  daemon.run(signals.asked(), signals.looked(), [&signals] { signals.ask_at_end(); });
+  daemon.run({signals.asked(), signals.looked(), signals.reload(),
+              [&words] { return load_config(words.config_file, words.settings); },
+              [&signals] { signals.ask_at_end(); }});
   return daemon.restarts();
 }
 

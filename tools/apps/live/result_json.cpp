@@ -41,7 +41,7 @@ std::string health_json(const std::vector<PartHealth>& parts) {
     list.push_back(
         {{"part", part.part}, {"grade", grade_name(part.grade)}, {"summary", part.summary}, {"facts", facts}});
   }
-  return json_text({{"parts", list}});
+  return json_text({{"schema", 1}, {"parts", list}});
 }
 
 }  // namespace pose_wall::tools::live

@@ -130,6 +130,23 @@ const std::vector<Row>& rows() {
        &LiveSettings::mqtt},
       {{"mqtt_topic", kSinks, Type::kText, "", 0, 0, "", translatable("topic under which MQTT telemetry is published")},
        &LiveSettings::mqtt_topic},
+      {{"mqtt_user", kSinks, Type::kText, "", 0, 0, "", translatable("user of the broker; empty: none")},
+       &LiveSettings::mqtt_user},
+      {{"mqtt_password_file", kSinks, Type::kText, "", 0, 0, "",
+        translatable("file whose first line is the password of mqtt_user, read at each connection; empty: none")},
+       &LiveSettings::mqtt_password_file},
+      {{"mqtt_tls", kSinks, Type::kSwitch, "1", 0, 0, "",
+        translatable("1: encrypted (TLS); the broker must prove its name or address by a certificate")},
+       &LiveSettings::mqtt_tls},
+      {{"mqtt_ca_file", kSinks, Type::kText, "", 0, 0, "",
+        translatable("certificates that the broker's is checked by (PEM); empty: those of this machine")},
+       &LiveSettings::mqtt_ca_file},
+      {{"mqtt_cert_file", kSinks, Type::kText, "", 0, 0, "",
+        translatable("certificate by which the broker knows this machine (PEM); empty: none")},
+       &LiveSettings::mqtt_cert_file},
+      {{"mqtt_key_file", kSinks, Type::kText, "", 0, 0, "",
+        translatable("private key of mqtt_cert_file (PEM); empty: in that file")},
+       &LiveSettings::mqtt_key_file},
       {{"black_box", kSinks, Type::kText, "", 0, 0, "",
         translatable(
             "folder of the black box, one ring file per start; empty: none. `pose_wall replay-box` computes it again")},
@@ -149,6 +166,9 @@ const std::vector<Row>& rows() {
       {{"status_every_s", kSinks, Type::kNumber, "s", 1, 86400, "",
         translatable("period of the status line in the log")},
        &LiveSettings::status_every_s},
+      {{"log_level", kSinks, Type::kChoice, "", 0, 0, "info, warning, error",
+        translatable("least grave lines of the log that are written")},
+       &LiveSettings::log_level},
   };
   return table;
 }
@@ -228,6 +248,19 @@ std::string broken_page_rule(const LiveSettings& settings) {
   // Whoever listens on the way would know the code or the password.
   if (settings.commissioning) return tr("commissioning beyond loopback needs http_certificate");
   if (!settings.http_login.empty()) return tr("http_login beyond loopback needs http_certificate");
+  return "";
+}
+
+std::string broken_live_rule(const LiveSettings& settings) {
+  // MQTT 3.1.1 knows no password without a user (3.1.2.9).
+  if (!settings.mqtt_password_file.empty() && settings.mqtt_user.empty()) {
+    return tr("mqtt_password_file needs mqtt_user");
+  }
+  const bool has_certificates = !settings.mqtt_ca_file.empty() || !settings.mqtt_cert_file.empty();
+  if (has_certificates && !settings.mqtt_tls) return tr("mqtt_ca_file and mqtt_cert_file need mqtt_tls: 1");
+  if (!settings.mqtt_key_file.empty() && settings.mqtt_cert_file.empty()) {
+    return tr("mqtt_key_file needs mqtt_cert_file");
+  }
   return "";
 }
 

@@ -36,12 +36,16 @@ struct LiveSettings {
   std::string can_frames = "11bit";
   double can_first = 0, can_address = 128;
   std::string mqtt_topic = "pose_wall";
+  std::string mqtt_user, mqtt_password_file;
+  bool mqtt_tls = false;
+  std::string mqtt_ca_file, mqtt_cert_file, mqtt_key_file;
   std::string black_box;
   double black_box_mb = 2048;
   std::string recording;
   double recording_mb = 4096;
   bool recording_clouds = false;
   double status_every_s = 60;
+  std::string log_level = "info";
 };
 
 // All rows, in the table's order.
@@ -53,6 +57,9 @@ std::string live_value_text(const LiveSettings& settings, const OutsideKey& key)
 
 // False where the value is not allowed; the settings are then as before.
 bool set_live_value(LiveSettings* settings, const OutsideKey& key, const std::string& value);
+
+// What is wrong between keys of this table; empty: nothing.
+std::string broken_live_rule(const LiveSettings& settings);
 
 // "HOST:PORT" in its parts; nothing where it is none. [::1]:502 is one.
 struct HostPort {

@@ -80,6 +80,8 @@ class ConfigLoader {
     if (!page_rule.empty()) fault(page_rule);
     const std::string planar_rule = broken_planar_rule(loaded_.planar);
     if (!planar_rule.empty()) fault(planar_rule);
+    const std::string live_rule = broken_live_rule(loaded_.live);
+    if (!live_rule.empty()) fault(live_rule);
     const std::string command_rule = broken_command_rule(loaded_.planar, loaded_.live);
     if (!command_rule.empty()) fault(command_rule);
     pose_wall_rule_fault broken{};

@@ -28,7 +28,6 @@ constexpr auto kWaitFirst = std::chrono::seconds(1), kWaitMost = std::chrono::se
 // Telemetry of a few seconds; a broker that is further behind gets the next newer one instead.
 constexpr std::uint64_t kUnacknowledgedMost = 8;
 constexpr std::size_t kTopicBytesMost = 60000;  // a string of MQTT has 65,535, and the names come behind it
-constexpr char kOnline[] = "online", kOffline[] = "offline";
 
 void require_topic(const std::string& topic) {
   const auto refuse = [&](const char* why) {
@@ -54,9 +53,28 @@ std::string client_name() {
   return fmt::format("pose_walld-{:08x}", random());
 }
 
-std::string address_of(const HostPort& broker) {
-  const bool is_six = broker.host.find(':') != std::string::npos;
-  return fmt::format("tcp://{}{}{}:{}", is_six ? "[" : "", broker.host, is_six ? "]" : "", broker.port);
+std::string address_of(const MqttAccess& access) {
+  const bool is_six = access.broker.host.find(':') != std::string::npos;
+  return fmt::format("{}://{}{}{}:{}", access.tls ? "ssl" : "tcp", is_six ? "[" : "", access.broker.host,
+                     is_six ? "]" : "", access.broker.port);
+}
+
+// Of CONNACK (MQTT 3.1.1, 3.2.2.3); the library says no more than that there is one.
+std::string refusal_text(int code) {
+  switch (code) {
+    case 3:
+      return "the broker is not available";
+    case 4:
+      return "the broker refuses user or password";
+    case 5:
+      return "the broker refuses this user";
+    default:
+      return "";
+  }
+}
+
+const char* text_or_none(const std::string& text) {
+  return text.empty() ? nullptr : text.c_str();
 }
 
 }  // namespace
@@ -68,19 +86,21 @@ struct MqttLink::State {
   mutable std::mutex lock;
   std::condition_variable changed;
   MQTTAsync client = nullptr;
-  std::string topic, status_topic;
+  MqttAccess access;
+  MqttPresence presence;
+  std::string topic, presence_topic;
   Phase phase = Phase::kApart;
   bool greets = false;  // it is connected and has not said so yet
   Clock::time_point next_try;
   Clock::duration wait = kWaitFirst;
-  std::string trouble;
+  std::string trouble, tls_trouble;
   std::uint64_t unacknowledged = 0, connections = 0, acknowledged = 0, not_sent = 0;
   bool has_left = false;
 
   void fall_apart(const std::string& why) {
     const std::lock_guard<std::mutex> locked(lock);
     phase = Phase::kApart;
-    trouble = why;
+    trouble = tls_trouble.empty() ? why : std::exchange(tls_trouble, "");
     next_try = Clock::now() + wait;
     wait = std::min<Clock::duration>(2 * wait, kWaitMost);
     changed.notify_all();
@@ -100,11 +120,21 @@ struct MqttLink::Events {
     state->greets = true;
     state->wait = kWaitFirst;
     state->trouble.clear();
+    state->tls_trouble.clear();
     state->unacknowledged = 0;  // what the last connection owed is lost with it
     ++state->connections;
   }
   static void refused(void* context, MQTTAsync_failureData* why) {
-    of(context)->fall_apart(why != nullptr && why->message != nullptr ? why->message : "no answer");
+    const std::string refusal = why != nullptr ? refusal_text(why->code) : "";
+    const char* const said = why != nullptr && why->message != nullptr ? why->message : "no answer";
+    of(context)->fall_apart(refusal.empty() ? said : refusal);
+  }
+  // A line of OpenSSL's for each cause, the deepest first.
+  static int tls_failed(const char* line, std::size_t bytes, void* context) {
+    State* state = of(context);
+    const std::lock_guard<std::mutex> locked(state->lock);
+    if (state->tls_trouble.empty()) state->tls_trouble = "TLS: " + tls_reason(std::string(line, bytes));
+    return 1;
   }
   static void lost(void* context, char*) { of(context)->fall_apart("the connection was lost"); }
   static void left(void* context, MQTTAsync_successData*) {
@@ -133,9 +163,15 @@ struct MqttLink::Events {
 };
 
 void MqttLink::State::connect() {
+  std::string password;
+  try {
+    password = password_of(access);
+  } catch (const std::exception& fault) {
+    return fall_apart(fault.what());
+  }
   MQTTAsync_willOptions will = MQTTAsync_willOptions_initializer;
-  will.topicName = status_topic.c_str();
-  will.message = kOffline;
+  will.topicName = presence_topic.c_str();
+  will.message = presence.offline.c_str();
   will.retained = 1;
   will.qos = kQos;
   MQTTAsync_connectOptions options = MQTTAsync_connectOptions_initializer;
@@ -144,6 +180,17 @@ void MqttLink::State::connect() {
   options.keepAliveInterval = kKeepAlive_s;
   options.connectTimeout = kConnect_s;
   options.will = &will;
+  options.username = text_or_none(access.user);
+  options.password = text_or_none(password);
+  MQTTAsync_SSLOptions tls = MQTTAsync_SSLOptions_initializer;
+  tls.trustStore = text_or_none(access.ca_file);
+  tls.keyStore = text_or_none(access.cert_file);
+  tls.privateKey = text_or_none(access.key_file);
+  tls.enableServerCertAuth = 1;
+  tls.verify = 1;  // the name or address in the certificate, too
+  tls.ssl_error_cb = Events::tls_failed;
+  tls.ssl_error_context = this;
+  if (access.tls) options.ssl = &tls;
   options.onSuccess = Events::connected;
   options.onFailure = Events::refused;
   options.context = this;
@@ -170,15 +217,17 @@ bool MqttLink::State::send(const std::string& where, const std::string& message,
   return status == MQTTASYNC_SUCCESS;
 }
 
-MqttLink::MqttLink(const HostPort& broker, std::string topic) : state_(std::make_shared<State>()) {
+MqttLink::MqttLink(MqttAccess access, std::string topic, MqttPresence presence) : state_(std::make_shared<State>()) {
   require_topic(topic);
-  state_->status_topic = topic + "/status";
+  state_->access = std::move(access);
+  state_->presence = std::move(presence);
+  state_->presence_topic = topic + "/" + state_->presence.name;
   state_->topic = std::move(topic);
   MQTTAsync_createOptions options = MQTTAsync_createOptions_initializer;
   options.sendWhileDisconnected = 0;
   options.maxBufferedMessages = static_cast<int>(2 * kUnacknowledgedMost);  // beside our own bound
-  const int status = MQTTAsync_createWithOptions(&state_->client, address_of(broker).c_str(), client_name().c_str(),
-                                                 MQTTCLIENT_PERSISTENCE_NONE, nullptr, &options);
+  const int status = MQTTAsync_createWithOptions(&state_->client, address_of(state_->access).c_str(),
+                                                 client_name().c_str(), MQTTCLIENT_PERSISTENCE_NONE, nullptr, &options);
   if (status != MQTTASYNC_SUCCESS) throw std::runtime_error(fmt::format("mqtt: {}", MQTTAsync_strerror(status)));
   MQTTAsync_setCallbacks(state_->client, state_.get(), Events::lost, Events::arrived, nullptr);
 }
@@ -201,21 +250,21 @@ void MqttLink::look() {
       state_->phase = State::Phase::kSeeks;
     }
   }
-  if (greets) {
-    state_->send(state_->status_topic, kOnline, true);
-  } else {
+  if (!greets) {
     state_->connect();
+  } else if (!state_->presence.online.empty()) {
+    state_->send(state_->presence_topic, state_->presence.online, true);
   }
 }
 
-bool MqttLink::publish(const char* name, const std::string& message) {
-  return state_->send(state_->topic + "/" + name, message, false);
+bool MqttLink::publish(const char* name, const std::string& message, bool retained) {
+  return state_->send(state_->topic + "/" + name, message, retained);
 }
 
 void MqttLink::leave() {
   const auto until = Clock::now() + kLeaveMost;
   if (!is_connected()) return;
-  state_->send(state_->status_topic, kOffline, true);
+  state_->send(state_->presence_topic, state_->presence.offline, true);
   MQTTAsync_disconnectOptions options = MQTTAsync_disconnectOptions_initializer;
   options.timeout = static_cast<int>(kLeaveMost.count());  // for what is under way
   options.onSuccess = Events::left;

@@ -11,24 +11,30 @@
 #include <memory>
 #include <string>
 
-#include "io/config_file/live_settings.hpp"
+#include "apps/live/mqtt/mqtt_access.hpp"
 
 namespace pose_wall::tools::live {
 
+// A retained message of a link's own, in topic/name.
+struct MqttPresence {
+  std::string name;
+  std::string online;   // at each connection; empty: nothing
+  std::string offline;  // when it ends, and by the broker when it is gone
+};
+
 class MqttLink {
  public:
-  // Under `topic` it tells "online" in topic/status, retained; "offline" when it ends, and by the broker when it is
-  // gone. Throws std::runtime_error for a topic that nobody may publish under.
-  MqttLink(const HostPort& broker, std::string topic);
+  // Throws std::runtime_error for a topic that nobody may publish under.
+  MqttLink(MqttAccess access, std::string topic, MqttPresence presence);
   MqttLink(const MqttLink&) = delete;
   MqttLink& operator=(const MqttLink&) = delete;
   ~MqttLink();
 
   // Seeks the broker where there is none. Returns at once; to be called again and again, by one thread.
   void look();
-  // Under topic/name, at least once, not retained. False where there is no broker, or it is behind. From any thread.
-  bool publish(const char* name, const std::string& message);
-  // Tells "offline" and leaves, within kLeaveMost; no `look` may be under way.
+  // Under topic/name, at least once. False where there is no broker, or it is behind. From any thread.
+  bool publish(const char* name, const std::string& message, bool retained = false);
+  // Tells that it is offline and leaves, within kLeaveMost; no `look` may be under way.
   void leave();
 
   bool is_connected() const;

@@ -8,13 +8,16 @@
 
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "apps/live/clocks.hpp"
 #include "apps/live/edges.hpp"
 #include "apps/live/log.hpp"
+#include "apps/live/mqtt/last_value.hpp"
 #include "apps/live/mqtt/mqtt_link.hpp"
 #include "apps/live/result_json.hpp"
 
@@ -23,7 +26,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kResultEvery = std::chrono::seconds(1), kHealthEvery = std::chrono::seconds(10);
+constexpr auto kResultEvery = std::chrono::seconds(1), kLastEvery = std::chrono::seconds(1),
+               kHealthEvery = std::chrono::seconds(10);
 constexpr auto kLook = std::chrono::milliseconds(100);
 
 // What of a result is told at once when it changes.
@@ -65,43 +69,53 @@ class Told {
 class MqttSink final : public Sink {
  public:
   MqttSink(const LiveSettings& live, const HealthBoard& board)
-      : part_("sink mqtt " + live.mqtt), board_(board), link_(*parse_host_port(live.mqtt), live.mqtt_topic) {}
+      : part_("sink mqtt " + live.mqtt),
+        board_(board),
+        access_(mqtt_access(live)),
+        link_(access_, live.mqtt_topic, {"status", "online", "offline"}),
+        last_link_(access_, live.mqtt_topic, {kLast, "", no_last_value()}) {}
   ~MqttSink() override { stop(); }
 
   // A broker that is not there yet is no fault.
   void start() override {
-    log_line(Grade::kGood, part_, "telemetry without password or encryption; never control a machine by it");
+    log_line(Grade::kGood, part_, access_text(access_));
     ending_ = false;
     thread_ = std::thread([this] { run(); });
   }
 
   void take(const LiveResult& result) override {
+    {
+      const std::lock_guard<std::mutex> locked(newest_lock_);
+      newest_ = result;
+    }
     const std::uint64_t connection = link_.connections();
     if (!link_.is_connected()) return;
     std::vector<std::uint32_t> states = states_of(result);
     if (!results_.is_due(states, connection)) return;
-    if (link_.publish("result", result_json(result))) results_.note(std::move(states), connection);
+    if (link_.publish("result", with_end(result_json(result), wall_ns()))) results_.note(std::move(states), connection);
   }
 
   void stop() override {
     ending_ = true;
     if (!thread_.joinable()) return;
     thread_.join();
+    std::thread other([this] { last_link_.leave(); });  // a broker may hang: both within the time of one
     link_.leave();
+    other.join();
   }
 
   PartHealth health() const override {
     PartHealth health;
     health.part = part_;
-    const std::string trouble = link_.trouble();
-    const bool is_connected = link_.is_connected();
+    const std::string trouble = link_.is_connected() ? last_link_.trouble() : link_.trouble();
+    const bool is_connected = link_.is_connected() && last_link_.is_connected();
     health.grade = is_connected ? Grade::kGood : Grade::kWarning;
     health.summary = is_connected      ? "connected"
                      : trouble.empty() ? "seeks the broker"
                                        : "no broker: " + trouble + "; tries again";
     health.add("connections", link_.connections());
-    health.add("messages acknowledged", link_.acknowledged());
-    health.add("messages not sent", link_.not_sent());
+    health.add("messages acknowledged", link_.acknowledged() + last_link_.acknowledged());
+    health.add("messages not sent", link_.not_sent() + last_link_.not_sent());
     return health;
   }
 
@@ -109,7 +123,9 @@ class MqttSink final : public Sink {
   void run() {
     while (!ending_) {
       link_.look();
+      last_link_.look();
       if (link_.is_connected()) tell_health();
+      if (last_link_.is_connected()) tell_last();
       std::this_thread::sleep_for(kLook);
     }
   }
@@ -122,13 +138,31 @@ class MqttSink final : public Sink {
     if (link_.publish("health", health_json(parts))) health_.note(std::move(summaries), connection);
   }
 
+  // By our own thread, for a worker that hangs publishes nothing.
+  void tell_last() {
+    const std::uint64_t connection = last_link_.connections();
+    LastValue last;
+    {
+      const std::lock_guard<std::mutex> locked(newest_lock_);
+      last = last_value(newest_ ? &*newest_ : nullptr, monotonic_ns(), wall_ns());
+    }
+    if (!last_.is_due(last.gist, connection)) return;
+    if (last_link_.publish(kLast, last.json, true)) last_.note(std::move(last.gist), connection);
+  }
+
+  static constexpr const char* kLast = "last";
+
   std::string part_;
   const HealthBoard& board_;
+  MqttAccess access_;
   MqttLink link_;
+  MqttLink last_link_;  // a connection of its own: a broker tells one message alone when it is gone
+  std::mutex newest_lock_;
+  std::optional<LiveResult> newest_;
   std::thread thread_;
   std::atomic<bool> ending_{false};
-  Told<std::vector<std::uint32_t>> results_{kResultEvery};  // of the thread that takes
-  Told<std::string> health_{kHealthEvery};                  // of our own thread
+  Told<std::vector<std::uint32_t>> results_{kResultEvery};     // of the thread that takes
+  Told<std::string> health_{kHealthEvery}, last_{kLastEvery};  // of our own thread
 };
 
 }  // namespace

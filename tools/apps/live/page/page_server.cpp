@@ -13,8 +13,11 @@
 #include "apps/live/clocks.hpp"
 #include "apps/live/edges.hpp"
 #include "apps/live/log.hpp"
+#include "apps/live/page/api/openapi.hpp"
 #include "apps/live/page/broadcast.hpp"
 #include "apps/live/page/events.hpp"
+#include "apps/live/page/open_metrics.hpp"
+#include "apps/live/page/probes.hpp"
 #include "apps/live/page/roadway_events.hpp"
 #include "apps/live/result_json.hpp"
 #include "apps/live/web/web_server.hpp"
@@ -27,8 +30,6 @@ namespace {
 constexpr std::size_t kViewersMost = 16;  // each takes a frame's events ten times a second
 // A viewer hears something at least so often, so that one that is gone is noticed: at each turn of the server's timer.
 constexpr std::int64_t kSilentMost_ns = 500'000'000;
-// Ten publications of silence.
-constexpr std::int64_t kOld_ns = 1'000'000'000;
 // As /diagnostics of ROS.
 constexpr std::int64_t kHealthEvery_ns = 1'000'000'000;
 
@@ -143,12 +144,16 @@ class PageServer final : public Sink {
     give("/page.css", assets.style, "text/css; charset=utf-8");
     give("/page.js", assets.script, "text/javascript; charset=utf-8");
     give("/three.js", report::three_library(), "text/javascript; charset=utf-8");
+    give("/openapi.json", openapi(), "application/json");
     server_.get("/events", [this] { return view(); });
     server_.get("/state.json", [this] { return state(); });
     server_.get("/planar.json", [this] { return planar(); });
     server_.get("/map.png", [this] { return map(); });
     server_.get("/health", [this] { return health_of_all(); });
     if (more_ != nullptr) more_->serve(server_);
+    server_.get("/live", [this] { return probe("live", live_probe(moment())); });
+    server_.get("/ready", [this] { return probe("ready", ready_probe(moment())); });
+    server_.get("/metrics", [this] { return web_answer(200, OpenMetrics::kType, metrics_text(moment())); });
   }
 
   // What one viewer is sent.
@@ -207,7 +212,7 @@ class PageServer final : public Sink {
     const std::lock_guard<std::mutex> locked(newest_lock_);
     if (!has_newest_) return json(503, R"({"error": "nothing was published yet"})");
     // Silence is published, too: what is older was left by a worker that hangs.
-    if (monotonic_ns() - newest_.publication.published_ns > kOld_ns) {
+    if (monotonic_ns() - newest_.publication.published_ns > kOldResult_ns) {
       return json(503, R"({"error": "the newest result is older than a second: nothing may steer"})");
     }
     return json(200, result_json(newest_));
@@ -221,7 +226,7 @@ class PageServer final : public Sink {
   WebAnswer planar() {
     if (stop_ == nullptr) return json(404, R"({"error": "the key planar is off"})");
     const std::shared_ptr<const RoadwayNews> roadway = newest_roadway();
-    return json(200, fmt::format(R"({{"stop": {}, "roadway": {}}})", stop_json(stop_->stop_now(), line_),
+    return json(200, fmt::format(R"({{"schema": 1, "stop": {}, "roadway": {}}})", stop_json(stop_->stop_now(), line_),
                                  roadway ? roadway_json(*roadway) : "null"));
   }
 
@@ -242,6 +247,24 @@ class PageServer final : public Sink {
     const bool is_bad =
         std::any_of(parts.begin(), parts.end(), [](const PartHealth& part) { return part.grade >= Grade::kBad; });
     return json(is_bad ? 503 : 200, health_json(parts));
+  }
+
+  static WebAnswer probe(const char* name, const Probe& probe) {
+    return json(probe.is_well ? 200 : 503, probe_json(name, probe));
+  }
+
+  Moment moment() {
+    Moment moment;
+    moment.parts = board_.all();
+    moment.hung = board_.hung();
+    moment.statistics = board_.statistics();
+    if (stop_ != nullptr) moment.stop = stop_->stop_now();
+    {
+      const std::lock_guard<std::mutex> locked(newest_lock_);
+      if (has_newest_) moment.newest = newest_;
+    }
+    moment.now_ns = monotonic_ns();
+    return moment;
   }
 
   LoadedConfig loaded_;

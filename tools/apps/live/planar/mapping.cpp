@@ -4,15 +4,20 @@
 // The SLAM as a finder of places.
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
+#include <stdexcept>
+#include <system_error>
 
 #include "apps/live/log.hpp"
 #include "apps/live/planar/live_map.hpp"
 #include "apps/live/planar/place_finder.hpp"
 #include "io/frames/whole_file.hpp"
 #include "io/language/language.hpp"
+#include "io/language/system_errors.hpp"
 #include "io/planar_files/map_files.hpp"
 #include "pose_wall_planar_slam.h"
 #include "study/planar/part_block.hpp"
@@ -39,6 +44,7 @@ class Mapping final : public PlaceFinder {
     require_ok(pose_wall_planar_slam_open(&settings_, block_.data(), block_.bytes(), &slam_),
                translatable("the settings of the map"));
     last_.struct_size = sizeof last_;
+    require_folder();
     if (file_.empty() || !std::filesystem::exists(file_)) return;
     log_line(Grade::kWarning, "planar", fmt::format("{} is there already: this map is not saved", file_.string()));
     file_.clear();
@@ -88,6 +94,22 @@ class Mapping final : public PlaceFinder {
   }
 
  private:
+  // Now, and not after an hour of driving, when the map is to be saved.
+  void require_folder() const {
+    if (file_.empty()) return;
+    const std::filesystem::path folder = file_.has_parent_path() ? file_.parent_path() : ".";
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored)) {
+      throw std::runtime_error(
+          fmt::format("planar_map: {}: there is no folder {}; allowed: a file in a folder that is there",
+                      file_.string(), folder.string()));
+    }
+    if (access(folder.c_str(), W_OK | X_OK) != 0) {
+      throw std::runtime_error(
+          fmt::format("planar_map: {}: {}: {}", file_.string(), folder.string(), system_error_text(errno)));
+    }
+  }
+
   pose_wall_planar_slam_settings settings_;
   PartBlock block_;
   pose_wall_planar_slam* slam_ = nullptr;

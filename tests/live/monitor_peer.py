@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+# Copyright (c) 2026 the pose_wall authors
+"""What monitors read of pose_walld, with the parser of Prometheus' makers: metrics, liveness and readiness. A sensor
+that falls silent makes it not ready, but it lives; then nothing may steer by its metrics. Who hangs as a whole answers
+nobody, which monitors take for dead. All answers and events are as the daemon's own OpenAPI document describes them.
+
+usage: monitor_peer.py ROOT POSE_WALL POSE_WALLD POSE_WALL_SENSOR"""
+
+import http.client
+import json
+import os
+import pathlib
+import signal
+import socket
+import sys
+import unittest
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+ROOT, POSE_WALL, POSE_WALLD, SENSOR = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(4))
+sys.path[:0] = [str(ROOT / "tests/live")]
+
+import live_peer  # noqa: E402  pylint: disable=wrong-import-position
+
+live_peer.need("python3-prometheus-client python3-jsonschema", modules=("prometheus_client", "jsonschema"))
+import jsonschema  # noqa: E402  pylint: disable=wrong-import-position
+from prometheus_client.openmetrics import parser  # noqa: E402  pylint: disable=wrong-import-position
+
+VALUES = ["roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"]
+
+
+class Watched(unittest.TestCase):
+    """A daemon, and what it answers."""
+
+    def start(self, *words):
+        program = live_peer.Program(*words)
+        self.addCleanup(program.kill)
+        return program
+
+    def daemon(self, *words):
+        self.port = live_peer.free_port()
+        return self.start(POSE_WALLD, "--http", f"127.0.0.1:{self.port}", *words)
+
+    def ask(self, path):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
+        try:
+            connection.request("GET", path)
+            answer = connection.getresponse()
+            return answer.status, answer.headers["Content-Type"], answer.read().decode("utf-8")
+        finally:
+            connection.close()
+
+    def says(self, path, status):
+        return live_peer.becomes_true(lambda: self.ask(path)[0] == status)
+
+    def metrics(self):
+        """{family: {sample and labels: value}}, as the parser sees them; it refuses what is malformed."""
+        status, kind, text = self.ask("/metrics")
+        self.assertEqual((status, kind), (200, "application/openmetrics-text; version=1.0.0; charset=utf-8"))
+        return {family.name: {(sample.name, tuple(sorted(sample.labels.items()))): sample.value
+                              for sample in family.samples}
+                for family in parser.text_string_to_metric_families(text)}
+
+    def may_steer(self, metrics):
+        return [name for name in VALUES
+                if metrics["pose_wall_may_steer"][("pose_wall_may_steer", (("value", name),))] == 1]
+
+    def replay(self, *more):
+        return self.daemon(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL))[1:], *more)
+
+
+class Monitor(Watched):
+    def test_a_daemon_that_measures_is_ready_and_tells_its_numbers(self):
+        daemon = self.replay("--set", "planar=map")
+        self.assertTrue(daemon.says("runtime: measures"), daemon.log())
+        self.assertTrue(self.says("/ready", 200), daemon.log())
+        self.assertEqual(json.loads(self.ask("/ready")[2]), {"schema": 1, "ready": True, "why": []})
+        self.assertEqual(json.loads(self.ask("/live")[2]), {"schema": 1, "live": True, "why": []})
+        self.assertTrue(live_peer.becomes_true(lambda: len(self.may_steer(self.metrics())) == 7), daemon.log())
+        metrics, state = self.metrics(), json.loads(self.ask("/state.json")[2])
+        for name, family in (("roll", "pose_wall_angle_radians"), ("d_rb", "pose_wall_distance_meters")):
+            told = metrics[family][(family, (("value", name),))]
+            unit = "value_rad" if family.endswith("radians") else "value_m"
+            self.assertAlmostEqual(told, state["values"][name][unit], delta=0.05)
+        self.assertGreater(metrics["pose_wall_frames_measured"][("pose_wall_frames_measured_total", ())], 0)
+        dropped = metrics["pose_wall_frames_dropped"]
+        self.assertEqual(len(dropped), 7, dropped)
+        latency = metrics["pose_wall_latency_seconds"]
+        quantiles = [latency[("pose_wall_latency_seconds", (("quantile", q),))] for q in ("0.5", "0.99", "1.0")]
+        self.assertEqual(quantiles, sorted(quantiles))
+        self.assertLess(0, quantiles[0])
+        self.assertLess(metrics["pose_wall_frame_age_seconds"][("pose_wall_frame_age_seconds", ())], 5)
+        self.assertEqual(sum(metrics["pose_wall_stop_state"].values()), 1, "one state of the stop holds")
+        facts = metrics["pose_wall_part_fact"]
+        self.assertGreater(facts[("pose_wall_part_fact", (("fact", "frames pushed"), ("part", "runtime")))], 0)
+        before = metrics["pose_wall_frames_pushed"][("pose_wall_frames_pushed_total", ())]
+        self.assertTrue(live_peer.becomes_true(
+            lambda: self.metrics()["pose_wall_frames_pushed"][("pose_wall_frames_pushed_total", ())] > before))
+
+    def test_a_silent_sensor_is_not_ready_but_lives(self):
+        udp = live_peer.free_port(socket.SOCK_DGRAM)
+        daemon = self.daemon("--config", ROOT / "config/vlp16.yaml", "--set", f"udp_port={udp}")
+        self.assertTrue(daemon.says("listens"), daemon.log())
+        status, _, body = self.ask("/ready")
+        self.assertEqual(status, 503)
+        self.assertTrue(any("waits for the sensor" in why for why in json.loads(body)["why"]), body)
+        self.assertEqual(self.ask("/live")[0], 200)
+        sensor = self.start(SENSOR, "--sensor", "vlp16", "--frames", "70", "--to", f"127.0.0.1:{udp}")
+        self.assertTrue(self.says("/ready", 200), daemon.log())
+        sensor.kill()
+        self.assertTrue(self.says("/ready", 503), daemon.log())
+        self.assertEqual(self.ask("/live")[0], 200)
+        metrics = self.metrics()
+        self.assertEqual(self.may_steer(metrics), [])
+        grades = metrics["pose_wall_part_grade"]
+        self.assertEqual(grades[("pose_wall_part_grade", (("part", "runtime"), ("pose_wall_part_grade", "error")))], 1)
+
+    def test_who_hangs_as_a_whole_answers_nobody(self):
+        daemon = self.replay()
+        self.assertTrue(daemon.says("runtime: measures"), daemon.log())
+        self.assertTrue(self.says("/ready", 200), daemon.log())
+        os.kill(daemon.process.pid, signal.SIGSTOP)
+        try:
+            with socket.create_connection(("127.0.0.1", self.port), 10) as connection:
+                connection.sendall(b"GET /live HTTP/1.1\r\nHost: localhost\r\n\r\n")
+                connection.settimeout(1)
+                with self.assertRaises(socket.timeout):
+                    connection.recv(1)
+        finally:
+            os.kill(daemon.process.pid, signal.SIGCONT)
+        self.assertTrue(self.says("/live", 200))
+        self.assertTrue(self.says("/ready", 200), "it comes back")
+
+
+def without_more(schema):
+    """The same schema, but what it does not describe is refused: the page must name each member."""
+    if isinstance(schema, list):
+        return [without_more(part) for part in schema]
+    if not isinstance(schema, dict):
+        return schema
+    closed = {name: without_more(part) for name, part in schema.items()}
+    if schema.get("type") == "object" and "additionalProperties" not in schema:
+        closed["additionalProperties"] = False
+    return closed
+
+
+class Described(Watched):
+    """Live answers are as the daemon's own OpenAPI document says, word for word."""
+
+    def setUp(self):
+        super().setUp()
+        self.running = self.replay("--set", "planar=map", "--set", "motion=on")
+        self.assertTrue(self.running.says("runtime: measures"), self.running.log())
+        status, kind, text = self.ask("/openapi.json")
+        self.assertEqual((status, kind), (200, "application/json"))
+        self.document = json.loads(text)
+
+    def check(self, reference, instance):
+        name = reference["$ref"].split("/")[-1]
+        root = without_more(self.document)
+        resolver = jsonschema.RefResolver("", root)
+        jsonschema.Draft202012Validator(root["components"]["schemas"][name], resolver=resolver).validate(instance)
+
+    def test_the_schemas_are_schemas_and_all_are_used(self):
+        text = json.dumps(self.document)
+        self.assertEqual(self.document["openapi"], "3.1.0")
+        for name, schema in self.document["components"]["schemas"].items():
+            jsonschema.Draft202012Validator.check_schema(schema)
+            self.assertIn(f'"#/components/schemas/{name}"', text, "used")
+
+    def test_each_answer_is_as_described(self):
+        self.assertTrue(self.says("/ready", 200))
+        self.assertTrue(live_peer.becomes_true(lambda: json.loads(self.ask("/planar.json")[2])["roadway"]))
+        for path, operations in self.document["paths"].items():
+            if path == "/events":
+                continue
+            with self.subTest(path=path):
+                if path == "/map.png":
+                    self.assertTrue(self.is_picture(path))
+                    continue
+                status, kind, text = self.ask(path)
+                content = operations["get"]["responses"][str(status)]["content"]  # a busy machine may be late
+                self.assertIn(kind.split(";")[0], content)
+                schema = content[kind.split(";")[0]]["schema"]
+                if "$ref" in schema:
+                    self.check(schema, json.loads(text))
+
+    def is_picture(self, path):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
+        self.addCleanup(connection.close)
+        def is_one():
+            connection.request("GET", path)
+            return connection.getresponse().read()[:4] == b"\x89PNG"
+        return live_peer.becomes_true(is_one)
+
+    def test_each_event_is_as_described(self):
+        kinds = self.document["paths"]["/events"]["get"]["x-events"]
+        seen = {}
+        with socket.create_connection(("127.0.0.1", self.port), 10) as viewer:
+            viewer.sendall(b"GET /events HTTP/1.1\r\nHost: localhost\r\n\r\n")
+            lines, name = viewer.makefile("r", encoding="utf-8"), None
+            for line in lines:
+                if line.startswith("event: "):
+                    name = line[7:].strip()
+                elif line.startswith("data: "):
+                    seen.setdefault(name, json.loads(line[6:]))
+                if set(seen) == set(kinds):
+                    break
+        for name, data in seen.items():
+            with self.subTest(event=name):
+                self.check(kinds[name], data)
+
+    def test_what_is_refused_is_as_described(self):
+        self.running.kill()
+        udp = live_peer.free_port(socket.SOCK_DGRAM)
+        daemon = self.daemon("--config", ROOT / "config/vlp16.yaml", "--set", f"udp_port={udp}")
+        self.assertTrue(daemon.says("listens"), daemon.log())
+        for path, status in (("/ready", 503), ("/health", 503), ("/planar.json", 404)):
+            self.assertEqual(self.ask(path)[0], status)
+            answer = self.document["paths"][path]["get"]["responses"][str(status)]
+            self.check(answer["content"]["application/json"]["schema"], json.loads(self.ask(path)[2]))
+        self.assertTrue(self.says("/state.json", 200), daemon.log())
+        self.check({"$ref": "State"}, json.loads(self.ask("/state.json")[2]))  # of silence
+
+
+if __name__ == "__main__":
+    live_peer.main()

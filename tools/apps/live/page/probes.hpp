@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// What monitors ask of the daemon: whether it must be started anew (live), whether its results are of any use just now
+// (ready), and all its numbers.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/live/health.hpp"
+#include "apps/live/planar/planar_news.hpp"
+#include "apps/live/sink.hpp"
+#include "pose_wall_runtime.h"
+
+namespace pose_wall::tools::live {
+
+// Older than this a result is that of a worker that hangs: ten publications of silence.
+constexpr std::int64_t kOldResult_ns = 1'000'000'000;
+
+// All that is known at a moment.
+struct Moment {
+  std::int64_t now_ns = 0;           // by the clock that nobody sets
+  std::vector<PartHealth> parts;     // the runtime first, then the source
+  std::vector<std::string> hung;     // what hangs
+  std::optional<LiveResult> newest;  // none was published yet
+  std::optional<StopNews> stop;      // where the key `planar` is on
+  std::optional<pose_wall_runtime_statistics> statistics;
+
+  bool is_fresh() const { return newest && now_ns - newest->publication.published_ns <= kOldResult_ns; }
+};
+
+struct Probe {
+  bool is_well = false;
+  std::vector<std::string> why;  // where it is not
+};
+
+// What a new start may mend: a thread hangs.
+Probe live_probe(const Moment& moment);
+// The newest result is fresh and of a frame: the sensor speaks. Says nothing of what may steer.
+Probe ready_probe(const Moment& moment);
+// {"schema": 1, "live": false, "why": ["..."]}; name: of the member.
+std::string probe_json(const char* name, const Probe& probe);
+
+// The numbers as OpenMetrics. A result that is not fresh has no values, and nothing may steer.
+std::string metrics_text(const Moment& moment);
+
+}  // namespace pose_wall::tools::live
