@@ -8,6 +8,8 @@ if(NOT POSE_WALL_PEER_PYTHON)
 endif()
 set(POSE_WALL_NODE_MODULES ${PROJECT_BINARY_DIR}/../node_modules CACHE PATH
   "Where `npm ci` put the packages of tests/live/peer/package.json")
+set(POSE_WALL_OPCUA_MODULES ${PROJECT_BINARY_DIR}/../opcua/node_modules CACHE PATH
+  "Where `npm ci` put the packages of tools/apps/opcua/package.json")
 
 # pose_wall_live_peer(<name> [<argument>...]): live/<name>_peer.py
 function(pose_wall_live_peer name)
@@ -40,6 +42,7 @@ if(POSE_WALL_HAS_LIVE_mqtt)
 endif()
 if(POSE_WALL_HAS_LIVE_page)
   pose_wall_live_peer(page)
+  pose_wall_live_peer(opcua $<TARGET_FILE:pose_wall_sensor> ${POSE_WALL_NODE_MODULES} ${POSE_WALL_OPCUA_MODULES})
 endif()
 if(POSE_WALL_HAS_LIVE_ros1)
   pose_wall_live_peer(ros1 ${POSE_WALL_NODE_MODULES})
