@@ -18,6 +18,7 @@ import queue
 import re
 import shutil
 import signal
+import socket
 import struct
 import subprocess
 import sys
@@ -102,12 +103,22 @@ class Pretender(http.server.ThreadingHTTPServer):
     def __init__(self, state, planar, health, port):
         super().__init__(("127.0.0.1", port), Answer)
         self.says = {"/state.json": state, "/planar.json": planar, "/health": health}
-        self.count, self.moves = 0, True
+        self.count, self.moves, self.connections = 0, True, []
         threading.Thread(target=self.serve_forever, daemon=True).start()
+
+    def process_request(self, request, client_address):
+        self.connections.append(request)
+        super().process_request(request, client_address)
+
+    def handle_error(self, request, client_address):  # who is cut off in a test is no news
+        pass
 
     def close(self):
         self.shutdown()
         self.server_close()
+        for connection in self.connections:  # or they go on being answered
+            with contextlib.suppress(OSError):
+                connection.shutdown(socket.SHUT_RDWR)
 
 
 class Answer(http.server.BaseHTTPRequestHandler):
@@ -306,7 +317,7 @@ class Opcua(unittest.TestCase):
             self.assertEqual(read[f"{name}.MaySteer"]["value"], steer["may_steer"])
 
     def test_a_sensor_that_is_silent_leaves_nothing_good(self):
-        port, client = live_peer.free_port(live_peer.socket.SOCK_DGRAM), self.client()
+        port, client = live_peer.free_port(socket.SOCK_DGRAM), self.client()
         config = self.place / "sensor.yaml"
         sensor = self.sensor(port, config)
         daemon = live_peer.Program(POSE_WALLD, "--config", config, "--set", f"udp_port={port}", "--http", f"127.0.0.1:{self.behind}",

@@ -18,6 +18,8 @@ export const unitOf = (quantity) => (quantity.startsWith('d_') ? 'm' : 'rad');
 
 const isText = (x) => typeof x === 'string';
 const isCount = (x) => Number.isSafeInteger(x) && x >= 0;
+// Of 64 bits, as text: JavaScript's numbers do not hold it.
+const isStamp = (x) => isText(x) && /^-?\d{1,19}$/.test(x);
 const isTexts = (x) => Array.isArray(x) && x.every(isText);
 const isPair = (x) => isText(x?.en) && isText(x?.zh);
 const isLevel = (x) => Number.isFinite(x) && x >= 0;
@@ -38,7 +40,7 @@ function valueIsSound(value, steer, quantity) {
 export function stateIsSound(x) {
   return x?.schema === SCHEMA && ['frame', 'silence'].includes(x.told_by) && isPair(x.steer_line)
       && ['frame', 'publication', 'config_crc32', 'source_id'].every((name) => isCount(x[name]))
-      && isText(x.header_stamp_ns) && STATES.includes(x.status) && Array.isArray(x.steer)
+      && isStamp(x.header_stamp_ns) && STATES.includes(x.status) && Array.isArray(x.steer)
       && x.steer.length === QUANTITIES.length
       && QUANTITIES.every((name, i) => valueIsSound(x.values?.[name], x.steer[i], name));
 }
