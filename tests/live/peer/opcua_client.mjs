@@ -32,6 +32,20 @@ Variant.prototype.decode = function decode(bytes, position) {
   return end;
 };
 
+// Nor has it the body of a notification, which is a subtype in the schema; its elements it has.
+ua.DataChangeNotification = class DataChangeNotification {
+  decode(bytes, position) {
+    const bucket = new Bucket(bytes, position), elements = (Type) => Array.from({ length: Math.max(bucket.readInt32(), 0) }, () => {
+      const element = new Type();
+      bucket.readStruct(element);
+      return element;
+    });
+    this.MonitoredItems = elements(ua.MonitoredItemNotification);
+    elements(from('ua/DiagnosticInfo.js').default);
+    return bucket.position;
+  }
+};
+
 class Session {
   constructor(port) {
     Object.assign(this, { channel: 0, token: 0, sequence: 0, waiting: new Map(), buffer: Buffer.alloc(0), parts: [] });
