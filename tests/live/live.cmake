@@ -50,6 +50,7 @@ endif()
 add_test(NAME live.ros_types_are_generated
   COMMAND ${POSE_WALL_PEER_PYTHON} ${PROJECT_SOURCE_DIR}/tools/apps/live/ros_messages/generate_types.py --check)
 set_tests_properties(live.ros_types_are_generated PROPERTIES LABELS live SKIP_RETURN_CODE 77)
+pose_wall_live_peer(ros2_packages)
 add_custom_target(pose_wall_live_peers)  # what tools/test_live.sh builds of them
 if(POSE_WALL_HAS_LIVE_ros2)
   find_path(FASTDDS_INCLUDE_DIR fastdds/dds/domain/DomainParticipant.hpp)

@@ -3,8 +3,10 @@
 //
 // A client that signs and encrypts, of the gateway's own maker: node opcua_secured.mjs PORT FOLDER [USER PASSWORD]
 // Prints one line of JSON: the status of PoseWall.Yaw.Value, or the error.
+import { webcrypto } from 'node:crypto';
 import { createRequire } from 'node:module';
 
+globalThis.crypto ??= webcrypto;  // Node.js 18
 const require = createRequire(import.meta.url);
 const of = createRequire(require.resolve('node-opcua-server'));  // the server's own dependencies
 const { OPCUAClient, UserTokenType } = of('node-opcua-client');

@@ -3,6 +3,7 @@
 // Copyright (c) 2026 the pose_wall authors
 //
 // An OPC UA server beside pose_walld. README.md has the information model, the status codes and their reasons.
+import { webcrypto } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { isIP } from 'node:net';
 import { hostname } from 'node:os';
@@ -108,6 +109,7 @@ async function serverOf(given) {
       manufacturerName: 'the pose_wall authors' } });
 }
 
+globalThis.crypto ??= webcrypto;  // Node.js 18 has it under this name alone; the library wants the global one
 const given = options();
 const { addModel, rows } = await import('./model.mjs');
 const server = await serverOf(given).catch((error) => fail(1, error.message));
