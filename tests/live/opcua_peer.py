@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The OPC UA server beside pose_walld, with a client of another maker (HBK's `opcua`). It has the information model that
-its README tells, with types, units and values of the daemon. Good is told of nothing that may not steer: not when the
-sensor is silent, when the daemon is killed, frozen or repeats itself, nor of an answer that is malformed. Nothing can be
-written. Beyond loopback only who encrypts and is trusted comes in.
+"""The OPC UA server beside pose_walld, with a client of another maker (HBK's `opcua`). It has the information model
+that its README tells, with types, units and values of the daemon. Good is told of nothing that may not steer: not when
+the sensor is silent, when the daemon is killed, frozen or repeats itself, nor of an answer that is malformed. Nothing
+can be written. Beyond loopback only who encrypts and is trusted comes in.
 
 usage: opcua_peer.py ROOT POSE_WALL POSE_WALLD POSE_WALL_SENSOR NODE_MODULES GATEWAY_NODE_MODULES"""
 
@@ -40,8 +40,15 @@ for folder, package in ((MODULES, "opcua"), (GATEWAY_MODULES, "node-opcua-server
         print(f"SKIPPED: there is no {package} of npm in {folder} (need_peers of tools/shell/packages.sh brings it)")
         sys.exit(live_peer.SKIPPED)
 
-QUANTITIES = {"Roll": "roll", "Pitch": "pitch", "Yaw": "yaw", "LeftFront": "d_lf", "LeftBack": "d_lb",
-              "RightFront": "d_rf", "RightBack": "d_rb"}
+QUANTITIES = {
+    "Roll": "roll",
+    "Pitch": "pitch",
+    "Yaw": "yaw",
+    "LeftFront": "d_lf",
+    "LeftBack": "d_lb",
+    "RightFront": "d_rf",
+    "RightBack": "d_rb",
+}
 OF_VALUE = ("Value", "ProtectionLevel", "Sigma")
 # Of OPC 10000-6 A.2; the upper two bits are the severity.
 GOOD, BAD, NO_COMMUNICATION, COMMUNICATION_ERROR = 0, 0x80000000, 0x80310000, 0x80050000
@@ -61,8 +68,13 @@ class Client:
     """The other maker's, as a program that is told what to do by lines."""
 
     def __init__(self, place, port):
-        self.process = subprocess.Popen(["node", place / "opcua_client.mjs", str(port)], stdin=subprocess.PIPE,
-                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.process = subprocess.Popen(
+            ["node", place / "opcua_client.mjs", str(port)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
         self.answers, self.told = queue.Queue(), []
         threading.Thread(target=self._read, daemon=True).start()
         self.first = self.answers.get(timeout=live_peer.PATIENCE_S)
@@ -98,6 +110,7 @@ class Client:
 
 class Pretender(http.server.ThreadingHTTPServer):
     """A daemon that says what a test wants: `state`, `planar` and `health` are (status, bytes), or a function."""
+
     daemon_threads = True
 
     def __init__(self, state, planar, health, port):
@@ -148,7 +161,12 @@ class Answer(http.server.BaseHTTPRequestHandler):
 
 def table_of_readme():
     """{node: (type, unit or words)} as tools/apps/opcua/README.md tells it."""
-    text = (ROOT / "tools/apps/opcua/README.md").read_text(encoding="utf-8").split("## Information model")[1].split("\n## ")[0]
+    text = (
+        (ROOT / "tools/apps/opcua/README.md")
+        .read_text(encoding="utf-8")
+        .split("## Information model")[1]
+        .split("\n## ")[0]
+    )
     found = {}
     for names, kind, unit in re.findall(r"^\| (.*?`.*?) \| ([A-Z]\w+) \| ([^|]*?) ?\|", text, re.M):
         names = names.replace("each of the seven", ", ".join(f"`{name}`" for name in QUANTITIES))
@@ -162,8 +180,11 @@ def table_of_readme():
 def real_answers():
     """What a daemon that measures says of state, stop and health."""
     port = live_peer.free_port()
-    with live_peer.running(*live_peer.replay_words(POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--http",
-                                                   f"127.0.0.1:{port}", "--set", "planar=map")) as daemon:
+    with live_peer.running(
+        *live_peer.replay_words(
+            POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--http", f"127.0.0.1:{port}", "--set", "planar=map"
+        )
+    ) as daemon:
         found = {}
 
         def is_there():
@@ -174,6 +195,7 @@ def real_answers():
                 # A frame is still short when all are valid.
                 return all(value["state"] == "valid" for value in found["state.json"]["values"].values())
             return False
+
         if not live_peer.becomes_true(is_there, 2 * live_peer.PATIENCE_S):
             raise RuntimeError(daemon.log())
     return found
@@ -185,7 +207,10 @@ class Opcua(unittest.TestCase):
         place = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
         cls.addClassCleanup(place.cleanup)
         cls.place = pathlib.Path(place.name)
-        for name, modules, sources in (("peer", MODULES, "tests/live/peer"), ("gateway", GATEWAY_MODULES, "tools/apps/opcua")):
+        for name, modules, sources in (
+            ("peer", MODULES, "tests/live/peer"),
+            ("gateway", GATEWAY_MODULES, "tools/apps/opcua"),
+        ):
             (cls.place / name).mkdir()
             os.symlink(modules.resolve(), cls.place / name / "node_modules")
             for source in list((ROOT / sources).glob("*.mjs")) + list((ROOT / sources).glob("package.json")):
@@ -198,7 +223,9 @@ class Opcua(unittest.TestCase):
 
     @classmethod
     def start_gateway(cls, *words):
-        program = live_peer.Program("node", cls.place / "gateway/pose_wall_opcua.mjs", "--folder", cls.place / "folder", *words)
+        program = live_peer.Program(
+            "node", cls.place / "gateway/pose_wall_opcua.mjs", "--folder", cls.place / "folder", *words
+        )
         if not program.says("variables at", 2 * live_peer.PATIENCE_S):
             raise RuntimeError(program.log())
         return program
@@ -209,21 +236,36 @@ class Opcua(unittest.TestCase):
         return client
 
     def daemon(self, *more):
-        program = live_peer.Program(*live_peer.replay_words(
-            POSE_WALLD, live_peer.simulated_road(POSE_WALL), "--http", f"127.0.0.1:{self.behind}", "--set", "planar=map", *more))
+        program = live_peer.Program(
+            *live_peer.replay_words(
+                POSE_WALLD,
+                live_peer.simulated_road(POSE_WALL),
+                "--http",
+                f"127.0.0.1:{self.behind}",
+                "--set",
+                "planar=map",
+                *more,
+            )
+        )
         self.addCleanup(program.kill)
         return program
 
     def pretender(self, **says):
-        server = Pretender(says.get("state", self.real["state.json"]), says.get("planar", self.real["planar.json"]),
-                           says.get("health", self.real["health"]), self.behind)
+        server = Pretender(
+            says.get("state", self.real["state.json"]),
+            says.get("planar", self.real["planar.json"]),
+            says.get("health", self.real["health"]),
+            self.behind,
+        )
         self.addCleanup(server.close)
         return server
 
     def becomes(self, client, status, node="Yaw.Value", patience_s=live_peer.PATIENCE_S):
         seen = []
-        self.assertTrue(live_peer.becomes_true(lambda: seen.append(client.statuses(node)[0]) or seen[-1] == status, patience_s),
-                        f"{node}: {sorted(set(map(hex, seen)))} instead of {status:#x}\n{self.gateway.log()}")
+        self.assertTrue(
+            live_peer.becomes_true(lambda: seen.append(client.statuses(node)[0]) or seen[-1] == status, patience_s),
+            f"{node}: {sorted(set(map(hex, seen)))} instead of {status:#x}\n{self.gateway.log()}",
+        )
 
     # The model.
 
@@ -236,7 +278,7 @@ class Opcua(unittest.TestCase):
         for node in client.ask("browse", node="PoseWall"):
             children = client.ask("browse", node=node["node"]) if node["kind"] == 1 else [node]
             for child in children:
-                found[child["node"][len("PoseWall."):]] = child["type"]
+                found[child["node"][len("PoseWall.") :]] = child["type"]
         table = table_of_readme()
         self.assertEqual(sorted(table), sorted(found))
         self.assertEqual(len(found), 74)
@@ -248,8 +290,10 @@ class Opcua(unittest.TestCase):
                     self.assertEqual(found[name], ANALOG)
                     told = client.read(f"{name}.EngineeringUnits")[0]["value"]
                     code = struct.unpack(">i", UNECE[unit].encode().rjust(4, b"\0"))[0]
-                    self.assertEqual((told["UnitId"], told["DisplayName"]["text"], told["NamespaceUri"]),
-                                     (code, unit, "http://www.opcfoundation.org/UA/units/un/cefact"))
+                    self.assertEqual(
+                        (told["UnitId"], told["DisplayName"]["text"], told["NamespaceUri"]),
+                        (code, unit, "http://www.opcfoundation.org/UA/units/un/cefact"),
+                    )
                 elif unit:
                     self.assertEqual(found[name], MULTI_STATE)
                     told = client.read(f"{name}.EnumStrings")[0]["value"]
@@ -280,15 +324,20 @@ class Opcua(unittest.TestCase):
                         state = json.load(answer)
                         said[state["publication"]] = state
                 time.sleep(0.02)
+
         daemon, client = self.daemon(), self.client()
         listener = threading.Thread(target=listen)
         listener.start()
-        compared, nodes = 0, [f"{name}.{what}" for name in QUANTITIES for what in (*OF_VALUE, "State", "MaySteer", "Age")]
+        compared, nodes = 0, [
+            f"{name}.{what}" for name in QUANTITIES for what in (*OF_VALUE, "State", "MaySteer", "Age")
+        ]
         try:
             self.becomes(client, GOOD, patience_s=2 * live_peer.PATIENCE_S)
             until = time.monotonic() + live_peer.PATIENCE_S
             while compared < 5 and time.monotonic() < until:
-                first, *read, crc, stamp, last = client.read("Publication", *nodes, "ConfigCrc32", "StampNs", "Publication")
+                first, *read, crc, stamp, last = client.read(
+                    "Publication", *nodes, "ConfigCrc32", "StampNs", "Publication"
+                )
                 state = said.get(int(first["value"] or -1))
                 if state is None or first["value"] != last["value"]:
                     continue
@@ -312,16 +361,26 @@ class Opcua(unittest.TestCase):
                 self.assertEqual(is_good(told["status"]), steer["may_steer"], (name, what))
                 if told["status"] >> 31 == 0:
                     self.assertEqual(told["value"], value[f"{member}_{unit}"], (name, what))
-            self.assertEqual(read[f"{name}.State"]["value"],
-                             ["invalid", "held", "degraded", "valid"].index(value["state"]))
+            self.assertEqual(
+                read[f"{name}.State"]["value"], ["invalid", "held", "degraded", "valid"].index(value["state"])
+            )
             self.assertEqual(read[f"{name}.MaySteer"]["value"], steer["may_steer"])
 
     def test_a_sensor_that_is_silent_leaves_nothing_good(self):
         port, client = live_peer.free_port(socket.SOCK_DGRAM), self.client()
         config = self.place / "sensor.yaml"
         sensor = self.sensor(port, config)
-        daemon = live_peer.Program(POSE_WALLD, "--config", config, "--set", f"udp_port={port}", "--http", f"127.0.0.1:{self.behind}",
-                                   "--set", "planar=map")
+        daemon = live_peer.Program(
+            POSE_WALLD,
+            "--config",
+            config,
+            "--set",
+            f"udp_port={port}",
+            "--http",
+            f"127.0.0.1:{self.behind}",
+            "--set",
+            "planar=map",
+        )
         self.addCleanup(daemon.kill)
         nodes = [f"{name}.{what}" for name in QUANTITIES for what in OF_VALUE]
         good = lambda: any(map(is_good, client.statuses(*nodes)))  # noqa: E731
@@ -331,19 +390,36 @@ class Opcua(unittest.TestCase):
         sensor.kill()
         began = time.monotonic()
         self.assertTrue(live_peer.becomes_true(lambda: not good(), NOTICED_S), client.read(*nodes[:3]))
-        self.assertTrue(live_peer.becomes_true(
-            lambda: all(status in (LAST_USABLE, SENSOR_FAILURE) for status in client.statuses(*nodes)), NOTICED_S))
-        self.assertTrue(live_peer.becomes_true(lambda: set(client.statuses(*nodes)) == {SENSOR_FAILURE}), "held is not for ever")
-        self.assertEqual([client.read(node)[0]["value"] for node in ("Roll.Value", "Stop.State", "Roll.State")], [None, 0, 0])
-        after = [told["status"] for at, told in client.told if at > began + NOTICED_S and told["data"] == "PoseWall.Roll.Value"]
+        self.assertTrue(
+            live_peer.becomes_true(
+                lambda: all(status in (LAST_USABLE, SENSOR_FAILURE) for status in client.statuses(*nodes)), NOTICED_S
+            )
+        )
+        self.assertTrue(
+            live_peer.becomes_true(lambda: set(client.statuses(*nodes)) == {SENSOR_FAILURE}), "held is not for ever"
+        )
+        self.assertEqual(
+            [client.read(node)[0]["value"] for node in ("Roll.Value", "Stop.State", "Roll.State")], [None, 0, 0]
+        )
+        after = [
+            told["status"]
+            for at, told in client.told
+            if at > began + NOTICED_S and told["data"] == "PoseWall.Roll.Value"
+        ]
         self.assertEqual([status for status in after if is_good(status)], [], "nor is it told by a subscription")
-        self.assertTrue(live_peer.becomes_true(lambda: [told["status"] for _, told in client.told if told["data"] == "PoseWall.Roll.Value"][-1]
-                                               == SENSOR_FAILURE))
+        self.assertTrue(
+            live_peer.becomes_true(
+                lambda: [told["status"] for _, told in client.told if told["data"] == "PoseWall.Roll.Value"][-1]
+                == SENSOR_FAILURE
+            )
+        )
         self.sensor(port, config)
         self.assertTrue(live_peer.becomes_true(good, 2 * live_peer.PATIENCE_S), daemon.log())
 
     def sensor(self, port, config):
-        program = live_peer.Program(SENSOR, "--sensor", "vlp16", "--frames", "70", "--to", f"127.0.0.1:{port}", "--config-to", config)
+        program = live_peer.Program(
+            SENSOR, "--sensor", "vlp16", "--frames", "70", "--to", f"127.0.0.1:{port}", "--config-to", config
+        )
         self.addCleanup(program.kill)
         self.assertTrue(live_peer.becomes_true(config.exists), program.log())
         return program
@@ -397,18 +473,30 @@ class Opcua(unittest.TestCase):
         return state
 
     def of_yaw(self, state, told_by="frame"):
-        empty = {"values__yaw__value_rad": None, "values__yaw__protection_level_rad": None, "values__yaw__sigma_rad": None}
-        return self.changed(values__yaw__state=state, steer__2__may_steer=False, told_by=told_by, **(empty if state == "invalid" else {}))
+        empty = {
+            "values__yaw__value_rad": None,
+            "values__yaw__protection_level_rad": None,
+            "values__yaw__sigma_rad": None,
+        }
+        return self.changed(
+            values__yaw__state=state,
+            steer__2__may_steer=False,
+            told_by=told_by,
+            **(empty if state == "invalid" else {}),
+        )
 
     def test_each_state_has_its_status(self):
         server, client = self.pretender(), self.client()
         self.becomes(client, GOOD)
         for state, expected in (
-                (self.of_yaw("degraded"), NOT_ACCURATE), (self.of_yaw("held"), LAST_USABLE),
-                (self.of_yaw("held", "silence"), LAST_USABLE), (self.of_yaw("invalid"), BAD),
-                (self.of_yaw("invalid", "silence"), SENSOR_FAILURE),
-                # Valid, and still not allowed to steer: never Good.
-                (self.changed(steer__2__may_steer=False), NOT_ACCURATE)):
+            (self.of_yaw("degraded"), NOT_ACCURATE),
+            (self.of_yaw("held"), LAST_USABLE),
+            (self.of_yaw("held", "silence"), LAST_USABLE),
+            (self.of_yaw("invalid"), BAD),
+            (self.of_yaw("invalid", "silence"), SENSOR_FAILURE),
+            # Valid, and still not allowed to steer: never Good.
+            (self.changed(steer__2__may_steer=False), NOT_ACCURATE),
+        ):
             server.says["/state.json"] = state
             self.becomes(client, expected)
             self.assertEqual(client.statuses(*(f"Yaw.{what}" for what in OF_VALUE)), [expected] * 3)
@@ -421,23 +509,58 @@ class Opcua(unittest.TestCase):
         server, client, whole = self.pretender(), self.client(), self.real["state.json"]
         text = json.dumps(whole).encode()
         wrong = [
-            b"", b"null", b"[]", b"{}", b"17", text[:-1], text[:len(text) // 2], text + b"}", b"\xff\xfe" * 40, b"[" * 100000,
-            text.replace(b'"value_rad": ', b'"value_rad": 1e999, "x": '), b"x" * (1 << 21),
-            self.changed(schema=2), self.changed(schema="1"), self.changed(told_by="nobody"), self.changed(values={}),
-            self.changed(values=None), self.changed(values__yaw=None), self.changed(steer=[]), self.changed(steer=whole["steer"][:6]),
-            self.changed(steer=whole["steer"][::-1]), self.changed(steer_line={"en": "x"}), self.changed(header_stamp_ns="now"),
-            self.changed(header_stamp_ns=None), self.changed(config_crc32=-1), self.changed(status="fine"),
-            self.changed(values__yaw__state="good"), self.changed(values__yaw__state="held"), self.changed(values__yaw__state="invalid"),
-            self.changed(values__yaw__value_rad=None), self.changed(values__yaw__value_rad="0.1"),
-            self.changed(values__yaw__protection_level_rad=None), self.changed(values__yaw__protection_level_rad=-0.001),
-            self.changed(values__yaw__protection_level_rad=0.02), self.changed(values__yaw__sigma_rad=None),
-            self.changed(values__yaw__reasons="none"), self.changed(values__yaw__age_s="young"), self.changed(steer__2__may_steer=1),
-            self.changed(steer__2__limit_rad=None)]
+            b"",
+            b"null",
+            b"[]",
+            b"{}",
+            b"17",
+            text[:-1],
+            text[: len(text) // 2],
+            text + b"}",
+            b"\xff\xfe" * 40,
+            b"[" * 100000,
+            text.replace(b'"value_rad": ', b'"value_rad": 1e999, "x": '),
+            b"x" * (1 << 21),
+            self.changed(schema=2),
+            self.changed(schema="1"),
+            self.changed(told_by="nobody"),
+            self.changed(values={}),
+            self.changed(values=None),
+            self.changed(values__yaw=None),
+            self.changed(steer=[]),
+            self.changed(steer=whole["steer"][:6]),
+            self.changed(steer=whole["steer"][::-1]),
+            self.changed(steer_line={"en": "x"}),
+            self.changed(header_stamp_ns="now"),
+            self.changed(header_stamp_ns=None),
+            self.changed(config_crc32=-1),
+            self.changed(status="fine"),
+            self.changed(values__yaw__state="good"),
+            self.changed(values__yaw__state="held"),
+            self.changed(values__yaw__state="invalid"),
+            self.changed(values__yaw__value_rad=None),
+            self.changed(values__yaw__value_rad="0.1"),
+            self.changed(values__yaw__protection_level_rad=None),
+            self.changed(values__yaw__protection_level_rad=-0.001),
+            self.changed(values__yaw__protection_level_rad=0.02),
+            self.changed(values__yaw__sigma_rad=None),
+            self.changed(values__yaw__reasons="none"),
+            self.changed(values__yaw__age_s="young"),
+            self.changed(steer__2__may_steer=1),
+            self.changed(steer__2__limit_rad=None),
+        ]
         for body in wrong:
-            with self.subTest(body=str(body)[:60] if isinstance(body, bytes) else [k for k in body if body[k] != whole[k]]):
+            with self.subTest(
+                body=str(body)[:60] if isinstance(body, bytes) else [k for k in body if body[k] != whole[k]]
+            ):
                 server.says["/state.json"] = lambda _, said=body: (200, said)
-                self.assertTrue(live_peer.becomes_true(lambda: not any(map(is_good, client.statuses(
-                    "Yaw.Value", "Yaw.State", "SteerEn", "StampNs"))), NOTICED_S), self.gateway.log())
+                self.assertTrue(
+                    live_peer.becomes_true(
+                        lambda: not any(map(is_good, client.statuses("Yaw.Value", "Yaw.State", "SteerEn", "StampNs"))),
+                        NOTICED_S,
+                    ),
+                    self.gateway.log(),
+                )
                 self.assertIn(client.statuses("Yaw.Value")[0], (COMMUNICATION_ERROR, NO_COMMUNICATION))
                 server.says["/state.json"] = whole
                 self.becomes(client, GOOD)
@@ -455,8 +578,12 @@ class Opcua(unittest.TestCase):
                     answer.wfile.write(b" ")
                     time.sleep(0.05)
             return 200, None
+
         self.becomes(client, GOOD)
-        for say, node, expected in ((lambda _: (503, b""), "Yaw.Value", OUT_OF_SERVICE), (slowly, "Yaw.Value", NO_COMMUNICATION)):
+        for say, node, expected in (
+            (lambda _: (503, b""), "Yaw.Value", OUT_OF_SERVICE),
+            (slowly, "Yaw.Value", NO_COMMUNICATION),
+        ):
             server.says["/state.json"] = say
             self.becomes(client, expected, node, NOTICED_S)
             server.says["/state.json"] = self.real["state.json"]
@@ -467,8 +594,15 @@ class Opcua(unittest.TestCase):
             server.says["/planar.json"] = planar
             self.becomes(client, COMMUNICATION_ERROR, "Stop.State", NOTICED_S)
         server.says["/planar.json"] = self.real["planar.json"]
-        server.says["/health"] = lambda _: (503, {"parts": [{"part": "runtime", "grade": "ok", "summary": "measures", "facts": {}},
-                                                            {"part": "can", "grade": "error", "summary": "bus off", "facts": {}}]})
+        server.says["/health"] = lambda _: (
+            503,
+            {
+                "parts": [
+                    {"part": "runtime", "grade": "ok", "summary": "measures", "facts": {}},
+                    {"part": "can", "grade": "error", "summary": "bus off", "facts": {}},
+                ]
+            },
+        )
         self.assertTrue(live_peer.becomes_true(lambda: client.read("Health.Summary")[0]["value"] == "can: bus off"))
         self.assertEqual(client.read("Health.Grade")[0]["value"], 2)
         self.becomes(client, GOOD, "Stop.State")
@@ -482,35 +616,72 @@ class Opcua(unittest.TestCase):
         self.pretender()
         port, password = live_peer.free_port(), self.place / "password"
         password.write_text("seam 7\n", encoding="utf-8")
-        gateway = self.start_gateway("--port", port, "--host", "0.0.0.0", "--daemon", f"http://127.0.0.1:{self.behind}", "--user", "plant",
-                                     "--password-file", password)
+        gateway = self.start_gateway(
+            "--port",
+            port,
+            "--host",
+            "0.0.0.0",
+            "--daemon",
+            f"http://127.0.0.1:{self.behind}",
+            "--user",
+            "plant",
+            "--password-file",
+            password,
+        )
         self.addCleanup(gateway.kill)
         self.assertIn("error", self.client(port).first, "without security")
-        self.assertEqual([(one["mode"], one["policy"]) for one in self.client().first["answer"]],
-                         [(1, "None"), (3, "Basic256Sha256"), (3, "Aes128_Sha256_RsaOaep"), (3, "Aes256_Sha256_RsaPss")], "on loopback")
+        self.assertEqual(
+            [(one["mode"], one["policy"]) for one in self.client().first["answer"]],
+            [(1, "None"), (3, "Basic256Sha256"), (3, "Aes128_Sha256_RsaOaep"), (3, "Aes256_Sha256_RsaPss")],
+            "on loopback",
+        )
 
         def secured(*words):
-            shutil.copy(ROOT / "tests/live/peer/opcua_secured.mjs", self.place / "gateway")  # by the gateway's own maker
-            done = subprocess.run(["node", self.place / "gateway/opcua_secured.mjs", str(port), self.place / "pki", *words],
-                                  capture_output=True, text=True, timeout=120, check=False)
-            return [line for line in done.stdout.splitlines() if line.startswith("{")][-1:] or [done.stdout + done.stderr]
+            shutil.copy(
+                ROOT / "tests/live/peer/opcua_secured.mjs", self.place / "gateway"
+            )  # by the gateway's own maker
+            done = subprocess.run(
+                ["node", self.place / "gateway/opcua_secured.mjs", str(port), self.place / "pki", *words],
+                capture_output=True,
+                text=True,
+                timeout=120,
+                check=False,
+            )
+            return [line for line in done.stdout.splitlines() if line.startswith("{")][-1:] or [
+                done.stdout + done.stderr
+            ]
+
         self.assertIn("error", json.loads(secured("plant", "seam 7")[0]), "who is not known")
         known = list((self.place / "folder/rejected").glob("*"))
         self.assertEqual(len(known), 1, known)
         shutil.move(known[0], self.place / "folder/trusted/certs")
         self.assertIn("error", json.loads(secured("plant", "seam 8")[0]), "a wrong password")
         self.assertIn("error", json.loads(secured()[0]), "nobody")
-        self.assertTrue(live_peer.becomes_true(lambda: json.loads(secured("plant", "seam 7")[0]).get("status") == GOOD, 60), gateway.log())
+        self.assertTrue(
+            live_peer.becomes_true(lambda: json.loads(secured("plant", "seam 7")[0]).get("status") == GOOD, 60),
+            gateway.log(),
+        )
         self.assertTrue(gateway.stops_by_itself(), gateway.log())
 
     def test_options_that_are_wrong_are_named(self):
-        for words, status, said in ((["--port", "x"], 2, "--port: x"), (["--host", "plant.example"], 2, "--host: plant.example"),
-                                    (["--stale-ms", "5000"], 2, "--stale-ms: 5000"), (["--daemon", "ftp://x"], 2, "--daemon: ftp://x"),
-                                    (["--user", "a"], 2, "--password-file go together"), (["--nonsense"], 2, "--nonsense"),
-                                    (["--port", str(self.port)], 1, str(self.port)), (["--help"], 0, "Look at Objects/PoseWall"),
-                                    (["--version"], 0, "0.2.0")):
-            done = subprocess.run(["node", self.place / "gateway/pose_wall_opcua.mjs", "--folder", self.place / "folder", *words],
-                                  capture_output=True, text=True, timeout=120, check=False)
+        for words, status, said in (
+            (["--port", "x"], 2, "--port: x"),
+            (["--host", "plant.example"], 2, "--host: plant.example"),
+            (["--stale-ms", "5000"], 2, "--stale-ms: 5000"),
+            (["--daemon", "ftp://x"], 2, "--daemon: ftp://x"),
+            (["--user", "a"], 2, "--password-file go together"),
+            (["--nonsense"], 2, "--nonsense"),
+            (["--port", str(self.port)], 1, str(self.port)),
+            (["--help"], 0, "Look at Objects/PoseWall"),
+            (["--version"], 0, "0.2.0"),
+        ):
+            done = subprocess.run(
+                ["node", self.place / "gateway/pose_wall_opcua.mjs", "--folder", self.place / "folder", *words],
+                capture_output=True,
+                text=True,
+                timeout=120,
+                check=False,
+            )
             self.assertEqual(done.returncode, status, (words, done.stdout, done.stderr))
             self.assertIn(said, done.stdout + done.stderr, words)
 

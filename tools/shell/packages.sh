@@ -92,8 +92,8 @@ need_cmake() {
   fi
 }
 
-# The clients of tests/live/peer and what tools/apps/opcua is made with, from npm's registry, in build/. Where it cannot be
-# reached, the tests that need them are skipped, and say so.
+# The clients of tests/live/peer and what tools/apps/opcua is made with, from npm's registry, in build/. Where it
+# cannot be reached, the tests that need them are skipped, and say so.
 need_peers() {
   if ! command -v npm > /dev/null; then
     echo "There is no npm here: the tests with clients in JavaScript will be skipped"
@@ -105,6 +105,7 @@ need_peers() {
     echo "npm has no registry here: the tests with clients in JavaScript will be skipped"'
   mkdir -p build/opcua
   cp tools/apps/opcua/package.json tools/apps/opcua/package-lock.json build/opcua/
-  step "Getting what the OPC UA server is made with" sh -c 'npm ci --prefix build/opcua --omit=dev --no-audit --no-fund ||
+  step "Getting what the OPC UA server is made with" sh -c '
+    npm ci --prefix build/opcua --omit=dev --no-audit --no-fund ||
     echo "npm has no registry here: the test of the OPC UA server will be skipped"'
 }

@@ -18,7 +18,7 @@ ARGUMENTS = (("topic", "/lidar/points", "PointCloud2 or Livox's CustomMsg, in th
              ("config", "/etc/pose_wall/pose_wall.yaml", "its forward_axis and extrinsic must fit the machine"),
              ("extrinsic_from", "config", "config; tf: the transform from the cloud's frame to base_frame"),
              ("ros_distro", "humble", "humble; iron: Iron and all later ones"),
-             ("params", os.path.join(HERE, "pose_wall.params.yaml"), "keys of the daemon, as parameters; they go over the arguments"),
+             ("params", os.path.join(HERE, "pose_wall.params.yaml"), "keys of the daemon; they go over the arguments"),
              ("rviz", "false", "true: show points and the levelled frame"))
 YES_OR_NO = {"true": "1", "false": "0"}  # of ROS, and of the daemon's keys
 NODES = ("/pose_walld", "pose_walld", "/**")  # under any of these names a file of parameters means the node
