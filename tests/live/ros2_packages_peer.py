@@ -43,7 +43,7 @@ live_peer.need(
 from catkin_pkg.package import parse_package  # noqa: E402  pylint: disable=wrong-import-position
 
 ROS2 = ROOT / "tools/apps/live/ros2"
-# What a workspace of ROS 2 brings and Debian has not: {package: (messages, dependencies, whether it exports these)}.
+# What a workspace of ROS 2 brings and Debian has not: {package: (messages, dependencies, does it export these?)}.
 STUBS = {
     "builtin_interfaces": ({"Time": "int32 sec\nuint32 nanosec\n"}, [], ""),
     "std_msgs": ({"Header": "builtin_interfaces/Time stamp\nstring frame_id\n"}, ["builtin_interfaces"], ""),
@@ -51,8 +51,8 @@ STUBS = {
     "sensor_msgs": (
         {
             "PointField": "uint8 INT8=1\nstring name\nuint32 offset\nuint8 datatype\nuint32 count\n",
-            "PointCloud2": "std_msgs/Header header\nuint32 height\nuint32 width\nPointField[] fields\nbool is_bigendian\n"
-            "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
+            "PointCloud2": "std_msgs/Header header\nuint32 height\nuint32 width\nPointField[] fields\n"
+            "bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
         },
         ["std_msgs"],
         "",
