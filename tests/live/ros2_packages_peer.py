@@ -65,6 +65,14 @@ STUBS = {
     "rosidl_default_runtime": ({}, [], ""),
 }
 PUBLISHED = {"sensor_msgs/PointCloud2": "RIHS01_9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5"}
+# Debian has the headers of each of them in a folder of its own.
+DEBIANS = (
+    "rosidl_typesupport_introspection_cpp",
+    "rosidl_typesupport_interface",
+    "rosidl_runtime_c",
+    "rosidl_runtime_cpp",
+    "rcutils",
+)
 OURS = ("pose_wall_msgs/Value", "pose_wall_msgs/State", "pose_wall_msgs/Stop")
 # rosidl_typesupport_introspection_cpp/field_types.hpp -> type_description_interfaces/msg/FieldType of REP-2016.
 TYPE_IDS = {1: 10, 2: 11, 6: 15, 7: 16, 8: 3, 9: 2, 10: 5, 11: 4, 12: 7, 13: 6, 14: 9, 15: 8, 16: 17, 18: 1}
@@ -241,6 +249,7 @@ class Packages(unittest.TestCase):
         source.write_text(ASK % (includes, asks), encoding="utf-8")
         packages = [cls.place / "install" / package for package in {name.split("/")[0] for name in names}]
         flags = [f"-I{package}/include/{package.name}" for package in packages]
+        flags += [f"-I/usr/include/{name}" for name in DEBIANS]
         libraries = sorted(
             str(library) for package in packages for library in package.glob("lib/*introspection_cpp.so")
         )
