@@ -49,7 +49,7 @@ for how in leave set; do
   [ -e listens ] && printf '%s: listens, ' "$how"
   HOME=$work timeout 60 node client.cjs 2> /dev/null | grep session | tr '\n' ','
   sleep 2
-  if kill "$server" 2> /dev/null; then echo " lives"; else echo " has ended: $(grep -o 'crypto.getRandomValues is missing' "$how.log" | head -n 1)"; fi
+  if kill -9 "$server" 2> /dev/null; then echo " lives"; else echo " has ended: $(grep -o 'crypto.getRandomValues is missing' "$how.log" | head -n 1)"; fi
   wait "$server" 2> /dev/null || :
 done | tee seen
 cat > expected << 'SEEN'

@@ -382,12 +382,12 @@ class Packages(unittest.TestCase):
     def test_the_launch_file_gives_the_daemon_keys_that_it_has(self):
         module, params = self.launch_file(), self.place / "my.params.yaml"
         params.write_text(
-            "/pose_walld:\n  ros__parameters:\n    planar: off\n    ros2: false\n    alert_angle_deg: 2.5\n"
+            "/pose_walld:\n  ros__parameters:\n    planar: off\n    ros2: false\n    alert_limit_angle_deg: 2.5\n"
             "pose_walld: {ros__parameters: {base_frame: machine}}\nother: {ros__parameters: {rate: 3}}\n",
             encoding="utf-8",
         )
         words = module.settings(params)
-        self.assertEqual(words[1::2], ["planar=off", "ros2=0", "alert_angle_deg=2.5", "base_frame=machine"])
+        self.assertEqual(words[1::2], ["planar=off", "ros2=0", "alert_limit_angle_deg=2.5", "base_frame=machine"])
         defaults = {
             argument.words[0]: argument.default_value for argument in module.generate_launch_description().words[0][:-2]
         }
@@ -396,7 +396,7 @@ class Packages(unittest.TestCase):
         command = module.daemon({**defaults, "config": str(road / "pose_wall.yaml"), "params": str(params)})[0].cmd
         # Every key is one of the daemon's: it begins, and ends with the recording that stands in for clouds of ROS.
         done = subprocess.run(
-            [POSE_WALLD, *command[1:], "--set", "source=replay", "--replay", road / "frames", "--speed", "0"],
+            [POSE_WALLD, *command[1:], "--replay", road / "frames", "--speed", "0"],
             capture_output=True,
             text=True,
             timeout=300,
