@@ -8,6 +8,8 @@ if(NOT POSE_WALL_PEER_PYTHON)
 endif()
 set(POSE_WALL_NODE_MODULES ${PROJECT_BINARY_DIR}/../node_modules CACHE PATH
   "Where `npm ci` put the packages of tests/live/peer/package.json")
+set(POSE_WALL_OPCUA_MODULES ${PROJECT_BINARY_DIR}/../opcua/node_modules CACHE PATH
+  "Where `npm ci` put the packages of tools/apps/opcua/package.json")
 
 # pose_wall_live_peer(<name> [<argument>...]): live/<name>_peer.py
 function(pose_wall_live_peer name)
@@ -43,6 +45,7 @@ if(POSE_WALL_HAS_LIVE_page)
   pose_wall_live_peer(commission)
   pose_wall_live_peer(view $<BOOL:${POSE_WALL_HAS_THREE}>)
   pose_wall_live_peer(monitor $<TARGET_FILE:pose_wall_sensor>)
+  pose_wall_live_peer(opcua $<TARGET_FILE:pose_wall_sensor> ${POSE_WALL_NODE_MODULES} ${POSE_WALL_OPCUA_MODULES})
 endif()
 if(POSE_WALL_HAS_LIVE_ros1)
   pose_wall_live_peer(ros1 ${POSE_WALL_NODE_MODULES})
@@ -50,6 +53,7 @@ endif()
 add_test(NAME live.ros_types_are_generated
   COMMAND ${POSE_WALL_PEER_PYTHON} ${PROJECT_SOURCE_DIR}/tools/apps/live/ros_messages/generate_types.py --check)
 set_tests_properties(live.ros_types_are_generated PROPERTIES LABELS live SKIP_RETURN_CODE 77)
+pose_wall_live_peer(ros2_packages)
 add_custom_target(pose_wall_live_peers)  # what tools/test_live.sh builds of them
 if(POSE_WALL_HAS_LIVE_ros2)
   find_path(FASTDDS_INCLUDE_DIR fastdds/dds/domain/DomainParticipant.hpp)

@@ -27,8 +27,9 @@ packages_to_test_live="python3-pymodbus python3-serial-asyncio mosquitto mosquit
   python3-rospy python3-rosbag python3-rostopic python3-geometry-msgs python3-sensor-msgs python3-std-msgs
   python3-tf2-msgs python3-diagnostic-msgs python3-genmsg ros-std-msgs ros-sensor-msgs ros-geometry-msgs
   ros-diagnostic-msgs ros-tf2-msgs ros-nav-msgs libtf2-dev python3-roslaunch libfastrtps-dev libfastcdr-dev tshark
-  chromium chromium-driver nodejs python3-prometheus-client
-  python3-jsonschema openssl"
+  chromium chromium-driver nodejs python3-prometheus-client python3-jsonschema openssl colcon python3-colcon-cmake
+  python3-colcon-ros ament-cmake rosidl-cmake rosidl-generator-c-cpp librosidl-typesupport-introspection-c-cpp-dev
+  python3-catkin-pkg python3-yaml"
 # For the tests of the package for Python.
 # shellcheck disable=SC2034
 packages_to_test_python="python3-numpy python3-yaml python3-matplotlib python3-pip python3-setuptools python3-wheel
@@ -96,8 +97,8 @@ need_cmake() {
   fi
 }
 
-# The clients of tests/live/peer, from npm's registry, in build/node_modules. Where it cannot be reached, the tests that
-# need them are skipped, and say so.
+# The clients of tests/live/peer and what tools/apps/opcua is made with, from npm's registry, in build/. Where it
+# cannot be reached, the tests that need them are skipped, and say so.
 need_peers() {
   if ! command -v npm > /dev/null; then
     echo "There is no npm here: the tests with clients in JavaScript will be skipped"
@@ -107,6 +108,11 @@ need_peers() {
   cp tests/live/peer/package.json tests/live/peer/package-lock.json build/
   step "Getting the JavaScript clients" sh -c 'npm ci --prefix build --no-audit --no-fund ||
     echo "npm has no registry here: the tests with clients in JavaScript will be skipped"'
+  mkdir -p build/opcua
+  cp tools/apps/opcua/package.json tools/apps/opcua/package-lock.json build/opcua/
+  step "Getting what the OPC UA server is made with" sh -c '
+    npm ci --prefix build/opcua --omit=dev --no-audit --no-fund ||
+    echo "npm has no registry here: the test of the OPC UA server will be skipped"'
 }
 
 # three.js and esbuild for the 3D view of the pages, from npm's registry, in build/three/node_modules, before CMake looks
