@@ -74,7 +74,7 @@ Object.assign(WORDS.zh, {
     'results not recorded': '未记录结果', files: '文件', 'results taken': '已取结果', 'results lost to slowness': '因过慢丢失的结果', clients: '客户端', requests: '请求',
     state: '状态', reasons: '原因', 'allowed mm/s': '允许速度 mm/s', heartbeat: '心跳', why: '原因与解除', 'frames answered': '已判断帧', 'frames lost to slowness': '因过慢丢失的帧',
     'frames refused': '拒绝的帧', 'speed m/s': '速度 m/s', 'speed errs by m/s': '速度误差 m/s', 'looks heeded': '采纳的人工查看', lost: '丢失', waits: '等待', "settings' CRC": '设置的 CRC', stops: '停车次数', scans: '扫描', 'scans with a place': '有位置的扫描', 'scan worst ms': '扫描最长 ms', 'floor z m': '底板 z m', keyframes: '关键帧',
-    closures: '闭环', 'trail is full': '轨迹已满', 'maps built anew': '地图重建次数', 'beams without room in the map': '地图容不下的光束', map: '地图', searches: '搜索次数', progress: '进度',
+    closures: '闭环', 'trail is full': '轨迹已满', 'maps built anew': '地图重建次数', 'beams without room in the map': '地图容不下的激光束', map: '地图', searches: '搜索次数', progress: '进度',
     'command m/s': '指令速度 m/s', 'command rad/s': '指令转速 rad/s', 'command less measured m/s': '指令减实测 m/s', 'command less measured rad/s': '指令减实测 rad/s', "command's age ms": '指令时龄 ms', commands: '指令数',
     candidates: '候选', 'place lost': '位置丢失次数', 'planar news lost to slowness': '因过慢丢失的平面消息',
     refused: '拒绝', 'connections of no Modbus': '非 Modbus 连接', connections: '连接次数', 'messages acknowledged': '已确认消息', 'messages not sent': '未发送消息',
