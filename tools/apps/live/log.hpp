@@ -17,7 +17,8 @@
 
 namespace pose_wall::tools::live {
 
-// From any thread; a line is written whole.
+// From any thread; a line is written whole, in the language of the process (--language, POSE_WALL_LANGUAGE, the
+// locale). Part and fact are given in English.
 void log_line(Grade grade, const std::string& part, const std::string& fact);
 
 // Writes only what changed: a part's grade or summary. A part may go to and fro, as on a machine that is too slow. When
