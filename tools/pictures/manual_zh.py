@@ -31,7 +31,8 @@ EVERY_S = 0.2  # a frame of the other pictures: from 0.3 s on without one the da
 FRAMES = 100  # enough for all pictures. Clouds that come again are told as frozen
 # A rectangle and a floor that fit the simulated machine, so that the stop is about the road and not about the settings.
 PLANAR = ("planar=map", "planar_map_every_s=1", "planar_x_min=-2.3", "planar_x_max=2.3", "planar_y_min=-0.7",
-          "planar_y_max=0.7", "planar_floor_z=-1.35", "planar_period=0.5", "planar_stale=1", "planar_speed_max=0.2", "range_max=60")
+          "planar_y_max=0.7", "planar_floor_z=-1.35", "planar_period=0.5", "planar_stale=1",
+          "planar_speed_max=0.2", "range_max=60")
 
 
 class Frames(threading.Thread):
@@ -68,6 +69,7 @@ class Page:
     def shoot(self, name, *spans):
         """From the top of one element to the end of another, span below span."""
         made = pathlib.Path(self.folder, name)
+        time.sleep(1)  # until the last words have their place
         places = self.browser.run(
             "const box = (name) => document.querySelector(name).getBoundingClientRect();"
             f"return {json.dumps(spans)}.map(([first, last]) => [box(first).top, box(last).bottom])")
