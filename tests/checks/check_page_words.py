@@ -3,7 +3,7 @@
 # Copyright (c) 2026 the pose_wall authors
 """The texts of the pages in both languages. Every key of one language is in the other, with the same kind of text. All
 Chinese texts are Chinese. Every text that a page uses is there. English sentences have at most 40 words, Chinese ones
-at most 80 signs. The live page has Chinese for what the daemon reports of its parts.
+at most 80 signs. (What the daemon reports of its parts it tells in both languages: check_translations.py.)
 
 check_page_words.py ROOT
 
@@ -24,7 +24,7 @@ PAGES = {
     "motion page": (("motion_words.js",), ("motion.html", "motion.js", "motion_views.js")),
 }
 # The English of these comes from the program.
-CHINESE_ALONE = ("reason_texts.", "senses.", "summaries.", "fact_names.", "fact_values.", "part_names.")
+CHINESE_ALONE = ("reason_texts.", "senses.")
 NAMES_ITS_LANGUAGE = "other_language"
 WORDS_MOST, SIGNS_MOST = 40, 80
 HAN = re.compile(r"[\u3400-\u9fff]")
@@ -93,35 +93,18 @@ def faults_of_use(folder, sources, english):
                 yield f"{name} uses '{word}', which is no word"
 
 
-def faults_of_daemon(root, chinese):
-    """Whole sentences and names of facts. Sentences that are put together from parts stay English."""
-    for path in sorted((root / "tools/apps/live").rglob("*.cpp")):
-        source = path.read_text(encoding="utf-8")
-        for statement in re.findall(r'health(?:\.|->)summary \+?= ((?:"[^"]*"|[^;"])*);', source):
-            if "fmt::format" in statement or "+" in statement:
-                continue
-            for sentence in "; ".join(re.findall(r'"([^"]*)"', statement)).split("; "):
-                if sentence and f"summaries.{sentence}" not in chinese:
-                    yield f"{path.name}: no Chinese on the live page: {sentence}"
-        for name in re.findall(r'health(?:->|\.)add\("([^"]*)"', source):
-            if f"fact_names.{name}" not in chinese:
-                yield f"{path.name}: no Chinese on the live page: {name}"
-
-
-def faults(browser, root, folder):
+def faults(browser, folder):
     for page, (scripts, sources) in PAGES.items():
         english, chinese = words_of(browser, folder, scripts)
         if len(english) < 40:
             yield f"{page}: only {len(english)} words were found"
         yield from (f"{page}: {fault}" for fault in faults_of_pair(english, chinese))
         yield from (f"{page}: {fault}" for fault in faults_of_use(folder, sources, english))
-        if page.startswith("report"):
-            yield from faults_of_daemon(root, chinese)
 
 
 BROKEN = [("words.js", "series: '七个输出随时间变化',", ""), ("words.js", "summary: '汇总'", "summary: 'Summary'"),
           ("motion_words.js", "truth: '与真值对比'", "truths: '与真值对比'"), ("words.js", "none: 'none'", "no: 'none'"),
-          ("live_words.js", "viewers: '浏览者',", ""),
+          ("live_words.js", "whole_map: '全图',", ""),
           ("words.js", "summary: 'Summary'", "summary: '" + "word " * (WORDS_MOST + 1) + "'")]
 
 
@@ -132,7 +115,7 @@ def main():
     folder = root / "tools/study/report/page"
     browser = Browser()
     try:
-        found = list(faults(browser, root, folder))
+        found = list(faults(browser, folder))
         for name, good, bad in BROKEN:
             with tempfile.TemporaryDirectory() as made:
                 for path in folder.iterdir():
@@ -141,7 +124,7 @@ def main():
                         found.append(f"{name} no longer holds what the check breaks: {good}")
                     pathlib.Path(made, path.name).write_text(text.replace(good, bad) if path.name == name else text,
                                                              encoding="utf-8")
-                if not list(faults(browser, root, pathlib.Path(made))):
+                if not list(faults(browser, pathlib.Path(made))):
                     found.append(f"broken words were let through: {good} -> {bad[:30]}")
     finally:
         browser.close()

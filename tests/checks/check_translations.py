@@ -9,7 +9,11 @@ usage: check_translations.py ROOT     exit status 1 and one line per text that
     reasons and statuses of values in names.def; rules over two keys in config.cpp; and those of include/ whose rows a
     verb takes as settings
   - stands in a catalogue and is marked nowhere, or stands there twice
-  - fills in other arguments than the English one or gives one another type ({:d} for {:.2f}), or holds no Chinese"""
+  - fills in other arguments than the English one or gives one another type ({:d} for {:.2f}), or holds no Chinese
+
+Parts of the daemon (tools/apps/live) speak English, and log and page tell it again by live_health.po. There a text
+needs no mark: each of its sentences has to stand in the daemon's sources. What a part says has to stand in a
+catalogue."""
 
 import collections
 import pathlib
@@ -24,6 +28,8 @@ REASON = re.compile(rf'^REASON *\(\w+, "\w+", {LITERAL}\)$', re.M)
 # Of the statuses tools print only why a key refuses its value; the others are for programmers.
 STATUS = re.compile(rf'^STATUS *\(POSE_WALL_E_(?:VALUE|TEXT)_\w+, -\d+, {LITERAL}\)$', re.M)
 PRINTED = re.compile(r'POSE_WALL_SETTING_ROW\(\w+, __VA_ARGS__\)\n#include "(\w+\.def)"')
+# Of the motion library's reasons the texts; their names are no words.
+MOTION_REASON = re.compile(rf'^ *\{{"\w+", {LITERAL}\}}[,}}]', re.M)
 RULE = re.compile(rf'\{{"\w+", "\w+", {LITERAL}\}}')
 HAN = re.compile(r"[\u3400-\u9fff]")
 FIELD = re.compile(r"(?<!\{)\{(\w*)(:[^{}]*(?:\{\w*\}[^{}]*)*)?\}(?!\})")
@@ -49,11 +55,48 @@ def marked(root):
     engine = root / "src" / "engine"
     for path, rows, spoken in (*tables, (engine / "config_keys.def", KEY_HELP, False),
                                (engine / "names.def", NAME, True), (engine / "names.def", REASON, False),
-                               (engine / "names.def", STATUS, False), (engine / "config.cpp", RULE, False)):
+                               (engine / "names.def", STATUS, False), (engine / "config.cpp", RULE, False),
+                               (root / "src/motion/motion_api.cpp", MOTION_REASON, False)):
         for found in rows.finditer(path.read_text(encoding="utf-8") if path.exists() else ""):
             text = unescaped(found.group(1))
             texts.setdefault(text.replace("_", " ") if spoken else text, path.relative_to(root))
     return texts
+
+
+RETOLD = "live_health.po"
+STRINGS = re.compile(rf'(?:{LITERAL}\s*)+')
+SAID = re.compile(r'(?:health(?:\.|->)summary \+?=|log_line\(|health(?:\.|->)add\()((?:"(?:[^"\\]|\\.)*"|[^;"])*);')
+
+
+def sentences(text):
+    """What stands between fields and semicolons, where it is more than a name or a unit."""
+    parts = re.split(r"; |;$|\n", re.sub(FIELD, "; ", text))
+    return [part.strip(" :,.()'") for part in parts if len(re.findall("[A-Za-z]", part)) > 4 and " " in part.strip()]
+
+
+def strings_of(source):
+    return ["".join(unescaped(part) for part in re.findall(LITERAL, found.group()))
+            for found in STRINGS.finditer(source)]
+
+
+def daemon_faults(root, catalogue):
+    """Of what the daemon says and what is told again. `catalogue`: [(file, line, English)] of all."""
+    every = "\n".join(msgid for _, _, msgid in catalogue)
+    known = ""
+    for path in sorted((root / "tools/apps/live").rglob("*.[ch]pp")):
+        source = path.read_text(encoding="utf-8")
+        known += "\n".join(strings_of(source)) + "\n"
+        if path.suffix != ".cpp" or path.parent.name == "sensor_sim":
+            continue
+        for statement in SAID.findall(source):
+            for text in strings_of(statement):
+                for sentence in sentences(text):
+                    if sentence not in every:
+                        yield f"{path.relative_to(root)}: in no catalogue: {sentence[:70]!r}"
+    for name, line, msgid in catalogue:
+        for sentence in sentences(msgid) if name.name == RETOLD else ():
+            if sentence not in known:
+                yield f"{name}:{line}: said nowhere in tools/apps/live: {sentence[:60]}"
 
 
 def entries(path):
@@ -86,13 +129,14 @@ def faults(root):
     texts = marked(root)
     if not texts:
         yield "tools/ marks no text: nothing was checked"
-    seen = collections.Counter()
+    seen, catalogue = collections.Counter(), []
     for path in sorted((root / "tools/io/language/zh").glob("*.po")):
         name = path.relative_to(root)
         for line, msgid, msgstr in entries(path):
             seen[msgid] += 1
             shown = msgid[:60].replace("\n", "\\n")
-            if msgid not in texts:
+            catalogue.append((name, line, msgid))
+            if msgid not in texts and path.name != RETOLD:
                 yield f"{name}:{line}: marked nowhere in tools/: {shown}"
             if seen[msgid] == 2:
                 yield f"{name}:{line}: stands in the catalogues twice: {shown}"
@@ -103,6 +147,7 @@ def faults(root):
     for text, place in texts.items():
         if text not in seen:
             yield f"{place}: in no catalogue: {text[:70]!r}"
+    yield from daemon_faults(root, catalogue)
 
 
 def main():

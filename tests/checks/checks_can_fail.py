@@ -576,6 +576,25 @@ class Prose(BrokenProject):
         self.fails("nothing was checked", CHECKS / "check_prose.py", self.root)
 
 
+class Terms(BrokenProject):
+    """A list of words, beside a catalogue."""
+
+    def check(self, text):
+        self.write("tools/io/language/zh/terms.txt", "# words\nfloor | 底板 | 地面\nbeam | 激光束 | 光束~激光束\n")
+        self.write("tools/io/language/zh/run.po", f'msgid "a"\nmsgstr "{text}"\n')
+        return CHECKS / "check_terms.py", self.root
+
+    def test_passes(self):
+        self.passes(*self.check("底板上的激光束"))
+
+    def test_other_words(self):
+        self.fails("'地面' instead of '底板'", *self.check("地面"))
+        self.fails("'光束' instead of '激光束'", *self.check("一条光束"))
+
+    def test_nothing_to_check(self):
+        self.fails("nothing was checked", *self.check("none"))
+
+
 class Translations(BrokenProject):
     """Texts that a tool marks, beside a catalogue of Chinese."""
 
@@ -585,6 +604,17 @@ class Translations(BrokenProject):
         return CHECKS / "check_translations.py", self.root
 
     WALL = 'msgid "the wall {name}"\nmsgstr "{name}侧墙"\n\n'
+
+    def test_what_the_daemon_says(self):
+        said = 'health.summary = is_on ? "plays" : fmt::format("waits for {}; it rests now", name);\n'
+        self.write("tools/apps/live/part.cpp", LICENCE + said)
+        self.write("tools/io/language/zh/live_health.po",
+                   'msgid "waits for {}"\nmsgstr "等待 {}"\n\nmsgid "it rests now"\nmsgstr "已稳定"\n')
+        broken = self.check('say("the wall {name}");\n', self.WALL)
+        self.passes(*broken)
+        self.write("tools/apps/live/part.cpp", LICENCE + said.replace("it rests", "it moves"))
+        self.fails("in no catalogue: 'it moves now'", *broken)
+        self.fails("said nowhere in tools/apps/live: it rests now", *broken)
 
     def test_passes(self):
         self.passes(*self.check('say("the wall {name}");\n', self.WALL))

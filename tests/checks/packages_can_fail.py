@@ -49,7 +49,7 @@ class Image(BrokenProject):
 
     def test_tables_of_the_stop_edited_by_hand(self):
         for before, after in (("| 8 | 32 | `state` |", "| 9 | 36 | `state` |"), ("16#00000800", "16#00000400"),
-                              ("畅通时间尚短", "")):
+                              ("畅通的时间还不够", "")):
             self.change("tools/apps/plc/README.md", before, after)
             self.fails("tools/apps/plc/README.md is not what", *self.check())
 

@@ -148,12 +148,26 @@ class Words(Folder):
     def test_chinese(self):
         done = subprocess.run([str(POSE_WALLD), "--help", "--language", "zh"], capture_output=True, text=True,
                               check=True)
-        for part in ("用法:", "选项:", "上电后持续测量", "显示本帮助后退出", "退出码："):
+        for part in ("用法:", "选项:", "上电即持续测量", "显示本帮助后退出", "退出码："):
             self.assertIn(part, done.stdout)
         for word in ("Usage", "Options", "Needs", "Print", "Exit"):
             self.assertNotIn(word, done.stdout)
         self.refused(["--language", "zh", "--sped", "2"], 2, "未知选项 --sped；是否指“--speed”？", "参见 pose_walld --help。")
         self.refused(["--language", "zh", "--speed", "2"], 2, "使用 --speed 时需同时给出 --replay")
+
+    def test_the_log_is_chinese(self):
+        road = live_peer.simulated_road(POSE_WALL)
+        daemon = live_peer.Program(*live_peer.replay_words(POSE_WALLD, road, "--language", "zh", "--set",
+                                                           f"modbus=127.0.0.1:{live_peer.free_port()}"))
+        self.addCleanup(daemon.kill)
+        self.assertTrue(daemon.says("测量: 正在测量"), daemon.log())
+        for part in ("参数: 参数 CRC：16#", "输出 modbus 127.0.0.1:", "能访问此地址者均可读取过程映像，任何人都不能写入", "输入 回放: 正在回放"):
+            self.assertTrue(daemon.says(part), daemon.log())
+        daemon.stop()
+        self.assertTrue(daemon.says("pose_walld: 按要求停止"), daemon.log())
+        # Names, numbers and settings stay; sentences do not.
+        for line in daemon.lines:
+            self.assertNotRegex(line, r"\b(the|is|are|comes|serves|plays|measures)\b", line)
 
 
 class Settings(Folder):

@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/live/health_words.hpp"
 #include "apps/live/log.hpp"
+#include "apps/live/result_json.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -48,6 +50,34 @@ TEST_F(HealthLogTest, WhatIsNewIsToldAtOnceInAFloodToo) {
   }
   say("the worker hangs", std::chrono::milliseconds(100));
   EXPECT_EQ(lines_.back(), "the worker hangs");
+}
+
+TEST(HealthWords, TellAPartInChineseAndKeepItsNames) {
+  PartHealth health{"sink modbus 127.0.0.1:502", Grade::kGood, "serves", {}};
+  health.add("clients", std::uint64_t{2});
+  health.add("of", std::uint64_t{70});
+  health.add("yaw", std::string("valid"));
+  health.add("why", std::string("The floor is not seen, for 3 s. Drive slower."));
+  health.chinese_facts["why"] = "未见底板";
+  EXPECT_EQ(in_language(Language::kEnglish, health).facts, health.facts);
+  const PartHealth told = in_language(Language::kChinese, health);
+  EXPECT_EQ(told.part, "输出 modbus 127.0.0.1:502");
+  EXPECT_EQ(told.summary, "正在服务");
+  EXPECT_EQ(told.facts, (std::vector<std::pair<std::string, std::string>>{
+                            {"客户端", "2"}, {"总数", "70"}, {"航向", "有效"}, {"原因与解除", "未见底板"}}));
+  EXPECT_EQ(part_words(Language::kChinese, "planar stop"), "障碍停车");
+  EXPECT_EQ(part_words(Language::kChinese, "source ros1 /points"), "输入 ros1 /points");
+  EXPECT_EQ(part_words(Language::kChinese, "pose_walld"), "pose_walld");
+  EXPECT_EQ(grade_words(Language::kChinese, Grade::kBad), "故障");
+}
+
+// What scripts read is English, whatever the page is told beside it.
+TEST(HealthWords, ScriptsGetEnglishAndThePageBoth) {
+  const std::vector<PartHealth> parts = {{"runtime", Grade::kGood, "measures", {}}};
+  EXPECT_EQ(health_json(parts).find("zh"), std::string::npos);
+  const std::string both = health_in_both_json(parts);
+  EXPECT_NE(both.find(R"("summary":"measures")"), std::string::npos) << both;
+  EXPECT_NE(both.find("正在测量"), std::string::npos) << both;
 }
 
 TEST_F(HealthLogTest, WordsThatAreAlwaysOthersAreNoWayRoundIt) {

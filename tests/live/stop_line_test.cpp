@@ -72,7 +72,7 @@ TEST(StopLine, AThingIsToldWithHeightPlaceTimeAndRemedy) {
             "steer clear of it.");
   EXPECT_EQ(
       chinese(result, 1.24),
-      "有立于地面、高于 0.3 米的物体，宽 0.5 米，前方 2.1 米，行驶带左侧 30 厘米，已 1.2 秒。请将其移开，或绕开行驶。");
+      "底板上有高于 0.3 米的物体，宽 0.5 米，前方 2.1 米，行驶带左侧 30 厘米，已 1.2 秒。请将其移开，或绕开行驶。");
   EXPECT_NE(english(result, 345.6).find("for 346 s."), std::string::npos);
   result.nearest_age_s = 7.04;
   result.reasons |= POSE_WALL_PLANAR_STOP_R_MISSING;

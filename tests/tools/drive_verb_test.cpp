@@ -86,7 +86,7 @@ TEST(DriveRun, WhatWasLostIsToldInWords) {
   const DriveRun drive(road.network, road.model, road.roads, road.way(30, 60));
   const test::EnglishAfterwards afterwards;
   for (const auto& [loss, english, chinese] :
-       {std::tuple("dark_wall", "those of a wall, 2.0 s", "某处墙面的回波，2.0 s"),
+       {std::tuple("dark_wall", "those of a wall, 2.0 s", "某处巷帮的回波，2.0 s"),
         std::tuple("dropout", "most of them, 2.0 s", "大部分回波，2.0 s"),
         std::tuple("blind", "all of them, 2.0 s", "全部回波，2.0 s")}) {
     DriveEnd end;

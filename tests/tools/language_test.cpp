@@ -14,6 +14,7 @@
 
 #include "io/language/language_name.hpp"
 #include "io/language/po_catalogue.hpp"
+#include "io/language/retold.hpp"
 #include "io/terminal/text_table.hpp"
 #include "support/said_by.hpp"
 
@@ -79,6 +80,25 @@ TEST_F(LanguageTest, EveryChineseTextIsUsedInChineseAlone) {
     EXPECT_EQ(tr(entry.english.c_str()), entry.english);
     choose_language(Language::kChinese);
     EXPECT_EQ(tr(entry.english.c_str()), entry.translated);
+  }
+}
+
+TEST(Retold, FindsWholeTextsFormsAndSentences) {
+  const auto zh = [](const char* english) { return retold(Language::kChinese, english); };
+  EXPECT_EQ(retold(Language::kEnglish, "measures"), "measures");
+  EXPECT_EQ(zh("measures"), "正在测量");
+  EXPECT_EQ(zh("measures; times of points are of no use"), "正在测量；点的时间不可用");
+  EXPECT_EQ(zh("packets come, none is of sensor 'vlp16': is another one there?"),
+            "有数据包，但都不是“vlp16”的：接的是另一种传感器吗？");
+  EXPECT_EQ(zh("measures; changed 294 more times in 30 s"), "正在测量；30 秒内又变化 294 次") << "another order";
+  EXPECT_EQ(zh("place: unique; the floor is not at planar_floor_z"), "位置：唯一；底板不在 planar_floor_z 处");
+  EXPECT_EQ(zh("pauses: No space left on device"), "暂停：磁盘已满") << "what is filled in has its Chinese, too";
+  EXPECT_EQ(zh("a thing in the way, low"), "前方有障碍物、低矮");
+}
+
+TEST(Retold, LeavesWhatItDoesNotKnow) {
+  for (const char* text : {"", "-", "1203", "16#1234ABCD", "no catalogue holds this", "/var/lib/x.mcap", "{", "x: y"}) {
+    EXPECT_EQ(retold(Language::kChinese, text), text);
   }
 }
 

@@ -140,7 +140,7 @@ TEST(SteerLine, OfAllSomeAndNone) {
   EXPECT_EQ(steer_line(Language::kChinese, steering_of(result, kLimits)),
             "可用于控制：横滚、俯仰、航向、左后、右前、右后；不可用：左前（保护级 0.140 m，限值 0.100 "
             "m：机器旁的巷帮不可见）。"
-            "处理：改变雷达安装位置以免采样点处的巷帮被遮挡，把 s_front 和 s_back "
+            "处理：改变传感器安装位置以免采样点处的巷帮被遮挡，把 s_front 和 s_back "
             "设到能看到巷帮之处，或只测机器旁的一段（region: "
             "on）。");
   for (pose_wall_value& value : result.quantity) value = unmeasured(POSE_WALL_R_NO_FRAME, POSE_WALL_HELD);
@@ -187,7 +187,7 @@ TEST(SteerJson, HoldsCauseAndRemedyOfWhatMayNot) {
   EXPECT_EQ(list.at(3).at("level_m"), 0.14);
   const std::string english = list.at(3).at("remedy").at("en"), chinese = list.at(3).at("remedy").at("zh");
   EXPECT_EQ(english.find("mount the sensor where nothing hides the wall at the sampling point"), 0U) << english;
-  EXPECT_EQ(chinese.find("改变雷达安装位置"), 0U) << chinese;
+  EXPECT_EQ(chinese.find("改变传感器安装位置"), 0U) << chinese;
 }
 
 TEST(SteerTally, TellsARecordingByItsMostFrequentCause) {

@@ -84,6 +84,8 @@ if(TARGET pose_walld)
     install(FILES ${pose_wall_daemon_dir}/${place}/README.md
       DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/${place} COMPONENT daemon)
   endforeach()
+  install(DIRECTORY ${pose_wall_daemon_dir}/manual DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld
+    COMPONENT daemon)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/tools/apps/plc/can/
     DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/can COMPONENT daemon
     FILES_MATCHING PATTERN "*.dbc" PATTERN "README.md")

@@ -39,7 +39,7 @@ std::string amount(std::uint32_t quantity, double value) {
 DemoRun::DemoRun(const sim::Setup& setup, const api::Config& config, std::uint64_t seed)
     : simulator_(setup, seed), config_(config) {
   const std::int32_t status = engine_.open(config_);
-  if (status != POSE_WALL_OK) throw ConfigError(std::string("the engine: ") + pose_wall_status_text(status));
+  if (status != POSE_WALL_OK) throw ConfigError(say("the engine: {}", pose_wall_status_text(status)));
   const AlertLimits limits = alert_limits_of(config_);
   for (std::uint32_t quantity = 0; quantity < POSE_WALL_QUANTITIES; ++quantity) {
     errors_.emplace_back(is_angle(quantity), limit_of(quantity, limits));
@@ -77,14 +77,15 @@ DemoFrame DemoRun::next() {
 }
 
 std::string DemoRun::error_table() const {
-  TextTable table({"error of raw", "frames", "valid", "RMSE", "95 %", "max", "beyond protection level"});
+  TextTable table({tr("error of raw"), tr("frames"), tr("valid"), tr("RMSE"), tr("95 %"), tr("max"),
+                   tr("beyond protection level")});
   for (std::uint32_t quantity = 0; quantity < POSE_WALL_QUANTITIES; ++quantity) {
     const ErrorStatistics& errors = errors_[quantity];
     const ErrorFigures figures = errors.raw();
-    table.add_row({pose_wall_quantity_name(quantity), std::to_string(errors.frames()), std::to_string(errors.valid()),
-                   amount(quantity, figures.rmse), amount(quantity, figures.absolute_95),
-                   amount(quantity, figures.absolute_max),
-                   fmt::format("{} of {}", errors.raw_beyond_protection(), errors.measured())});
+    table.add_row({tr(pose_wall_quantity_name(quantity)), std::to_string(errors.frames()),
+                   std::to_string(errors.valid()), amount(quantity, figures.rmse),
+                   amount(quantity, figures.absolute_95), amount(quantity, figures.absolute_max),
+                   say("{} of {}", errors.raw_beyond_protection(), errors.measured())});
   }
   return table.text();
 }

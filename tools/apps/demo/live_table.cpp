@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "io/language/engine_words.hpp"
+#include "io/language/language.hpp"
 #include "io/numbers/angles.hpp"
 #include "io/numbers/quantities.hpp"
 
@@ -14,8 +16,9 @@ namespace pose_wall::tools {
 namespace {
 
 constexpr int kWidth = 9;
-constexpr std::array<const char*, POSE_WALL_QUANTITIES> kHeads = {"roll °", "pitch °", "yaw °", "d_LF m",
-                                                                  "d_LB m", "d_RF m",  "d_RB m"};
+constexpr std::array<const char*, POSE_WALL_QUANTITIES> kHeads = {
+    translatable("roll °"), translatable("pitch °"), translatable("yaw °"), translatable("d_LF m"),
+    translatable("d_LB m"), translatable("d_RF m"),  translatable("d_RB m")};
 // By pose_wall_state.
 constexpr std::array<const char*, 4> kMarks = {"!", "h", "~", " "};
 constexpr std::array<const char*, 4> kColours = {"\033[31m", "\033[34m", "\033[33m", "\033[32m"};
@@ -43,15 +46,15 @@ std::string LiveTable::cell(std::uint32_t quantity, const pose_wall_value& value
 }
 
 std::string LiveTable::head() const {
-  std::string line = "frame   time   ";
-  for (const char* name : kHeads) line += fmt::format("{:>{}} ", name, kWidth - 1);
-  return line + "  engine\n";
+  std::string line = tr("frame   time   ");
+  for (const char* name : kHeads) line += fmt::format("{:>{}} ", tr(name), kWidth - 1);
+  return line + fmt::format("{:>8}\n", tr("engine"));
 }
 
 std::string LiveTable::rows(std::uint64_t frame, double time_s, const pose_wall_result& result,
                             const std::array<double, POSE_WALL_QUANTITIES>& truth, double engine_ms) const {
   std::string measured = fmt::format("{:5} {:5.1f} s  ", frame, time_s);
-  std::string true_line = fmt::format("{:>15}", "truth  ");
+  std::string true_line = fmt::format("{:>13}  ", tr("truth"));
   for (std::uint32_t quantity = 0; quantity < POSE_WALL_QUANTITIES; ++quantity) {
     measured += cell(quantity, result.quantity[quantity]);
     true_line += fmt::format("{:>{}} ", figure(quantity, truth.at(quantity)), kWidth - 1);
@@ -60,9 +63,9 @@ std::string LiveTable::rows(std::uint64_t frame, double time_s, const pose_wall_
 }
 
 std::string LiveTable::key() const {
-  std::string line = "states:";
+  std::string line = tr("states:");
   for (std::uint32_t state = POSE_WALL_VALID + 1; state-- > 0;) {
-    const std::string name = pose_wall_state_name(state);
+    const std::string name = state_words(state);
     line += "  " + painted(state == POSE_WALL_VALID ? name : fmt::format("{} {}", kMarks.at(state), name), state);
   }
   return line + "\n";

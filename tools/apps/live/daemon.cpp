@@ -11,10 +11,12 @@
 #include <thread>
 
 #include "apps/live/clocks.hpp"
+#include "apps/live/health_words.hpp"
 #include "apps/live/planar/roadway_sink.hpp"
 #include "apps/live/setting_changes.hpp"
 #include "io/config_file/key_table.hpp"
 #include "io/config_file/resolved_frames.hpp"
+#include "io/language/language.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -34,7 +36,7 @@ void log_lines(const std::string& part, const std::string& text, Grade grade = G
 // What one wants to see of a part every minute: its counters.
 std::string facts_text(const PartHealth& part) {
   std::string text = part.summary;
-  for (const auto& [name, value] : part.facts) text += fmt::format("; {} {}", name, value);
+  for (const auto& [name, value] : part.facts) text += fmt::format("{}{} {}", tr("; "), name, value);
   return text;
 }
 
@@ -156,7 +158,7 @@ void Daemon::log_start() const {
 }
 
 void Daemon::log_status() const {
-  for (const PartHealth& part : all()) log_line(part.grade, part.part, facts_text(part));
+  for (const PartHealth& part : all()) log_line(part.grade, part.part, facts_text(in_language(language(), part)));
 }
 
 std::shared_ptr<SinkThread> Daemon::recorder() const {

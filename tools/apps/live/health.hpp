@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,8 @@ struct PartHealth {
   Grade grade = Grade::kGood;
   std::string summary;  // one sentence; it changes only when something happens, for each change is a line of the log
   std::vector<std::pair<std::string, std::string>> facts;  // names and values: "frames" "1203"
+  // Of facts whose value is more than a word and a number: the same value in Chinese, by the fact's name.
+  std::map<std::string, std::string> chinese_facts = {};
 
   // Facts aside, which change all the time.
   bool fares_as(const PartHealth& other) const {

@@ -12,6 +12,9 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "apps/live/health_words.hpp"
+#include "io/language/retold.hpp"
+
 namespace pose_wall::tools::live {
 namespace {
 
@@ -103,9 +106,9 @@ Grade log_level_of(const std::string& name) {
 void log_line(Grade grade, const std::string& part, const std::string& fact) {
   if (grade < least_grave.load()) return;
   static const bool to_journal = std::getenv("JOURNAL_STREAM") != nullptr;
-  const std::string line =
-      fmt::format("{}{}{}: {}\n", to_journal ? journal_level(grade) : time_text(),
-                  to_journal ? "" : fmt::format("{:7} ", grade_name(grade)), one_line(part), one_line(fact));
+  const std::string line = fmt::format("{}{}{}: {}\n", to_journal ? journal_level(grade) : time_text(),
+                                       to_journal ? "" : fmt::format("{:7} ", grade_words(language(), grade)),
+                                       one_line(part_words(language(), part)), one_line(retold(language(), fact)));
   // One call, so that threads do not mix their lines. A log that cannot be written is nothing to stop for.
   const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
   static_cast<void>(written);

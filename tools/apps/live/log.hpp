@@ -22,7 +22,8 @@ void set_log_level(Grade least);
 // "info", "warning", "error"; as the key log_level has it.
 Grade log_level_of(const std::string& name);
 
-// From any thread; a line is written whole.
+// From any thread; a line is written whole, in the language of the process (--language, POSE_WALL_LANGUAGE, the
+// locale). Part and fact are given in English.
 void log_line(Grade grade, const std::string& part, const std::string& fact);
 
 // Writes only what changed: a part's grade or summary. A part may go to and fro, as on a machine that is too slow. When

@@ -25,6 +25,7 @@
 #include "io/config_file/config_place.hpp"
 #include "io/config_file/load_config.hpp"
 #include "io/language/language.hpp"
+#include "io/language/retold.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -168,7 +169,7 @@ void add_options(CLI::App* app, Words* words) {
 }
 
 int complain(const std::exception& fault, int status) {
-  fmt::print(stderr, "pose_walld: {}\n", fault.what());
+  fmt::print(stderr, "pose_walld: {}\n", retold(language(), fault.what()));
   return status;
 }
 

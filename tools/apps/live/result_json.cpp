@@ -7,10 +7,20 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/live/health_words.hpp"
 #include "io/json/json_words.hpp"
 #include "study/results/result_json.hpp"
 
 namespace pose_wall::tools::live {
+namespace {
+
+Json part_json(const PartHealth& part) {
+  Json facts = Json::object();
+  for (const auto& [name, value] : part.facts) facts[name] = value;
+  return {{"part", part.part}, {"grade", grade_name(part.grade)}, {"summary", part.summary}, {"facts", facts}};
+}
+
+}  // namespace
 
 std::string result_json(const LiveResult& result) {
   const pose_wall_publication& publication = result.publication;
@@ -35,11 +45,16 @@ std::string result_json(const LiveResult& result) {
 
 std::string health_json(const std::vector<PartHealth>& parts) {
   Json list = Json::array();
+  for (const PartHealth& part : parts) list.push_back(part_json(part));
+  return json_text({{"parts", list}});
+}
+
+std::string health_in_both_json(const std::vector<PartHealth>& parts) {
+  Json list = Json::array();
   for (const PartHealth& part : parts) {
-    Json facts = Json::object();
-    for (const auto& [name, value] : part.facts) facts[name] = value;
-    list.push_back(
-        {{"part", part.part}, {"grade", grade_name(part.grade)}, {"summary", part.summary}, {"facts", facts}});
+    Json told = part_json(part);
+    told["zh"] = part_json(in_language(Language::kChinese, part));
+    list.push_back(std::move(told));
   }
   return json_text({{"schema", 1}, {"parts", list}});
 }

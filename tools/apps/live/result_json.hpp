@@ -19,4 +19,7 @@ std::string result_json(const LiveResult& result);
 
 std::string health_json(const std::vector<PartHealth>& parts);
 
+// The same with a member "zh" of each part, which tells it in Chinese; for the page, whose readers choose the language.
+std::string health_in_both_json(const std::vector<PartHealth>& parts);
+
 }  // namespace pose_wall::tools::live

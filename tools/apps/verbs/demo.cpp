@@ -24,7 +24,7 @@
 #include "io/language/language.hpp"
 #include "io/outputs/output_folder.hpp"
 #include "io/terminal/colours.hpp"
-#include "io/terminal/counted.hpp"
+#include "io/terminal/frames_text.hpp"
 #include "io/terminal/interrupt.hpp"
 #include "io/terminal/progress_bar.hpp"
 #include "study/results/result_output.hpp"
@@ -54,7 +54,7 @@ DemoFrame process_frames(const DemoVerb& verb, DemoRun& run, ResultOutput& outpu
   for (std::uint32_t i = 0; i < verb.frames && !InterruptWatch::is_interrupted(); ++i) {
     frame = run.next();
     truth.push_back(frame.truth);
-    if (!output.write(frame.outcome)) throw OutputError(output.name() + " cannot be written to the end");
+    if (!output.write(frame.outcome)) throw OutputError(say("{} could not be written to the end", output.name()));
     if (!verb.quiet && (i % stride == 0 || i + 1 == verb.frames)) {
       fmt::print("{}", table.rows(i, frame.time_s, *frame.outcome.result, frame.truth.value, frame.outcome.total_ms));
       std::fflush(stdout);
@@ -66,10 +66,10 @@ DemoFrame process_frames(const DemoVerb& verb, DemoRun& run, ResultOutput& outpu
 
 void print_end(const DemoRun& run, const std::filesystem::path& folder) {
   fmt::print("{}\n", run.error_table());
-  fmt::print("median per frame: engine {:.1f} ms, simulator {:.1f} ms\n", run.median_engine_ms(),
-             run.median_render_ms());
-  fmt::print("results: {}, truth: {}\n", (folder / "demo.csv").string(), (folder / "truth.csv").string());
-  fmt::print("picture: {}\n", std::filesystem::absolute(folder / "demo.svg").string());
+  fmt::print("{}", say("median per frame: engine {:.1f} ms, simulator {:.1f} ms\n", run.median_engine_ms(),
+                       run.median_render_ms()));
+  fmt::print("{}", say("results: {}, truth: {}\n", (folder / "demo.csv").string(), (folder / "truth.csv").string()));
+  fmt::print("{}", say("picture: {}\n", std::filesystem::absolute(folder / "demo.svg").string()));
 }
 
 int demo(const DemoVerb& verb) {
@@ -82,8 +82,8 @@ int demo(const DemoVerb& verb) {
   ResultOutput output((folder / "demo.csv").string(), {});
 
   if (!verb.quiet)
-    fmt::print("Simulated roadway '{}', sensor {}, {}\n\n", scene_name(verb), verb.demo.sensor,
-               counted(verb.frames, "frame"));
+    fmt::print("{}", say("Simulated roadway '{}', sensor {}, {}\n\n", scene_name(verb), verb.demo.sensor,
+                         frames_text(verb.frames)));
   std::vector<TruthRow> truth;
   const DemoFrame last = process_frames(verb, run, output, truth);
   write_truth_csv(folder / "truth.csv", truth);
@@ -101,27 +101,27 @@ int demo(const DemoVerb& verb) {
 
 void add_demo(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<DemoVerb>();
-  CLI::App* verb = app.add_subcommand("demo", "Simulate a roadway, measure in it, draw a picture");
+  CLI::App* verb = app.add_subcommand("demo", tr("Simulate a roadway, measure in it, draw a picture"));
   verb->add_option("--scene", options->demo.scene,
-                   "Scene of the simulator, see pose_wall sim --list; default: a heading with the machine at work");
-  verb->add_option("--sensor", options->demo.sensor, "Sensor model of the simulator, see the same list")
+                   tr("Scene of the simulator, see pose_wall sim --list; default: a heading with the machine at work"));
+  verb->add_option("--sensor", options->demo.sensor, tr("Sensor model of the simulator, see the same list"))
       ->capture_default_str();
-  verb->add_option("-n,--frames", options->frames, "Number of frames")
+  verb->add_option("-n,--frames", options->frames, tr("Number of frames"))
       ->capture_default_str()
       ->check(whole_number_within(1, 100000));
-  verb->add_option("--seed", options->demo.seed, "Seed of rock and noise")
+  verb->add_option("--seed", options->demo.seed, tr("Seed of rock and noise"))
       ->capture_default_str()
       ->check(whole_number());
   verb->add_option("-c,--config", options->demo.config_file,
-                   config_help("Settings of the engine, as config/pose_wall.yaml"));
-  verb->add_option("-s,--set", options->demo.settings, "Setting of the engine, KEY=VALUE; may be repeated")
+                   config_help(tr("Settings of the engine, as config/pose_wall.yaml")));
+  verb->add_option("-s,--set", options->demo.settings, tr("Setting of the engine, KEY=VALUE; may be repeated"))
       ->allow_extra_args(false);
-  verb->add_option("--simulate", options->demo.simulation, "Number of the simulator, KEY=VALUE; may be repeated")
+  verb->add_option("--simulate", options->demo.simulation, tr("Number of the simulator, KEY=VALUE; may be repeated"))
       ->allow_extra_args(false);
-  verb->add_option("-o,--output", options->output, "Folder for demo.svg, demo.csv and truth.csv")
+  verb->add_option("-o,--output", options->output, tr("Folder for demo.svg, demo.csv and truth.csv"))
       ->capture_default_str();
-  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors, nothing on stdout");
-  verb->footer("Example:\n  pose_wall demo --sensor os0-128 --frames 200 --output out");
+  verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors, nothing on stdout"));
+  verb->footer(tr("Example:\n  pose_wall demo --sensor os0-128 --frames 200 --output out"));
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("demo", [&] { return demo(*options); }); });
 }
 

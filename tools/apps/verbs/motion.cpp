@@ -22,8 +22,9 @@
 #include "io/config_file/resolved_frames.hpp"
 #include "io/csv/csv_table.hpp"
 #include "io/inputs/frame_sequence.hpp"
+#include "io/language/language.hpp"
 #include "io/outputs/output_file.hpp"
-#include "io/terminal/counted.hpp"
+#include "io/terminal/frames_text.hpp"
 #include "io/terminal/interrupt.hpp"
 #include "io/terminal/progress_bar.hpp"
 #include "study/info/usable_times.hpp"
@@ -49,7 +50,7 @@ struct MotionOutputs {
     if (!options.output.empty()) read.emplace_back(options.output);
     if (!options.tum.empty()) {
       if (options.tum == "-")
-        throw std::invalid_argument("--tum -: a file is allowed; --output may be standard output");
+        throw std::invalid_argument(tr("--tum -: a file is allowed; --output may be standard output"));
       tum.emplace(options.tum, read, "", "--tum");
       read.emplace_back(options.tum);
     }
@@ -58,8 +59,8 @@ struct MotionOutputs {
 
   // What could not be written; empty when all was.
   std::string write(const MotionOutcome& outcome) {
-    if (!table.write(csv_line(motion_cells(outcome)))) return table.name() + " could not be written to the end";
-    if (tum && !tum->write(tum_row(outcome))) return tum->name() + " could not be written to the end";
+    if (!table.write(csv_line(motion_cells(outcome)))) return say("{} could not be written to the end", table.name());
+    if (tum && !tum->write(tum_row(outcome))) return say("{} could not be written to the end", tum->name());
     return "";
   }
 
@@ -70,9 +71,10 @@ struct MotionOutputs {
 
 void print_start(const MotionOptions& options, const LoadedConfig& loaded, const MotionRunner& runner,
                  std::size_t frames) {
-  fmt::print(stderr, "pose_wall {}: motion in {}, config {}, {:.1f} MB for the map\n{}", pose_wall_version(),
-             counted(frames, "frame"), options.frames.config_file.empty() ? "defaults" : options.frames.config_file,
-             static_cast<double>(runner.block_bytes()) * 1e-6,
+  fmt::print(stderr, "{}{}",
+             say("pose_wall {}: motion in {}, config {}, {:.1f} MB for the map\n", pose_wall_version(),
+                 frames_text(frames), options.frames.config_file.empty() ? tr("defaults") : options.frames.config_file,
+                 static_cast<double>(runner.block_bytes()) * 1e-6),
              resolved_frames_text(resolve_frames(loaded.config), "  "));
 }
 
@@ -134,28 +136,28 @@ int motion(const MotionOptions& options) {
 
 void add_motion(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<MotionOptions>();
-  CLI::App* verb = app.add_subcommand("motion", "Measure how the machine moves along its road, frame by frame");
+  CLI::App* verb = app.add_subcommand("motion", tr("Measure how the machine moves along its road, frame by frame"));
   add_frame_options(verb, &options->frames);
-  verb->add_option("-o,--output", options->output, "File for the table (CSV); default, and -: standard output");
+  verb->add_option("-o,--output", options->output, tr("File for the table (CSV); default, and -: standard output"));
   verb->add_option("--tum", options->tum,
-                   "File for the path in TUM format: rows `t x y z qx qy qz qw`, s and m; without lost frames");
-  verb->add_option("--map", options->map, "File for the map's points at the end: binary PLY, x y z in m");
+                   tr("File for the path in TUM format: rows `t x y z qx qy qz qw`, s and m; without lost frames"));
+  verb->add_option("--map", options->map, tr("File for the map's points at the end: binary PLY, x y z in m"));
   verb->footer(
-      "Examples:\n"
-      "  pose_wall sim --scene rough --frames 60 --set speed_mps=0.3 --set rock_repeats=no --output road\n"
-      "  pose_wall motion -c road/pose_wall.yaml -o motion.csv --tum path.tum road/frames\n"
-      "  pose_wall eval motion.csv road/truth.csv\n"
-      "Poses are those of base, in base as it stood at the first frame. along_m is the travel along the road, and\n"
-      "along_state grades it:\n"
-      "  measured      the relief of the rock determines the place\n"
-      "  ambiguous     two places fit alike, as with periodic steel sets; the level covers both\n"
-      "  unobservable  no feature shows the travel; the level grows by motion_speed_max\n"
-      "  lost          no pose: x to along_m are empty, and the map restarts\n"
-      "Levels (_pl) are in m and rad. The error of the pose since the first frame stays within them. Columns step_\n"
-      "describe the step since the last frame. Keys: motion_speed_max, motion_turn_max_deg, motion_range_max,\n"
-      "motion_keyframe (pose_wall check-config --keys).\n"
-      "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config,\n"
-      "130 interrupted by Ctrl-C: written rows and files are whole.");
+      tr("Examples:\n"
+         "  pose_wall sim --scene rough --frames 60 --set speed_mps=0.3 --set rock_repeats=no --output road\n"
+         "  pose_wall motion -c road/pose_wall.yaml -o motion.csv --tum path.tum road/frames\n"
+         "  pose_wall eval motion.csv road/truth.csv\n"
+         "Poses are those of base, in base as it stood at the first frame. along_m is the travel along the road, and\n"
+         "along_state grades it:\n"
+         "  measured      the relief of the rock determines the place\n"
+         "  ambiguous     two places fit alike, as with periodic steel sets; the level covers both\n"
+         "  unobservable  no feature shows the travel; the level grows by motion_speed_max\n"
+         "  lost          no pose: x to along_m are empty, and the map restarts\n"
+         "Levels (_pl) are in m and rad. The error of the pose since the first frame stays within them. Columns step_\n"
+         "describe the step since the last frame. Keys: motion_speed_max, motion_turn_max_deg, motion_range_max,\n"
+         "motion_keyframe (pose_wall check-config --keys).\n"
+         "Exit status: 0 done, 1 an input could not be read (the others are processed), 2 bad usage or config,\n"
+         "130 interrupted by Ctrl-C: written rows and files are whole."));
   verb->callback([options, &exit_code] {
     if (options->output == "-") options->output.clear();
     exit_code = motion(*options);

@@ -16,6 +16,7 @@
 #include "apps/verbs/verbs.hpp"
 #include "io/box/box_replay.hpp"
 #include "io/csv/csv_table.hpp"
+#include "io/language/language.hpp"
 #include "io/terminal/counted.hpp"
 #include "io/terminal/interrupt.hpp"
 #include "io/terminal/progress_bar.hpp"
@@ -71,10 +72,9 @@ void print_motion(const BoxMotion& motion) {
 }
 
 void print(const ReplayOptions& options, const BoxReplay& r) {
-  fmt::print("{}: recorded by pose_wall {}; {} ({} to {}): {}, {}\n", options.file, r.version,
-             counted(r.records, "event"), r.first_sequence, r.last_sequence, counted(r.frames, "frame"),
-             counted(r.silences, "silence"));
-  fmt::print("  {} bit for bit as recorded, {} otherwise\n", r.equal, r.different);
+  fmt::print("{}", say("{}: recorded by pose_wall {}; events {} ({} to {}), frames {}, silences {}\n", options.file,
+                       r.version, r.records, r.first_sequence, r.last_sequence, r.frames, r.silences));
+  fmt::print("{}", say("  {} bit for bit as recorded, {} otherwise\n", r.equal, r.different));
   if (r.thinned > 0) fmt::print("  {} of a thinned cloud\n", counted(r.thinned, "frame"));
   if (r.with_inputs > 0) fmt::print("  {} with inputs of the machine\n", counted(r.with_inputs, "frame"));
   print_motion(r.motion);
@@ -115,7 +115,7 @@ int replay(const ReplayOptions& options) {
   });
   bar.reset();  // takes its line away
   print(options, result);
-  if (!is_written) throw OutputError(table->name() + " could not be written to the end");
+  if (!is_written) throw OutputError(say("{} could not be written to the end", table->name()));
   if (result.different > 0) return kExitDiffers;
   return result.is_whole() && result.reproduced() ? kExitDone : kExitUnreadable;
 }
@@ -124,19 +124,19 @@ int replay(const ReplayOptions& options) {
 
 void add_replay_box(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReplayOptions>();
-  CLI::App* verb = app.add_subcommand("replay-box", "Compute a black box again and compare every bit");
-  verb->add_option("FILE", options->file, "A black box of the runtime")->required();
+  CLI::App* verb = app.add_subcommand("replay-box", tr("Compute a black box again and compare every bit"));
+  verb->add_option("FILE", options->file, tr("A black box of the runtime"))->required();
   verb->add_option("--table", options->table,
-                   "File for a CSV of the events: the result of each comparison, and the recorded motion");
-  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
-  verb->footer(
+                   tr("File for a CSV of the events: the result of each comparison, and the recorded motion"));
+  verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
+  verb->footer(tr(
       "Examples:\n"
       "  pose_wall replay-box box.pwbox\n"
       "  pose_wall replay-box --table events.csv box.pwbox\n"
       "Exit status: 0 every event gives the recorded bits, and none is damaged or missing; 1 damage, missing events,\n"
       "no black box, or digests only; 3 a result differs (the first difference is named). Gaps in older laps of the "
       "ring\n"
-      "and in earlier runs do not count.");
+      "and in earlier runs do not count."));
   verb->callback(
       [options, &exit_code] { exit_code = done_or_complaint("replay-box", [&] { return replay(*options); }); });
 }

@@ -14,6 +14,7 @@
 #include "apps/command_line/man_page.hpp"
 #include "apps/options/one_of.hpp"
 #include "apps/verbs/verbs.hpp"
+#include "io/language/language.hpp"
 #include "pose_wall.h"
 
 namespace pose_wall::tools {
@@ -34,14 +35,14 @@ int print(const std::string& text) {
 
 void add_completion(CLI::App& app, int& exit_code) {
   const auto shell = std::make_shared<std::string>();
-  CLI::App* verb = app.add_subcommand("completion", "Print a script that completes words in a shell");
-  verb->add_option("SHELL", *shell, "bash, zsh or fish")->required()->check(one_of({"bash", "zsh", "fish"}));
+  CLI::App* verb = app.add_subcommand("completion", tr("Print a script that completes words in a shell"));
+  verb->add_option("SHELL", *shell, tr("bash, zsh or fish"))->required()->check(one_of({"bash", "zsh", "fish"}));
   verb->footer(
-      "Examples:\n"
-      "  source <(pose_wall completion bash)\n"
-      "  pose_wall completion zsh > ~/.zfunc/_pose_wall\n"
-      "  pose_wall completion fish > ~/.config/fish/completions/pose_wall.fish\n"
-      "Packages install the scripts where the shells find them.");
+      tr("Examples:\n"
+         "  source <(pose_wall completion bash)\n"
+         "  pose_wall completion zsh > ~/.zfunc/_pose_wall\n"
+         "  pose_wall completion fish > ~/.config/fish/completions/pose_wall.fish\n"
+         "Packages install the scripts where the shells find them."));
   verb->callback([shell, &app, &exit_code] { exit_code = print(completion(app, *shell)); });
 }
 

@@ -22,8 +22,10 @@
 #include "io/csv/truth_csv.hpp"
 #include "io/frames/pcd_writer.hpp"
 #include "io/frames/whole_file.hpp"
+#include "io/language/language.hpp"
 #include "io/outputs/output_folder.hpp"
 #include "io/terminal/counted.hpp"
+#include "io/terminal/frames_text.hpp"
 #include "io/terminal/interrupt.hpp"
 #include "io/terminal/progress_bar.hpp"
 #include "io/terminal/text_table.hpp"
@@ -204,9 +206,9 @@ void refuse_folder_of_others(const SimOptions& options) {
   std::getline(std::ifstream(settings), first_line);
   if (first_line.rfind("# scene ", 0) == 0 || first_line.rfind("# surface ", 0) == 0) return;
   throw std::invalid_argument(
-      fmt::format("--output {}: it holds frames or settings that pose_wall sim did not write; choose another folder, "
-                  "it is created if needed",
-                  options.output));
+      say("--output {}: it holds frames or settings that pose_wall sim did not write; choose another folder, it is "
+          "created if needed",
+          options.output));
 }
 
 // Fills in the number of frames, too.
@@ -224,7 +226,7 @@ int simulate(SimOptions options) {
     print_list();
     return kExitDone;
   }
-  if (options.output.empty()) throw std::invalid_argument("--output FOLDER is needed");
+  if (options.output.empty()) throw std::invalid_argument(tr("--output FOLDER is needed"));
   const sim::Simulator simulator = simulator_of(&options);
   refuse_folder_of_others(options);
   make_output_folder(options.output);
@@ -236,13 +238,12 @@ int simulate(SimOptions options) {
     write_whole_file(std::filesystem::path(options.output) / "path.tum", survey_path_text(simulator.survey().path));
   }
   const auto [written, removed] = write_frames(options, simulator);
-  if (!options.quiet)
-    fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, counted(written, "frame"));
+  if (!options.quiet) fmt::print(stderr, "{}: {}, truth.csv, pose_wall.yaml\n", options.output, frames_text(written));
   if (!options.quiet && removed > 0)
-    fmt::print(stderr, "{}: {} of an earlier, longer run removed\n", options.output, counted(removed, "frame"));
+    fmt::print(stderr, "{}", say("{}: {} of an earlier, longer run removed\n", options.output, frames_text(removed)));
   if (written == *options.frames) return kExitDone;
-  fmt::print(stderr, "interrupted: {} of {} written, with their truth\n", written,
-             counted(*options.frames, "frame is", "frames are"));
+  fmt::print(stderr, "{}",
+             say("interrupted: of {} {} were written, with their truth\n", frames_text(*options.frames), written));
   return kExitInterrupted;
 }
 
@@ -250,41 +251,44 @@ int simulate(SimOptions options) {
 
 void add_sim(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<SimOptions>();
-  CLI::App* verb = app.add_subcommand("sim", "Simulate LiDAR frames of a roadway, with the truth of each");
+  CLI::App* verb = app.add_subcommand("sim", tr("Simulate LiDAR frames of a roadway, with the truth of each"));
   auto* const scene =
-      verb->add_option("--scene", options->scene, "Scene of the road; see --list")->capture_default_str();
-  verb->add_option("--sensor", options->sensor, "Sensor model; see --list")->capture_default_str();
+      verb->add_option("--scene", options->scene, tr("Scene of the road; see --list"))->capture_default_str();
+  verb->add_option("--sensor", options->sensor, tr("Sensor model; see --list"))->capture_default_str();
   auto* const surface = verb->add_option(
       "--surface", options->surface,
-      "A real road in place of a scene: a mesh (PLY, OBJ, glTF), or a cloud with normals (PLY); m, z up");
+      tr("A real road in place of a scene: a mesh (PLY, OBJ, glTF), or a cloud with normals (PLY); m, z up"));
   surface->excludes(scene);
   verb->add_option("--path", options->path,
-                   "With --surface: poses of base in it, `t x y z qx qy qz qw`, a line a frame; default: a way along "
-                   "the road's middle, a pose a metre, which --output then holds as path.tum")
+                   tr("With --surface: poses of base in it, `t x y z qx qy qz qw`, a line a frame; default: a way "
+                      "along the road's middle, a pose a metre, which --output then holds as path.tum"))
       ->needs(surface);
-  verb->add_option("--disc-radius", options->disc_radius_m,
-                   "With --surface, m: each point of a cloud is a disc of this radius; default: twice their spacing")
+  verb->add_option(
+          "--disc-radius", options->disc_radius_m,
+          tr("With --surface, m: each point of a cloud is a disc of this radius; default: twice their spacing"))
       ->needs(surface)
       ->check(CLI::Range(0.001, 5.0));
-  verb->add_option("-n,--frames", options->frames, "Number of frames; default: 10, or all poses of --path")
+  verb->add_option("-n,--frames", options->frames, tr("Number of frames; default: 10, or all poses of --path"))
       ->check(whole_number_within(1, 1000000));
-  verb->add_option("-r,--rate", options->rate_hz, "Frames per second; the same as --set rate_hz");
-  verb->add_option("--seed", options->seed, "Seed of rock, noise and --random; the same seed gives the same bits")
+  verb->add_option("-r,--rate", options->rate_hz, tr("Frames per second; the same as --set rate_hz"));
+  verb->add_option("--seed", options->seed, tr("Seed of rock, noise and --random; the same seed gives the same bits"))
       ->capture_default_str()
       ->check(whole_number());
-  verb->add_option("-s,--set", options->settings, "KEY=VALUE over the scene; may be repeated")->allow_extra_args(false);
-  verb->add_flag("--random", options->random, "Draw the sizes from the scene's ranges, by the seed")->excludes(surface);
-  verb->add_flag("--list", options->list, "Print scenes, sensors and keys");
-  verb->add_flag("-q,--quiet", options->quiet, "Nothing on stderr but errors");
-  verb->add_option("-o,--output", options->output, "Folder for frames/*.pcd, truth.csv and pose_wall.yaml");
+  verb->add_option("-s,--set", options->settings, tr("KEY=VALUE over the scene; may be repeated"))
+      ->allow_extra_args(false);
+  verb->add_flag("--random", options->random, tr("Draw the sizes from the scene's ranges, by the seed"))
+      ->excludes(surface);
+  verb->add_flag("--list", options->list, tr("Print scenes, sensors and keys"));
+  verb->add_flag("-q,--quiet", options->quiet, tr("Nothing on stderr but errors"));
+  verb->add_option("-o,--output", options->output, tr("Folder for frames/*.pcd, truth.csv and pose_wall.yaml"));
   verb->footer(
-      "Example:\n"
-      "  pose_wall sim --scene steel_sets --frames 50 --set speed_mps=0.2 --output /tmp/road\n"
-      "  pose_wall run --config /tmp/road/pose_wall.yaml --output out.csv /tmp/road/frames\n"
-      "  pose_wall eval out.csv /tmp/road/truth.csv\n"
-      "  pose_wall sim --surface gallery.ply --sensor vlp16 --output /tmp/gallery\n"
-      "Exit status: 0 done, 1 a file cannot be written, 2 bad usage, 130 interrupted by Ctrl-C: written\n"
-      "frames are whole and have their truth.");
+      tr("Example:\n"
+         "  pose_wall sim --scene steel_sets --frames 50 --set speed_mps=0.2 --output /tmp/road\n"
+         "  pose_wall run --config /tmp/road/pose_wall.yaml --output out.csv /tmp/road/frames\n"
+         "  pose_wall eval out.csv /tmp/road/truth.csv\n"
+         "  pose_wall sim --surface gallery.ply --sensor vlp16 --output /tmp/gallery\n"
+         "Exit status: 0 done, 1 a file cannot be written, 2 bad usage, 130 interrupted by Ctrl-C: written\n"
+         "frames are whole and have their truth."));
   verb->callback([options, &exit_code] { exit_code = done_or_complaint("sim", [&] { return simulate(*options); }); });
 }
 

@@ -24,6 +24,13 @@ namespace {
     translatable("File name too long"),
     translatable("Operation not permitted"),
     translatable("Device or resource busy"),
+    translatable("Address already in use"),
+    translatable("Cannot assign requested address"),
+    translatable("Connection refused"),
+    translatable("No route to host"),
+    translatable("Network is unreachable"),
+    translatable("Network is down"),
+    translatable("Address family not supported by protocol"),
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace pose_wall::tools::explain {
 // One paragraph: English puts a space between sentences, Chinese puts none. Empty sentences are left out.
 std::string paragraph(const std::vector<std::string>& sentences);
 
-// "left wall, right wall"; "左墙、右墙".
+// "left wall, right wall"; "左帮、右帮".
 std::string listed(const std::vector<std::string>& words);
 
 // "held, 1.92 m, 0.30 s old": of different things; Chinese divides these by a comma of its own.

@@ -74,7 +74,7 @@ std::string frame_event(const LiveResult& result) {
 }
 
 std::string health_event(const std::vector<PartHealth>& parts) {
-  return event("health", health_json(parts));
+  return event("health", health_in_both_json(parts));
 }
 
 }  // namespace pose_wall::tools::live

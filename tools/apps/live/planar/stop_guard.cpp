@@ -316,6 +316,7 @@ PartHealth StopGuard::health() const {
   health.add("state", pose_wall_planar_stop_state_name(news.result.state));
   health.add("reasons", stop_reasons_text(news.result.reasons));
   health.add("why", line_.text(Language::kEnglish, news.result, news.cause_for_s()));
+  health.chinese_facts["why"] = line_.text(Language::kChinese, news.result, news.cause_for_s());
   health.add("allowed mm/s", fmt::format("{}", news.allowed_mm_s()));
   health.add("heartbeat", news.rounds);
   health.add("settings' CRC", fmt::format("16#{:08X}", news.result.settings_crc32));

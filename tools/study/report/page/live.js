@@ -126,22 +126,15 @@ function show_mount() {
   fill('mount', table([w.what, w.where], rows));
 }
 
-// The daemon speaks English. The page translates the texts that it knows and leaves the others as they are.
-function translated(kind, text) { return (words()[kind] || {})[text] || text; }
-function part_text_of(name) {
-  const whole = translated('part_names', name);
-  if (whole !== name) return whole;
-  const [kind, ...rest] = name.split(' ');
-  return [translated('part_names', kind), ...rest].join(' ');
-}
-function fact_text([name, value]) { return `${words().names[name] || translated('fact_names', name)} ${words().states[value] || translated('fact_values', value)}`; }
-
+// The daemon tells each part in English, and in Chinese beside (`zh`).
 function show_health(parts) {
   const w = words();
   page.parts = parts;
-  fill('health', table([w.part, w.grade, w.summary_of, w.facts], parts.map((part) => [part_text_of(part.part),
-    element('td', w.grades[part.grade], `grade ${part.grade}`), part.summary.split('; ').map((text) => translated('summaries', text)).join('; '),
-    element('td', Object.entries(part.facts).map(fact_text).join(' · '), 'facts')])));
+  fill('health', table([w.part, w.grade, w.summary_of, w.facts], parts.map((part) => {
+    const told = page.language === 'zh' ? part.zh : part;
+    return [told.part, element('td', w.grades[part.grade], `grade ${part.grade}`), told.summary,
+      element('td', Object.entries(told.facts).map(([name, value]) => `${w.names[name] || name} ${w.states[value] || value}`).join(' · '), 'facts')];
+  })));
 }
 
 function show_settings() {
