@@ -9,6 +9,7 @@ usage: view_peer.py ROOT POSE_WALL POSE_WALLD HAS_THREE [SCREENSHOT_PREFIX]"""
 
 import pathlib
 import sys
+import tempfile
 import time
 import unittest
 import urllib.request
@@ -100,6 +101,22 @@ class Page(View):
             self.assertIn("Permission is hereby granted", text[:2000])
         else:
             self.assertIn("no three.js", text)
+
+    def test_pictures_and_numbers_are_saved(self):
+        browser = self.browser()
+        browser.run("page.paused = true; recording.stamp_s[0] = 0")  # as where the sensor was silent first
+        number, shown = browser.run("return [page.told.frame, csv_text(recording.frames - 3, recording.frames - 1)]")
+        rows = [line.split(",") for line in shown.strip().split("\n")]
+        self.assertEqual(rows[0][:1] + rows[0][-1:], ["frame", "d_rb_state"])
+        self.assertEqual([int(row[0]) for row in rows[1:]], [number - 2, number - 1, number])
+        self.assertEqual(len(browser.run("return clock_ticks(recording, 0, recording.frames - 1, 3)[0][1]").split(":")),
+                         1, "the simulated road's stamps are no times of day")
+        with tempfile.TemporaryDirectory() as folder:
+            browser.cdp("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            browser.run("document.getElementById('charts-png').click()")
+            found = lambda: list(pathlib.Path(folder).glob("*.png"))
+            self.assertTrue(live_peer.becomes_true(found), "a picture comes, whatever the policy of the page")
+            self.assertEqual(found()[0].read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
 
     def test_a_build_without_the_library_says_so(self):
         browser = self.browser(before="Object.defineProperty(window, 'THREE', { value: undefined });")
