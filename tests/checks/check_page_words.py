@@ -18,7 +18,7 @@ from check_report_page import Browser
 
 PAGES = {
     "report and live page": (("words.js", "live_words.js", "commission_words.js"),
-                             ("report.html", "live.html", "report.js", "live.js", "roadway.js", "tables.js", "commission.js",
+                             ("report.html", "live.html", "commission.js", "report.js", "live.js", "roadway.js", "tables.js",
                               "viewer.js", "space.js", "charts.js", "reader.js", "steer.js", "verdict.js", "timeline.js",
                               "compare.js", "save.js")),
     "motion page": (("motion_words.js",), ("motion.html", "motion.js", "motion_views.js")),

@@ -31,8 +31,9 @@ class Browser:
                 break
         else:
             raise RuntimeError("chromedriver did not start")
-        arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader",
-                     f"--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE {reachable}", f"--window-size={width},{height}"]
+        arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                     "--enable-unsafe-swiftshader", f"--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE {reachable}",
+                     f"--window-size={width},{height}"]
         options = {"browserName": "chrome", "goog:chromeOptions": {"args": arguments},
                    "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}
         self.session = self.post("/session", {"capabilities": {"alwaysMatch": options}})["sessionId"]

@@ -15,7 +15,7 @@ import sys
 import tempfile
 import time
 
-from check_report_page import Browser, Checks, check_chinese, check_quiet
+from check_report_page import INK, Browser, Checks, check_chinese, check_quiet
 
 TEXT = "document.getElementById('%s').textContent"
 # A canvas as a number that changes with what is drawn.
@@ -63,12 +63,14 @@ def check_three(browser, checks, has_three):
     checks.hold("it can be seen from above", run(INK_OF_VIEW) != first)
     # The wall that was fitted passes through its points: both were taken back to base by ways of their own.
     off_m = run("""
-const r = recording, [from, to] = r.cloud_range(r.cloud_at(0)), [a, b, , d] = viewer.space.wall_corners(0, -5, 5), off = [];
+const r = recording, [from, to] = r.cloud_range(r.cloud_at(0)), off = [];
+const [a, b, , d] = viewer.space.wall_corners(0, -5, 5);
 const minus = (p, q) => p.map((v, i) => v - q[i]), u = minus(b, a), v = minus(d, a);
 const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]], long = Math.hypot(...n);
 const xyz = viewer.space.scene.cloud.geometry.getAttribute('position').array;
 for (let k = from; k < to; ++k) {
-  if (r.point_label[k] === 2) off.push(Math.abs(minus(xyz.slice(3 * (k - from), 3 * (k - from) + 3), a).reduce((s, x, i) => s + x * n[i] / long, 0)));
+  const at = Array.from(xyz.slice(3 * (k - from), 3 * (k - from) + 3));
+  if (r.point_label[k] === 2) off.push(Math.abs(minus(at, a).reduce((s, x, i) => s + x * n[i] / long, 0)));
 }
 return off.length > 100 ? off.reduce((s, x) => s + x, 0) / off.length : 99;""")
     checks.hold(f"the left wall's points lie on the left wall's plane: {off_m:.3f} m", off_m < 0.1)
@@ -90,12 +92,14 @@ def check_time_line(browser, checks):
                     "None begins after" in run(f"return {TEXT % 'jump-note'}"))
         back = [jump("back") for _ in expected[:-1]]
         checks.hold("and back", back == expected[:-1][::-1])
+    ticks = run("return clock_ticks(recording, 0, 30, 4)")
     checks.hold("stamps of a simulation are no times of day", "Seconds since the first frame" in
-                run(f"return {TEXT % 'clock-note'}") and run("return clock_ticks(recording, 0, 30, 4)[0][1]").endswith(" s"))
+                run(f"return {TEXT % 'clock-note'}") and ticks[0][1].endswith(" s"))
     clock = run("const kept = recording.stamp_s.slice(), begin_s = new Date(2026, 4, 3, 14, 59, 58).getTime() / 1000;"
                 "recording.stamp_s = kept.map((s) => begin_s + s - kept[0]); show_frame(12);"
                 "const said = [document.getElementById('frame-name').textContent, "
-                "document.getElementById('clock-note').textContent, clock_ticks(recording, 0, recording.frames - 1, 4)];"
+                "document.getElementById('clock-note').textContent,"
+                " clock_ticks(recording, 0, recording.frames - 1, 4)];"
                 "recording.stamp_s = kept; show_frame(0); return said;")
     checks.hold(f"those of a clock are {clock}", "14:59:59.2" in clock[0] and "2026-05-03" in clock[1] and
                 [20, "15:00:00"] in clock[2])
@@ -113,7 +117,8 @@ def check_second_run(browser, checks, table):
     run = browser.run
     rows = list(csv.DictReader(io.StringIO(table)))
     take_second(browser, "a,b\n1,2\n")
-    checks.become("what is no table is refused", lambda: "no table of pose_wall run" in run(f"return {TEXT % 'compare-fault'}"))
+    checks.become("what is no table is refused",
+                  lambda: "no table of pose_wall run" in run(f"return {TEXT % 'compare-fault'}"))
     # Each distance of the second run is longer by 0.125 m, in another order of rows, and one frame is missing.
     missing = int(rows[5]["frame"])
     for row in rows:
@@ -130,7 +135,7 @@ def check_second_run(browser, checks, table):
     checks.hold(f"the difference is told {lf['median']:.4f}", abs(lf["median"] - 0.125) < 1e-5 and
                 abs(lf["largest"] - 0.125) < 1e-5 and lb["largest"] == 0)
     checks.hold("a frame that it lacks has none", run(f"return Number.isNaN(recording.other.difference({missing}, 3))"))
-    ink = "const c = document.getElementById('chart-d_lf'); return Array.from(c.getContext('2d').getImageData(0, 0, c.width, c.height).data).reduce((s, x) => (s * 31 + x) >>> 0, 0);"
+    ink = INK % "chart-d_lf"
     both = run(ink)
     run("document.getElementById('compare-apart').click()")
     apart = run(ink)
@@ -160,7 +165,8 @@ def check_files(browser, checks, table):
         checks.hold("pictures are PNG, and none is empty",
                     all(p[:8] == b"\x89PNG\r\n\x1a\n" and len(p) > 3000 for p in pictures))
         numbers = list(csv.DictReader(io.StringIO(next(p for p in found() if p.suffix == ".csv").read_text())))
-        checks.hold("the numbers are those of the frames shown", [n["frame"] for n in numbers] == [str(f) for f in range(2, 13)])
+        checks.hold("the numbers are those of the frames shown",
+                    [n["frame"] for n in numbers] == [str(f) for f in range(2, 13)])
         rows = {row["frame"]: row for row in csv.DictReader(io.StringIO(table))}
         off = [abs(float(n["d_rb_m"]) - float(rows[n["frame"]]["d_rb"])) for n in numbers]
         checks.hold(f"and the same as in the table of run {max(off):.1e}", max(off) < 1e-5)
@@ -191,7 +197,8 @@ def main():
         check_files(browser, checks, table)
         take_second(browser, table)
         checks.become("the table of the same run is the same", lambda: browser.run(
-            "return Boolean(recording.other) && [0, 1, 2, 3, 4, 5, 6].every((q) => recording.other.summary(q).largest < 1e-5)"))
+            "return Boolean(recording.other) && "
+            "[0, 1, 2, 3, 4, 5, 6].every((q) => recording.other.summary(q).largest < 1e-5)"))
         browser.run("document.getElementById('language').click(); document.getElementById('jump-next').click()")
         check_chinese(browser, checks)
         whole = browser.run("return document.body.innerText")

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
-"""The view in three dimensions of pose_walld's page, in a real browser. It is drawn, and only when something changed and
-it can be seen. The face of a box follows pointer and finger by metres. One finger scrolls the page until the view is
-tapped. Without WebGL, and without three.js, the page says so in one line and lives. All of it is less than 1.5 MB.
+"""The view in three dimensions of pose_walld's page, in a real browser. It is drawn, and only when something changed
+and it can be seen. The face of a box follows pointer and finger by metres. One finger scrolls the page until the view
+is tapped. Without WebGL, and without three.js, the page says so in one line and lives. All of it is less than 1.5 MB.
 
 usage: view_peer.py ROOT POSE_WALL POSE_WALLD HAS_THREE [SCREENSHOT_PREFIX]"""
 
 import pathlib
 import sys
+import tempfile
 import time
 import unittest
 import urllib.request
@@ -101,6 +102,22 @@ class Page(View):
         else:
             self.assertIn("no three.js", text)
 
+    def test_pictures_and_numbers_are_saved(self):
+        browser = self.browser()
+        browser.run("page.paused = true; recording.stamp_s[0] = 0")  # as where the sensor was silent first
+        number, shown = browser.run("return [page.told.frame, csv_text(recording.frames - 3, recording.frames - 1)]")
+        rows = [line.split(",") for line in shown.strip().split("\n")]
+        self.assertEqual(rows[0][:1] + rows[0][-1:], ["frame", "d_rb_state"])
+        self.assertEqual([int(row[0]) for row in rows[1:]], [number - 2, number - 1, number])
+        self.assertEqual(len(browser.run("return clock_ticks(recording, 0, recording.frames - 1, 3)[0][1]").split(":")),
+                         1, "the simulated road's stamps are no times of day")
+        with tempfile.TemporaryDirectory() as folder:
+            browser.cdp("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            browser.run("document.getElementById('charts-png').click()")
+            found = lambda: list(pathlib.Path(folder).glob("*.png"))
+            self.assertTrue(live_peer.becomes_true(found), "a picture comes, whatever the policy of the page")
+            self.assertEqual(found()[0].read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
     def test_a_build_without_the_library_says_so(self):
         browser = self.browser(before="Object.defineProperty(window, 'THREE', { value: undefined });")
         self.assertEqual(self.note(browser), "This build has no 3D view: it was made without three.js.")
@@ -116,8 +133,9 @@ class InThreeDimensions(View):
         self.assertTrue(live_peer.becomes_true(lambda: self.drawn(browser) > 3), "new frames are drawn")
         self.assertGreater(browser.run(COLOURS), 10, "points, planes and machine")
         self.assertTrue(browser.run("return viewer.space.scene.png().startsWith('data:image/png;base64,')"))
-        browser.run("viewer.shown.fill(false); viewer.planes_shown = viewer.boxes_shown = false; viewer.draw(page.frame)")
-        self.assertEqual(browser.run("page.paused = true; " + COLOURS), 1, "all can be taken away")
+        browser.run("page.paused = true; viewer.shown.fill(false);"
+                    "viewer.planes_shown = viewer.boxes_shown = false; viewer.draw(page.frame)")
+        self.assertEqual(browser.run(COLOURS), 1, "all can be taken away")
         browser.run("viewer.shown.fill(true); viewer.planes_shown = viewer.boxes_shown = true; page.paused = false")
         browser.run("window.scrollTo(0, 1e6)")
         time.sleep(0.5)
@@ -144,8 +162,9 @@ class InThreeDimensions(View):
                     "const n = 20000, xyz = new Float32Array(3 * n), labels = new Uint8Array(n);"
                     "for (let k = 0; k < 3 * n; ++k) xyz[k] = Math.sin(k) * 5;"
                     "const turn = () => { const began = performance.now();"
-                    " viewer.space.scene.set_cloud(xyz, labels, [true, true, true, true, true]); viewer.space.scene.render();"
-                    " window.took.push(performance.now() - began); if (++window.turns < 30) setTimeout(turn, 100); };"
+                    " viewer.space.scene.set_cloud(xyz, labels, [true, true, true, true, true]);"
+                    " viewer.space.scene.render(); window.took.push(performance.now() - began);"
+                    " if (++window.turns < 30) setTimeout(turn, 100); };"
                     "turn();")
         self.assertTrue(live_peer.becomes_true(lambda: browser.run("return window.turns") == 30))
         middle_ms = sorted(browser.run("return window.took"))[15]
@@ -173,7 +192,7 @@ class InThreeDimensions(View):
             index, box, _ = browser.run("return window.edits[window.edits.length - 1]")
             self.assertEqual(index, 0)
             self.assertAlmostEqual(box[face] - before[face], way_m, delta=0.05, msg=f"metres along face {face}")
-            self.assertEqual([v for k, v in enumerate(box) if k != face], [v for k, v in enumerate(before) if k != face])
+            self.assertEqual(box[:face] + box[face + 1:], before[:face] + before[face + 1:])
             self.assertEqual(browser.run("return viewer.space.scene.camera.position.toArray()"), camera, "no turn")
             self.assertFalse(browser.run("return window.edits[0][2]"), "and it is told on the way")
         here, there = browser.run(HANDLE % (1, -40.0))
@@ -231,7 +250,8 @@ class InThreeDimensions(View):
         swipe(x, y, 8, -4)
         self.assertNotEqual(camera(), before[0], "then one finger turns it")
         self.assertEqual(scrolled(), before[1])
-        touch("touchStart", (x, browser.run("return document.getElementById('frame-note').getBoundingClientRect().top + 5")))
+        note = browser.run("return document.getElementById('frame-note').getBoundingClientRect().top")
+        touch("touchStart", (x, note + 5))
         touch("touchEnd")
         self.assertTrue(live_peer.becomes_true(lambda: not awake()), "a tap elsewhere puts it to sleep")
         browser.run("viewer.space.scene.look_from('left')")
@@ -254,8 +274,8 @@ class InThreeDimensions(View):
                                " return kind === 'webgl2' ? null : usual.call(this, kind, ...more); };")
         self.assertEqual(self.note(browser), "No 3D view here: this browser has no WebGL 2.")
         self.lives(browser)
-        self.assertTrue(browser.run("const c = document.getElementById('top');"
-                                    "return c.getContext('2d').getImageData(0, 0, c.width, c.height).data.some((x) => x)"))
+        self.assertTrue(browser.run("const c = document.getElementById('top'), pen = c.getContext('2d');"
+                                    "return pen.getImageData(0, 0, c.width, c.height).data.some((x) => x)"))
 
     def test_webgl_that_is_lost_is_told_and_comes_back(self):
         browser = self.browser()
@@ -280,7 +300,8 @@ class InThreeDimensions(View):
             f"roadway.stop = {{ state: 'go', speed_m_s: {speed}, turn_rad_s: {turn}, nearest_m: [4, 1] }};"
             "const sweep = roadway.sweep([1, 0]); [roadway.stop, roadway.stop_heard_ms] = kept;"
             "const rings = sweep.patches.map((p) => p.corners), p = roadway.planar;"
-            "return { first: rings[0], last: rings[rings.length - 1], nearest: sweep.nearest, tint: sweep.patches[0].tint,"
+            "return { first: rings[0], last: rings[rings.length - 1], nearest: sweep.nearest,"
+            " tint: sweep.patches[0].tint,"
             " way: Math.abs(%s) * p.latency_s + %s ** 2 / (2 * p.deceleration_m_s2) };" % (speed, f"({speed})"))
         driven = ends(0.8, 0)
         self.assertAlmostEqual(driven["last"][1][0] - driven["first"][1][0], driven["way"], places=6)

@@ -54,6 +54,10 @@ if(TARGET pose_wall_cli)
   install(TARGETS pose_wall_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-wall RENAME copyright
     COMPONENT command)
+  if(POSE_WALL_HAS_THREE)
+    install(FILES ${POSE_WALL_THREE_MODULES}/three/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-wall
+      RENAME copyright.three COMPONENT command)
+  endif()
   # Found by name: --config vlp16.
   file(GLOB pose_wall_configs CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/config/*.yaml)
   install(FILES ${pose_wall_configs} DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/pose_wall/config COMPONENT command)
@@ -80,6 +84,10 @@ if(TARGET pose_walld)
     COMPONENT daemon)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld RENAME copyright
     COMPONENT daemon)
+  if(POSE_WALL_HAS_THREE)
+    install(FILES ${POSE_WALL_THREE_MODULES}/three/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld
+      RENAME copyright.three COMPONENT daemon)
+  endif()
   foreach(place . modbus mqtt recorder ros1 ros2)
     install(FILES ${pose_wall_daemon_dir}/${place}/README.md
       DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/${place} COMPONENT daemon)

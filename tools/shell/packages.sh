@@ -115,8 +115,8 @@ need_peers() {
     echo "npm has no registry here: the test of the OPC UA server will be skipped"'
 }
 
-# three.js and esbuild for the 3D view of the pages, from npm's registry, in build/three/node_modules, before CMake looks
-# there. Where it cannot be reached, the pages do without that view, and say so.
+# three.js and esbuild for the 3D view of the pages, from npm's registry, in build/three/node_modules. CMake looks
+# there, so it comes first. Where it cannot be reached, the pages do without that view, and say so.
 need_three() {
   if ! command -v npm > /dev/null; then
     echo "There is no npm here: the pages will have no 3D view"

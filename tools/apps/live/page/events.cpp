@@ -34,12 +34,10 @@ std::string hello_event(const LoadedConfig& loaded) {
                       {"sampling_points_m", frames.sampling_points_base_m}};
   const PlanarSettings& planar = loaded.planar;
   const pose_wall_planar_stop_settings stop = stop_settings_of(planar);
-  const Json roadway = {{"mode", planar.mode},
-                        {"outline_m", {planar.x_min_m, planar.x_max_m, planar.y_min_m, planar.y_max_m}},
-                        {"floor_z_m", stop.floor_z_m},
-                        {"top_m", stop.top_m},
-                        {"latency_s", stop.latency_s},
-                        {"deceleration_m_s2", stop.deceleration_m_s2}};
+  const Json roadway = {
+      {"mode", planar.mode},         {"outline_m", {planar.x_min_m, planar.x_max_m, planar.y_min_m, planar.y_max_m}},
+      {"floor_z_m", stop.floor_z_m}, {"top_m", stop.top_m},
+      {"latency_s", stop.latency_s}, {"deceleration_m_s2", stop.deceleration_m_s2}};
   return event("hello", json_text({{"head", report::head_json(head, loaded)},
                                    {"words", report::words_json()},
                                    {"mount", mount},

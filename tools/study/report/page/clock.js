@@ -3,11 +3,15 @@
 const kClockFrom_s = 1e9;  // 2001: what is less counts from the start of a sensor or of a simulation
 const kTicks_s = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 43200, 86400];
 
-function has_clock(recording) { return recording.stamp_s[0] >= kClockFrom_s; }
+// Where nothing came yet a live page has stamps of 0.
+function first_stamp(recording) { return Math.max(0, recording.stamp_s.subarray(0, recording.frames).findIndex((s) => s > 0)); }
+
+function has_clock(recording) { return recording.stamp_s[first_stamp(recording)] >= kClockFrom_s; }
 
 function moment_text(recording, stamp_s, digits = 0) {
   if (!Number.isFinite(stamp_s)) return '–';
-  if (!has_clock(recording)) return `${fixed(stamp_s - recording.stamp_s[0], digits)} s`;
+  if (!has_clock(recording)) return `${fixed(stamp_s - recording.stamp_s[first_stamp(recording)], digits)} s`;
+  if (stamp_s <= 0) return '–';
   const scale = 10 ** digits, whole = Math.floor(stamp_s * scale) / scale, at = new Date(1000 * Math.floor(whole)), two = (n) => String(n).padStart(2, '0');
   const part = digits ? (whole - Math.floor(whole)).toFixed(digits).slice(1) : '';
   return `${two(at.getHours())}:${two(at.getMinutes())}:${two(at.getSeconds())}${part}`;
@@ -20,8 +24,8 @@ function date_text(stamp_s) {
 
 // [frame, text] where a round time is passed; some `most` of them from one frame to another.
 function clock_ticks(recording, from, to, most) {
-  const stamp_s = recording.stamp_s, zero_s = has_clock(recording) ? 0 : stamp_s[0], out = [];
-  const first = Math.max(0, Math.ceil(from)), last = Math.min(recording.frames - 1, Math.floor(to)), span_s = Math.abs(stamp_s[last] - stamp_s[first]);
+  const stamp_s = recording.stamp_s, zero_s = has_clock(recording) ? 0 : stamp_s[first_stamp(recording)], out = [];
+  const first = Math.max(first_stamp(recording), Math.ceil(from)), last = Math.min(recording.frames - 1, Math.floor(to)), span_s = Math.abs(stamp_s[last] - stamp_s[first]);
   const step_s = kTicks_s.find((step) => step >= span_s / Math.max(1, most)) || span_s;
   const count = (f) => Math.floor((stamp_s[f] - zero_s) / step_s + 1e-6);
   for (let f = first + 1; f <= last && out.length < 2 * most; ++f) {

@@ -36,7 +36,7 @@ class Timeline {
   say() {
     const w = words();
     document.querySelectorAll('#jump-of option').forEach((option, k) => { option.textContent = k ? name_text(k - 1) : w.any_value; });
-    const first_s = this.recording.stamp_s[0];
+    const first_s = this.recording.stamp_s[first_stamp(this.recording)];
     document.getElementById('clock-note').textContent = has_clock(this.recording) ? w.clock_note(date_text(first_s)) : w.no_clock_note;
     document.getElementById('jump-note').textContent = this.note ? this.note() : '';
   }
