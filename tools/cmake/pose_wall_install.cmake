@@ -80,7 +80,7 @@ if(TARGET pose_walld)
     COMPONENT daemon)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld RENAME copyright
     COMPONENT daemon)
-  foreach(place . modbus mqtt recorder ros1 ros2)
+  foreach(place . foxglove modbus mqtt recorder ros1 ros2)
     install(FILES ${pose_wall_daemon_dir}/${place}/README.md
       DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/${place} COMPONENT daemon)
   endforeach()

@@ -104,6 +104,7 @@ void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
   if (commands_ && loaded_.planar.command_can != 0.0) add(make_can_commands(loaded_, *commands_));
   if (!live.mqtt.empty()) add(make_mqtt_sink(loaded_, *this));
   if (!live.http.empty()) add(make_page_sink(loaded_, *this, guard_.get()));
+  if (!live.foxglove.empty()) add(make_foxglove_sink(loaded_, *this));
 }
 
 void Daemon::add(std::unique_ptr<Sink> sink) {

@@ -59,6 +59,8 @@ std::unique_ptr<Sink> make_can_commands(const LoadedConfig& loaded, CommandBoard
 std::unique_ptr<Sink> make_mqtt_sink(const LoadedConfig& loaded, const HealthBoard& health);
 // stop: as above.
 std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoard& health, const StopBoard* stop);
+// Viewers by the protocol of Foxglove.
+std::unique_ptr<Sink> make_foxglove_sink(const LoadedConfig& loaded, const HealthBoard& health);
 std::unique_ptr<Sink> make_recorder(const LoadedConfig& loaded, const HealthBoard& health);
 
 // What the runtime writes its black box with: a ring file for each start, in a folder of bounded size.

@@ -28,6 +28,8 @@ struct LiveSettings {
   bool ros1 = false, ros2 = false;
   std::string ros_distro = "humble";
   std::string http, modbus, mqtt;  // HOST:PORT; empty: off
+  std::string foxglove;            // likewise
+  std::string foxglove_origin;
   std::string can;                 // interface; empty: off
   std::string can_frames = "11bit";
   double can_first = 0, can_address = 128;

@@ -67,6 +67,7 @@ Object.assign(WORDS.zh, {
     'latency worst ms': '最大延迟 ms', 'motion p99 ms': '运动计算 99 % ms', 'frames without motion': '无运动帧', 'times of points': '点的时间', activity: '当前动作', opened: '打开次数',
     'black box written': '黑匣子已写', 'black box lost': '黑匣子丢失', 'black box failed': '黑匣子失败', 'masters seen': '发现的 master', domain: '域', type: '类型', 'writers matched': '匹配的发布者',
     'largest cloud bytes': '最大点云字节数', 'receive buffer bytes': '接收缓冲字节数', 'clouds lost by DDS': 'DDS 丢失点云', 'dropped, no transform yet': '丢弃（尚无坐标变换）', 'last refusal': '最近一次拒绝',
+    'messages sent': '已发消息', 'messages skipped for slow viewers': '因浏览者过慢跳过的消息', 'requests refused': '拒绝的请求',
     viewers: '浏览者', 'viewers turned away': '拒绝的浏览者', 'events sent': '已发事件', 'viewers cut off': '断开的浏览者', frames: '帧', packets: '数据包',
     'packets of no use': '无用数据包', 'packets of others': '其他来源数据包', 'packets lost by the kernel': '内核丢失数据包', 'packets of the device port': '设备端口数据包', sources: '来源', unreadable: '无法读取', of: '总数',
     clouds: '点云', 'messages refused': '拒绝的消息', 'clouds without stamp': '无时间戳的点云', 'clouds of another frame_id, dropped': '其他 frame_id 的点云（丢弃）',

@@ -80,7 +80,8 @@ KEYS: "dict[str, KeyInfo]" = _read_table()
 OUTSIDE_KEYS = frozenset((
     "motion_speed_max", "motion_turn_max_deg", "motion_range_max", "motion_keyframe",
     "source", "extrinsic_from", "sensor", "sensor_metadata", "udp_address", "udp_port", "udp_device_port", "udp_sender",
-    "ros_source", "frame_points_max", "worker_priority", "ros1", "ros2", "ros_distro", "http", "modbus",
+    "ros_source", "frame_points_max", "worker_priority", "ros1", "ros2", "ros_distro", "http", "foxglove",
+    "foxglove_origin", "modbus",
     "can", "can_frames", "can_first", "can_address", "mqtt", "mqtt_topic", "black_box", "black_box_mb",
     "recording", "recording_mb", "recording_clouds", "status_every_s",
     "planar", "planar_map", "planar_map_whole", "planar_cell", "planar_map_every_s", "planar_tf", "planar_map_frame",
