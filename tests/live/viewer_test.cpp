@@ -195,10 +195,12 @@ TEST(LiveMessages, WallsAreDrawnWhereTheyStand) {
   Kept kept;
   messages.tell(standing(loaded, 0.4, 0.1), &kept);
   const Json scene = kept.json(kSceneChannel);
-  ASSERT_EQ(scene["entities"].size(), 4U);
-  for (const std::size_t wall : {1, 2}) {
+  ASSERT_EQ(scene["entities"].size(), 1U);
+  const Json road = scene["entities"][0];
+  ASSERT_EQ(road["triangles"].size(), 3U) << "floor and walls";
+  for (const std::size_t wall : {1U, 2U}) {
     const double side = wall == 1 ? 1.0 : -1.0, distance_m = wall == 1 ? 2.6 : 3.4;
-    const Json points = scene["entities"][wall]["triangles"][0]["points"];
+    const Json points = road["triangles"][wall]["points"];
     ASSERT_EQ(points.size(), 4U);
     for (const Json& point : points) {
       const double x = point["x"], y = point["y"], z = point["z"];
@@ -206,7 +208,18 @@ TEST(LiveMessages, WallsAreDrawnWhereTheyStand) {
       EXPECT_TRUE(std::abs(z + 1.25) < 1e-3 || std::abs(z - 1.0) < 1e-3) << "the band of walls above the floor: " << z;
     }
   }
-  EXPECT_EQ(scene["entities"][3]["lines"].size(), 4U);
+  ASSERT_EQ(road["lines"].size(), 1U);
+  const Json ends = road["lines"][0]["points"];
+  ASSERT_EQ(ends.size(), 8U) << "four distances";
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Json from = ends[2U * i], to = ends[2U * i + 1];
+    const double dx = to["x"].get<double>() - from["x"].get<double>();
+    const double dy = to["y"].get<double>() - from["y"].get<double>();
+    EXPECT_NEAR(std::hypot(dx, dy), i < 2 ? 2.6 : 3.4, 1e-3);
+    EXPECT_EQ(dy > 0.0, i < 2) << "left is left";
+  }
+  EXPECT_EQ(road["lines"][0]["colors"].size(), 8U);
+  EXPECT_EQ(road["texts"].size(), 4U);
 }
 
 TEST(LiveMessages, AFrameThatMeasuresNothingDrawsNothing) {

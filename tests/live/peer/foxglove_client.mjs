@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 //
-// A viewer that others wrote (@foxglove/ws-protocol). node foxglove_client.mjs URL PROTOCOL SECONDS [stall]
+// A viewer that others wrote (@foxglove/ws-protocol). node foxglove_client.mjs URL PROTOCOL SECONDS HOW WANTED
 // Subscribes to every channel, reads each message by its schema, and prints one line of JSON: what the server said and
-// what was read. stall: takes nothing from the first messages on.
-import { FoxgloveClient } from '@foxglove/ws-protocol';
+// what was read. It ends after the seconds, or with WANTED, messages by topic ({"/a": 3}). HOW stall: it takes nothing
+// from the first message on.
+import wsProtocol from '@foxglove/ws-protocol'; // CommonJS
 import WebSocket from 'ws';
 import { ChannelReader } from './channel_reader.mjs';
 
-const [url, protocol, seconds, how] = process.argv.slice(2);
-const told = { protocol: '', server: null, statuses: [], channels: {}, orders: 0, late_ms: 0, closed_s: null, error: '' };
+const [url, protocol, seconds, how, wanted] = process.argv.slice(2);
+const lacking = new Map(Object.entries(JSON.parse(wanted)));
+const told = { protocol: '', server: null, statuses: [], channels: {}, orders: 0, closed_s: null, error: '' };
 const readers = new Map();
 let client, socket;
 
@@ -20,7 +22,7 @@ function end() {
 }
 
 socket = new WebSocket(url, [protocol]);
-client = new FoxgloveClient({ ws: socket });
+client = new wsProtocol.FoxgloveClient({ ws: socket });
 client.on('error', (fault) => { told.error = String(fault.message ?? fault); });
 client.on('open', () => { told.protocol = socket.protocol; });
 client.on('close', () => { told.closed_s = Date.now() / 1000; end(); });
@@ -32,13 +34,17 @@ client.on('advertise', (channels) => {
     readers.set(id, { channel, reader: new ChannelReader(channel), last: 0n });
   }
   console.error('subscribed');
+  // Readers take their time to be made.
+  setTimeout(end, 1000 * Number(seconds));
 });
 client.on('message', ({ subscriptionId, timestamp, data }) => {
   const to = readers.get(subscriptionId);
   if (timestamp < to.last) ++told.orders;
   to.last = timestamp;
-  told.late_ms = Math.max(told.late_ms, Date.now() - Number(timestamp / 1000000n));
   to.reader.take(data);
   if (how === 'stall') socket.pause();
+  const topic = to.channel.topic;
+  if (lacking.get(topic) > to.reader.told.messages || !lacking.delete(topic)) return;
+  if (!lacking.size) end();
 });
-setTimeout(end, 1000 * Number(seconds));
+setTimeout(end, 60000).unref(); // no server, no channels

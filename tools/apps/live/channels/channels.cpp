@@ -25,7 +25,7 @@ LiveResult whole_result(const LoadedConfig& loaded) {
   r.left_right_yaw_difference_rad = 0.0;
   for (pose_wall_value& value : r.quantity) {
     value = {};
-    value.state = value.raw_state = POSE_WALL_INVALID;  // one that may not steer has a cause
+    value.state = value.raw_state = POSE_WALL_DEGRADED;  // it has a level, and a cause why it may not steer
     value.reasons = 1;
     value.cause = POSE_WALL_PART_RANDOM;
   }

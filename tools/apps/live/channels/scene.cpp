@@ -106,17 +106,21 @@ void add_quad(Json* to, const std::array<Vector3d, 4>& corners, const Colour& co
                                 {"indices", {0, 1, 2, 0, 2, 3}}});
 }
 
-void add_line(Json* to, const std::vector<Vector3d>& points, int type, Colour colour) {
-  Json list = Json::array();
+// type: 1 closes the points, 2 takes them by twos. colours: one for all, or one for each point.
+void add_lines(Json* to, const std::vector<Vector3d>& points, int type, const std::vector<Colour>& colours) {
+  Json list = Json::array(), each = Json::array();
   for (const Vector3d& point : points) list.push_back(xyz(point));
-  colour.a = 1.0;
+  for (Colour colour : colours) {
+    colour.a = 1.0;
+    each.push_back(colour_json(colour));
+  }
   (*to)["lines"].push_back({{"type", type},
                             {"pose", at(Vector3d::Zero())},
                             {"thickness", kLine_m},
                             {"scale_invariant", false},
                             {"points", list},
-                            {"color", colour_json(colour)},
-                            {"colors", Json::array()},
+                            {"color", each.front()},
+                            {"colors", each.size() > 1 ? each : Json::array()},
                             {"indices", Json::array()}});
 }
 
@@ -209,19 +213,22 @@ void add_wall(Json* to, const Sight& sight, const pose_wall_plane& wall, const C
 }
 
 void add_distances(Json* to, const Sight& sight) {
+  std::vector<Vector3d> ends;
+  std::vector<Colour> colours;
   for (std::size_t i = 0; i < sight.frames.sampling_points_base_m.size(); ++i) {
     const auto quantity = static_cast<std::uint32_t>(POSE_WALL_D_LF + i);
     const pose_wall_plane& wall = i < 2 ? sight.r.left : sight.r.right;
     const pose_wall_value& value = sight.r.quantity[quantity];
-    if (!sight.is_level || wall.found == 0 || value.state < POSE_WALL_DEGRADED) continue;
+    if (wall.found == 0 || value.state < POSE_WALL_DEGRADED) continue;
     const Vector3d from = vector(sight.frames.sampling_points_base_m[i]);
     const Vector3d away(-wall.normal[0], -wall.normal[1], 0.0);
     const Vector3d foot = from + sight.in_base(value.value * away.normalized());
-    const Colour colour = colour_of(value.state);
-    add_line(to, {from, foot}, 0, colour);
+    ends.insert(ends.end(), {from, foot});
+    colours.insert(colours.end(), 2, colour_of(value.state));
     add_text(to, 0.5 * (from + foot) + Vector3d(0.0, 0.0, kTextHeight_m),
-             fmt::format("{} {:.3f} m", pose_wall_quantity_name(quantity), value.value), colour);
+             fmt::format("{} {:.3f} m", pose_wall_quantity_name(quantity), value.value), colours.back());
   }
+  if (!ends.empty()) add_lines(to, ends, 2, colours);
 }
 
 // The machine's rectangle after each half second by a steady motion.
@@ -242,7 +249,7 @@ void add_way(Json* to, const PlanarSettings& planar, const pose_wall_planar_stop
       corners.emplace_back(moved + Eigen::AngleAxisd(turned_rad, Vector3d::UnitZ()) *
                                        Vector3d(x_m, y_m, planar.stop.floor_z_m));
     }
-    add_line(to, corners, 1, colour);
+    add_lines(to, corners, 1, {colour});
   }
 }
 
@@ -293,22 +300,18 @@ std::string SceneWriter::transforms(const LiveResult& result) const {
 
 std::string SceneWriter::scene(const LiveResult& result) const {
   const Sight sight(result);
-  const auto begin = [&](const char* id) { return entity(sight.stamp_ns, base_frame_, id); };
-  Json floor = begin("floor"), left = begin("left_wall"), right = begin("right_wall"), distances = begin("distances");
+  Json road = entity(sight.stamp_ns, base_frame_, "road");
   if (sight.is_level) {
-    add_floor(&floor, sight);
-    const auto worse = [&](std::uint32_t front) {
-      return colour_of(std::min(sight.state(front), sight.state(front + 1)));
+    add_floor(&road, sight);
+    const auto add = [&](const pose_wall_plane& wall, std::uint32_t front) {
+      const Colour colour = colour_of(std::min(sight.state(front), sight.state(front + 1)));
+      if (wall.found != 0) add_wall(&road, sight, wall, colour, wall_bottom_m_, wall_top_m_);
     };
-    if (sight.r.left.found != 0) {
-      add_wall(&left, sight, sight.r.left, worse(POSE_WALL_D_LF), wall_bottom_m_, wall_top_m_);
-    }
-    if (sight.r.right.found != 0) {
-      add_wall(&right, sight, sight.r.right, worse(POSE_WALL_D_RF), wall_bottom_m_, wall_top_m_);
-    }
-    add_distances(&distances, sight);
+    add(sight.r.left, POSE_WALL_D_LF);
+    add(sight.r.right, POSE_WALL_D_RF);
+    add_distances(&road, sight);
   }
-  return scene_json(Json::array({floor, left, right, distances}));
+  return scene_json(Json::array({road}));
 }
 
 std::string SceneWriter::scene(const StopNews& news) const {

@@ -25,7 +25,7 @@ class SceneWriter {
   std::string pose(const LiveResult& result) const;
   // From base to the sensor, and where this frame measured them to base_frame + "_level" and base_frame + "_road".
   std::string transforms(const LiveResult& result) const;
-  // Entities floor, left_wall, right_wall and distances, in base. What this frame did not measure is empty.
+  // Entity road, in base: floor, walls and distances. What this frame did not measure is not in it.
   std::string scene(const LiveResult& result) const;
 
   // Entity machine: its rectangle in the stop's colour, the way of the next two seconds by the measured motion, what
