@@ -404,7 +404,9 @@ TEST_F(RecorderTest, WithoutCloudsThereAreNone) {
   std::vector<std::string> topics;
   for (const auto& [topic, message] : read.messages) {
     topics.push_back(topic);
-    if (topic == "/pose_wall/health") EXPECT_NE(message.find("measures"), std::string::npos);
+    if (topic == "/pose_wall/health") {
+      EXPECT_NE(message.find("measures"), std::string::npos);
+    }
   }
   EXPECT_EQ(topics, (std::vector<std::string>{"/pose_wall/result", "/pose_wall/transforms", "/pose_wall/scene",
                                               "/pose_wall/health", "/pose_wall/log"}));

@@ -29,12 +29,10 @@ client.on('close', () => { told.closed_s = Date.now() / 1000; end(); });
 client.on('serverInfo', (info) => { told.server = info; });
 client.on('status', (status) => told.statuses.push(status));
 client.on('advertise', (channels) => {
-  for (const channel of channels) {
-    const id = client.subscribe(channel.id);
-    readers.set(id, { channel, reader: new ChannelReader(channel), last: 0n });
-  }
+  // Readers take their time to be made; who subscribes and then takes nothing for seconds is ended.
+  const made = channels.map((channel) => ({ channel, reader: new ChannelReader(channel), last: 0n }));
+  for (const one of made) readers.set(client.subscribe(one.channel.id), one);
   console.error('subscribed');
-  // Readers take their time to be made.
   setTimeout(end, 1000 * Number(seconds));
 });
 client.on('message', ({ subscriptionId, timestamp, data }) => {
