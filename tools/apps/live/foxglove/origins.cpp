@@ -18,7 +18,10 @@ std::string host_of(const std::string& origin) {
   const std::size_t scheme = origin.find("://");
   if (scheme == std::string::npos) return "";
   const std::string place = origin.substr(scheme + 3);
-  if (!place.empty() && place.front() == '[') return place.substr(1, place.find(']') - 1);
+  if (!place.empty() && place.front() == '[') {
+    const std::size_t end = place.find(']');
+    return end == std::string::npos ? "" : place.substr(1, end - 1);
+  }
   return place.substr(0, place.find(':'));
 }
 
