@@ -29,7 +29,7 @@ sys.path[:0] = [str(ROOT / "tests/live")]
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
 KILLS = 8  # each takes some three seconds
-HAS_READER = bool(shutil.which("node")) and (MODULES / "@mcap/core").exists()
+HAS_READER = bool(shutil.which("node")) and all((MODULES / name).exists() for name in ("@mcap/core", "ajv"))
 
 
 def words(folder, *more):
@@ -50,8 +50,9 @@ def read_by_others(files):
     """What @mcap/core finds in each file."""
     with tempfile.TemporaryDirectory() as place:
         os.symlink(MODULES, pathlib.Path(place) / "node_modules")
+        for name in ("mcap_reader.mjs", "channel_reader.mjs"):
+            shutil.copy(ROOT / "tests/live/peer" / name, place)
         script = pathlib.Path(place) / "mcap_reader.mjs"
-        shutil.copy(ROOT / "tests/live/peer/mcap_reader.mjs", script)
         done = subprocess.run(["node", script, *files], capture_output=True, text=True, check=True)
     return [json.loads(line) for line in done.stdout.splitlines()]
 
@@ -142,6 +143,22 @@ class Recorder(unittest.TestCase):
             self.assertEqual(read["fault"], "", copy)
             self.assertEqual(read["topics"].get("/pose_wall/result", 0), read["results"])
 
+    def every_message_opens_in_viewers(self, read, frames):
+        """By the schemas, which are those that viewers know, and read by readers of others."""
+        for topic, told in read.items():
+            self.assertEqual(told["faults"], [], topic)
+        names = {topic: told["schema"] for topic, told in read.items()}
+        self.assertEqual({topic: name for topic, name in names.items() if name.startswith("foxglove.")},
+                         {"/pose_wall/pose": "foxglove.PoseInFrame", "/pose_wall/scene": "foxglove.SceneUpdate",
+                          "/pose_wall/transforms": "foxglove.FrameTransforms", "/pose_wall/log": "foxglove.Log"})
+        for topic in ("/pose_wall/result", "/pose_wall/scene", "/pose_wall/transforms"):
+            self.assertGreaterEqual(read[topic]["messages"], frames, topic)
+        clouds = [told for told in read.values()
+                  if told["schema"] == "sensor_msgs/msg/PointCloud2" and told["messages"]]
+        self.assertEqual([told["messages"] for told in clouds], [frames])
+        for topic in ("/pose_wall/pose", "/pose_wall/log", "/pose_wall/health"):
+            self.assertGreater(read[topic]["messages"], 0, topic)
+
     def test_a_recording_that_was_stopped_measures_as_its_frames(self):
         folder, road = self.folder(), live_peer.simulated_road(POSE_WALL)
         program = self.daemon(POSE_WALLD, "--config", road / "pose_wall.yaml", "--replay", road / "frames", "--speed",
@@ -161,6 +178,7 @@ class Recorder(unittest.TestCase):
             self.assertTrue(read["whole"])
             self.assertEqual(read["index"]["statistics"], sum(read["topics"].values()))
             self.assertEqual(read["index"]["messages"], sum(read["topics"].values()), "by the indexes alone")
+            self.every_message_opens_in_viewers(read["index"]["read"], len(rows))
             self.assertEqual(read["index"]["chunks"], read["chunks"])
             members = set(read["index"]["members"]["/pose_wall/result"])
             self.assertLess({"values", "publication", "age_ms", "steer"}, members)

@@ -88,7 +88,7 @@ if(TARGET pose_walld)
     install(FILES ${POSE_WALL_THREE_MODULES}/three/LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld
       RENAME copyright.three COMPONENT daemon)
   endif()
-  foreach(place . modbus mqtt recorder ros1 ros2)
+  foreach(place . commissioning foxglove modbus mqtt recorder ros1 ros2)
     install(FILES ${pose_wall_daemon_dir}/${place}/README.md
       DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/pose-walld/${place} COMPONENT daemon)
   endforeach()

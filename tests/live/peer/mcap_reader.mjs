@@ -5,6 +5,7 @@
 // Prints one line of JSON a file: messages by topic, chunks, whether it is whole, and how many results are sound JSON.
 import { readFileSync } from 'node:fs';
 import mcap from '@mcap/core'; // CommonJS
+import { ChannelReader } from './channel_reader.mjs';
 
 const { McapIndexedReader, McapStreamReader } = mcap;
 
@@ -54,11 +55,17 @@ async function byIndex(bytes) {
     ++told.messages;
   }
   told.members = {}; // by the schema, as a viewer lists them
+  const readers = new Map();
   for (const channel of reader.channelsById.values()) {
     const schema = reader.schemasById.get(channel.schemaId);
-    if (schema.encoding !== 'jsonschema') continue;
-    told.members[channel.topic] = Object.keys(JSON.parse(new TextDecoder().decode(schema.data)).properties);
+    const text = new TextDecoder().decode(schema.data);
+    readers.set(channel.id, new ChannelReader({ topic: channel.topic, encoding: channel.messageEncoding, schema: text,
+      schemaName: schema.name, schemaEncoding: schema.encoding }));
+    if (schema.encoding === 'jsonschema') told.members[channel.topic] = Object.keys(JSON.parse(text).properties);
   }
+  for await (const message of reader.readMessages()) readers.get(message.channelId).take(message.data);
+  told.read = {}; // each message by its schema
+  for (const channel of reader.channelsById.values()) told.read[channel.topic] = readers.get(channel.id).told;
   return told;
 }
 

@@ -108,6 +108,7 @@ void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
   if (!live.can.empty()) add(make_can_sink(loaded_, runtime_, guard_.get()));
   if (commands_ && loaded_.planar.command_can != 0.0) add(make_can_commands(loaded_, *commands_));
   if (!live.mqtt.empty()) add(make_mqtt_sink(loaded_, *this));
+  if (!live.foxglove.empty()) add(make_foxglove_sink(loaded_, *this));
   if (live.http.empty()) return;
   std::unique_ptr<Commissioning> commissioning;
   if (live.commissioning) commissioning = make_commissioning(loaded_, *this, [this] { restarts_ = true; });

@@ -66,6 +66,8 @@ std::unique_ptr<Sink> make_page_sink(const LoadedConfig& loaded, const HealthBoa
 class Commissioning : public Sink, public WebPart {};
 std::unique_ptr<Commissioning> make_commissioning(const LoadedConfig& loaded, const HealthBoard& health,
                                                   std::function<void()> restart);
+// Viewers by the protocol of Foxglove.
+std::unique_ptr<Sink> make_foxglove_sink(const LoadedConfig& loaded, const HealthBoard& health);
 std::unique_ptr<Sink> make_recorder(const LoadedConfig& loaded, const HealthBoard& health);
 
 // What the runtime writes its black box with: a ring file for each start, in a folder of bounded size.

@@ -108,6 +108,15 @@ const std::vector<Row>& rows() {
         translatable("folder of what was commissioned from the page. Its settings.yaml stands over this file; empty: "
                      "none. A key site.pem in it (Ed25519) signs the evidence")},
        &LiveSettings::commissioned},
+      {{"foxglove", kSinks, Type::kHostPort, "", 0, 0, "",
+        translatable(
+            "address for the viewers Foxglove and Lichtblick, HOST:PORT, their usual port is 8765; empty: none. "
+            "Everybody who reaches it can read; nobody can change anything")},
+       &LiveSettings::foxglove},
+      {{"foxglove_origin", kSinks, Type::kText, "", 0, 0, "",
+        translatable("page from which browsers may connect to the address of foxglove, too, as "
+                     "http://lichtblick.mine:8080; empty: only app.foxglove.dev and pages of this machine")},
+       &LiveSettings::foxglove_origin},
       {{"modbus", kSinks, Type::kHostPort, "", 0, 0, "",
         translatable(
             "address of the Modbus TCP server, HOST:PORT; empty: none. It serves reads of input registers, and writes "

@@ -32,6 +32,8 @@ struct LiveSettings {
   std::string http_login, http_certificate;
   bool commissioning = false;
   std::string commissioned;  // a folder
+  std::string foxglove;      // HOST:PORT; empty: off
+  std::string foxglove_origin;
   std::string can;           // interface; empty: off
   std::string can_frames = "11bit";
   double can_first = 0, can_address = 128;

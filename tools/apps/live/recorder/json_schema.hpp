@@ -9,9 +9,9 @@
 
 namespace pose_wall::tools::live {
 
-// Members with their types. A number may be null in other messages. Of what is null in the example, and of what an
-// empty list holds, nothing is said. Further members are allowed. Throws nlohmann::json::parse_error where the example
-// is no JSON.
+// Members with one type each, as Lichtblick and Foxglove demand. Each may be null in other messages, which "nullable"
+// says, as validators have it and viewers pass over it. A member that is null or an empty list in the example is left
+// out: further members are allowed. Throws nlohmann::json::parse_error where the example is no JSON.
 std::string json_schema_of(const std::string& example);
 
 }  // namespace pose_wall::tools::live

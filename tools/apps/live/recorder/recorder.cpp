@@ -16,14 +16,12 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/live/channels/live_messages.hpp"
 #include "apps/live/clocks.hpp"
 #include "apps/live/edges.hpp"
 #include "apps/live/log.hpp"
 #include "apps/live/recorder/bounded_folder.hpp"
-#include "apps/live/recorder/json_schema.hpp"
 #include "apps/live/recorder/mcap_writer.hpp"
-#include "apps/live/result_json.hpp"
-#include "apps/live/ros_messages/ros_messages.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -37,29 +35,15 @@ constexpr auto kChunkTime = std::chrono::seconds(1);
 constexpr std::uint64_t kChunkBytes = 4'000'000;
 constexpr auto kTryAgain = std::chrono::seconds(5);
 constexpr auto kHealthEvery = std::chrono::seconds(1);
-enum ChannelNumber : std::uint16_t { kResult, kHealth, kCloud };
-
-std::vector<McapChannel> channels(const LoadedConfig& loaded) {
-  // Members may be added; what they mean is said in the README of `pose_wall run`.
-  LiveResult example;
-  example.config = *loaded.config.get();
-  const std::string of_result = json_schema_of(result_json(example));
-  const std::string of_health = json_schema_of(health_json({PartHealth()}));
-  char topic[POSE_WALL_TEXT_MAX] = {};
-  pose_wall_config_get_text(loaded.config.get(), "pointcloud_topic", topic, sizeof topic);
-  return {{"/pose_wall/result", "json", "pose_wall.Result", "jsonschema", of_result},
-          {"/pose_wall/health", "json", "pose_wall.Health", "jsonschema", of_health},
-          {topic, "cdr", kPointCloud2Type.ros2_name(), "ros2msg", kPointCloud2Type.ros2_definition}};
-}
-
-class Recorder final : public Sink {
+class Recorder final : public Sink, private ChannelOut {
  public:
   Recorder(const LoadedConfig& loaded, const HealthBoard& health)
       : board_(health),
-        channels_(channels(loaded)),
+        channels_(live_channels(loaded)),
         with_clouds_(loaded.live.recording_clouds),
         folder_(loaded.live.recording, ".mcap", static_cast<std::uint64_t>(loaded.live.recording_mb * kBytesPerMb)),
-        messages_(MessageEncoding::kCdr, ""),
+        has_planar_(loaded.planar.is_on()),
+        messages_(loaded),
         part_("sink recorder " + loaded.live.recording) {}
 
   // A folder that cannot be written is a fault of the settings now, and of the disk later. A disk that is full at
@@ -86,6 +70,15 @@ class Recorder final : public Sink {
       pause(fault.what());
     }
   }
+
+  // Into the chunk that results have begun; they write it.
+  void take_stop(const StopNews& news) override {
+    if (writer_) messages_.tell(news, this);
+  }
+  void take_roadway(const RoadwayNews& news) override {
+    if (writer_) messages_.tell(news, this);
+  }
+  bool wants_planar() const override { return has_planar_; }
 
   void stop() override {
     try {
@@ -116,6 +109,15 @@ class Recorder final : public Sink {
   bool wants_clouds() const override { return with_clouds_; }
 
  private:
+  // A map is large and comes every other second: the replay makes it again. Labels are told by results.
+  bool wants(ChannelNumber channel) const override {
+    if (channel == kCloudChannel) return with_clouds_;
+    return channel != kMapChannel && channel != kPointsChannel;
+  }
+  void put(ChannelNumber channel, std::string message) override {
+    writer_->add(channel, static_cast<std::uint64_t>(std::max<std::int64_t>(wall_ns(), 0)), message);
+  }
+
   std::uint64_t file_bytes_most() const { return folder_.room_bytes() / kFiles; }
 
   void open() {
@@ -125,12 +127,10 @@ class Recorder final : public Sink {
   }
 
   void record(const LiveResult& result) {
-    const auto now_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(wall_ns(), 0));
-    if (with_clouds_ && result.frame) writer_->add(kCloud, now_ns, messages_.cloud(*result.frame));
-    writer_->add(kResult, now_ns, result_json(result));
+    messages_.tell(result, this);
     if (Clock::now() - health_last_ >= kHealthEvery) {
       health_last_ = Clock::now();
-      writer_->add(kHealth, now_ns, health_json(board_.all()));
+      messages_.tell(board_.all(), wall_ns(), this);
     }
     if (Clock::now() - chunk_began_ < kChunkTime && writer_->gathered_bytes() < kChunkBytes) return;
     write_chunk();
@@ -169,7 +169,8 @@ class Recorder final : public Sink {
   std::vector<McapChannel> channels_;
   bool with_clouds_;
   BoundedFolder folder_;
-  RosMessages messages_;
+  bool has_planar_;
+  LiveMessages messages_;
   std::string part_;
   std::unique_ptr<McapWriter> writer_;
   Clock::time_point chunk_began_, health_last_, try_again_;

@@ -80,7 +80,8 @@ KEYS: "dict[str, KeyInfo]" = _read_table()
 OUTSIDE_KEYS = frozenset((
     "motion_speed_max", "motion_turn_max_deg", "motion_range_max", "motion_keyframe",
     "source", "extrinsic_from", "sensor", "sensor_metadata", "udp_address", "udp_port", "udp_device_port", "udp_sender",
-    "ros_source", "frame_points_max", "worker_priority", "ros1", "ros2", "ros_distro", "http", "modbus",
+    "ros_source", "frame_points_max", "worker_priority", "ros1", "ros2", "ros_distro", "http", "http_names",
+    "http_login", "http_certificate", "commissioning", "commissioned", "foxglove", "foxglove_origin", "modbus",
     "can", "can_frames", "can_first", "can_address", "mqtt", "mqtt_topic", "mqtt_user", "mqtt_password_file",
     "mqtt_tls", "mqtt_ca_file", "mqtt_cert_file", "mqtt_key_file", "black_box", "black_box_mb",
     "recording", "recording_mb", "recording_clouds", "status_every_s", "log_level",
