@@ -11,11 +11,12 @@ namespace {
 
 // Kinds of parts. The longer ones come first.
 constexpr const char* kKinds[] = {
-    translatable("planar stop"), translatable("planar roadway"), translatable("planar command"),
-    translatable("commands"),    translatable("source replay"),  translatable("source udp"),
-    translatable("source"),      translatable("sink page"),      translatable("sink recorder"),
-    translatable("sink"),        translatable("part black box"), translatable("part runtime"),
-    translatable("part config"), translatable("part axes"),      translatable("part motion"),
+    translatable("planar stop"),   translatable("planar roadway"), translatable("planar command"),
+    translatable("commands"),      translatable("source replay"),  translatable("source udp"),
+    translatable("source ros1"),   translatable("source ros2"),    translatable("sink page"),
+    translatable("sink recorder"), translatable("sink"),           translatable("part black box"),
+    translatable("part runtime"),  translatable("part config"),    translatable("part axes"),
+    translatable("part motion"),
 };
 
 // Names and values of facts that are no sentence: elsewhere the same word may mean something else.

@@ -15,7 +15,7 @@ namespace pose_wall::tools {
 namespace {
 
 // With fewer letters of its own an entry ("{}: {}") fits whatever comes.
-constexpr std::size_t kLettersLeast = 6;
+constexpr std::size_t kLettersLeast = 5;
 // What is filled in may be a text in its turn: "refused: " and why.
 constexpr int kDepthMost = 4;
 
