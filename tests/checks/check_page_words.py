@@ -18,9 +18,9 @@ from check_report_page import Browser
 
 PAGES = {
     "report and live page": (("words.js", "live_words.js", "commission_words.js"),
-                             ("report.html", "live.html", "commission.js", "report.js", "live.js", "roadway.js", "tables.js",
-                              "viewer.js", "space.js", "charts.js", "reader.js", "steer.js", "verdict.js", "timeline.js",
-                              "compare.js", "save.js")),
+                             ("report.html", "live.html", "commission.js", "report.js", "live.js", "roadway.js",
+                              "tables.js", "viewer.js", "space.js", "charts.js", "reader.js", "steer.js",
+                              "verdict.js", "timeline.js", "compare.js", "save.js")),
     "motion page": (("motion_words.js",), ("motion.html", "motion.js", "motion_views.js")),
 }
 # The English of these comes from the program.

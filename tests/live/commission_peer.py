@@ -103,7 +103,8 @@ class Http(unittest.TestCase):
         for path in ("/commissioning/report.html", "/commissioning/evidence.zip"):
             self.assertEqual(daemon.status("GET", path), 403, path)
         self.assertEqual(daemon.open("AAAAA-AAAAA").status, 403)
-        self.assertEqual(daemon.status("POST", "/commissioning/open", {"code": daemon.code()}), 429, "right, but at once")
+        at_once = daemon.status("POST", "/commissioning/open", {"code": daemon.code()})
+        self.assertEqual(at_once, 429, "right, but too soon")
         daemon.cookie = "pose_wall_commissioning="
         self.assertFalse(daemon.state()["open"], "an empty token is none")
         self.assertEqual(daemon.status("POST", "/", {}), 405)
@@ -130,7 +131,8 @@ class Http(unittest.TestCase):
         place = ("POST", "/commissioning/check")
         self.assertEqual(daemon.status(*place, body="{", headers=JSON), 400)
         self.assertEqual(daemon.status(*place, body="[]", headers=JSON), 400)
-        self.assertEqual(daemon.status(*place, body="{}", headers={"Content-Type": "text/plain"}), 415, "a form of others")
+        of_a_form = daemon.status(*place, body="{}", headers={"Content-Type": "text/plain"})
+        self.assertEqual(of_a_form, 415, "on a page of others")
         self.assertEqual(daemon.status(*place, body="x" * 70000, headers=JSON), 413)
         self.assertEqual(daemon.status(*place, body=""), 411)
         for seconds in (-1, 0, 1e9, "30", None):
@@ -172,8 +174,8 @@ class Http(unittest.TestCase):
         self.assertIn(b"</html>", report[-200:])
         crc = state["checked"]["config_crc32"]
         good = {"by": "Li", "confirmed": ALL_CONFIRMED, "config_crc32": crc}
-        for wrong in ({"by": ""}, {"confirmed": {**ALL_CONFIRMED, "boxes": False}}, {"confirmed": {}}, {"config_crc32": crc + 1},
-                      {"config_crc32": None}):
+        for wrong in ({"by": ""}, {"confirmed": {**ALL_CONFIRMED, "boxes": False}}, {"confirmed": {}},
+                      {"config_crc32": crc + 1}, {"config_crc32": None}):
             self.assertEqual(daemon.status("POST", "/commissioning/save", {**good, **wrong}), 409, wrong)
         self.assertFalse((pathlib.Path(daemon.home.name) / "settings.yaml").exists(), "nothing was saved")
         state = daemon.step("save", good)
@@ -237,13 +239,14 @@ class Access(unittest.TestCase):
     def test_names_beyond_loopback(self):
         daemon = Daemon(self, "--set", "http_names=roadheader7.mine other", http_place="0.0.0.0")
         self.assertTrue(daemon.program.says("runtime: measures"), daemon.program.log())
-        for host, status in (("evil.example", 421), ("roadheader7.mine", 200), ("other:8080", 200), ("10.1.2.3:8080", 200),
-                             ("[::1]:80", 200), (socket.gethostname(), 200), ("roadheader7.mine.evil.example", 421),
-                             ("10.1.2.3.evil.example", 421)):
+        for host, status in (("evil.example", 421), ("roadheader7.mine", 200), ("other:8080", 200),
+                             ("10.1.2.3:8080", 200), ("[::1]:80", 200), (socket.gethostname(), 200),
+                             ("roadheader7.mine.evil.example", 421), ("10.1.2.3.evil.example", 421)):
             self.assertEqual(daemon.status("GET", "/health", headers={"Host": host}), status, host)
 
     def login_file(self, folder, password):
-        hashed = subprocess.run(["openssl", "passwd", "-6", password], check=True, capture_output=True, text=True).stdout
+        hashed = subprocess.run(["openssl", "passwd", "-6", password], check=True, capture_output=True,
+                                text=True).stdout
         path = pathlib.Path(folder, "logins")
         path.write_text(f"# who may look\nli:{hashed}", encoding="utf-8")
         return path
@@ -272,9 +275,9 @@ class Access(unittest.TestCase):
     def test_https_with_a_certificate_of_its_own(self):
         with tempfile.TemporaryDirectory() as folder:
             pem = pathlib.Path(folder, "page.pem")
-            subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=localhost",
-                            "-addext", "subjectAltName=IP:127.0.0.1", "-keyout", f"{folder}/key", "-out", f"{folder}/cert"],
-                           check=True, capture_output=True)
+            subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2",
+                            "-subj", "/CN=localhost", "-addext", "subjectAltName=IP:127.0.0.1",
+                            "-keyout", f"{folder}/key", "-out", f"{folder}/cert"], check=True, capture_output=True)
             pem.write_bytes(pathlib.Path(folder, "cert").read_bytes() + pathlib.Path(folder, "key").read_bytes())
             trust = ssl.create_default_context(cafile=f"{folder}/cert")
             daemon = Daemon(self, "--set", f"http_certificate={pem}", scheme=lambda host, port, timeout:
@@ -298,11 +301,13 @@ class Access(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "file")
             for key, text, needle in (("http_login", None, "No such file"), ("http_login", "", "NAME:HASH"),
-                                      ("http_login", "li:secret\n", "file:1"), ("http_certificate", "x", "BEGIN CERTIFICATE")):
+                                      ("http_login", "li:secret\n", "file:1"),
+                                      ("http_certificate", "x", "BEGIN CERTIFICATE")):
                 path.unlink(missing_ok=True)
                 if text is not None:
                     path.write_text(text, encoding="utf-8")
-                done = subprocess.run([POSE_WALLD, "--http", f"127.0.0.1:{live_peer.free_port()}", "--set", f"{key}={path}"],
+                done = subprocess.run([POSE_WALLD, "--http", f"127.0.0.1:{live_peer.free_port()}",
+                                       "--set", f"{key}={path}"],
                                       text=True, capture_output=True, check=False, timeout=60)
                 self.assertEqual(done.returncode, 1, (key, text))
                 self.assertIn(f"{key}: ", done.stderr)
@@ -319,11 +324,19 @@ class InABrowser(unittest.TestCase):
         browser = check_report_page.Browser(768, 1400, "127.0.0.1")
         self.addCleanup(browser.close)
         browser.open(f"http://127.0.0.1:{daemon.port}/")
-        become = lambda script, patience=30: self.assertTrue(
-            live_peer.becomes_true(lambda: browser.run(f"return Boolean({script})"), patience), script)
         panel = "document.getElementById('commission')"
-        click = lambda text: browser.run(f"[...{panel}.querySelectorAll('button')].find((b) => b.textContent === '{text}').click()")
-        picture = lambda name: PICTURES and browser.screenshot(f"{PICTURES}commission_{name}.png")
+
+        def become(script, patience=live_peer.PATIENCE_S):
+            is_so = live_peer.becomes_true(lambda: browser.run(f"return Boolean({script})"), patience)
+            self.assertTrue(is_so, script)
+
+        def click(text):
+            browser.run(f"[...{panel}.querySelectorAll('button')].find((b) => b.textContent === '{text}').click()")
+
+        def picture(name):
+            if PICTURES:
+                browser.screenshot(f"{PICTURES}commission_{name}.png")
+
         become("page.shown > 3")
         browser.run("if (page.language !== 'zh') document.getElementById('language').click()")
         become(f"!{panel}.hidden && {panel}.textContent.includes('代码')")

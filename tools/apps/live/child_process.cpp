@@ -17,7 +17,8 @@
 
 namespace pose_wall::tools::live {
 
-std::string program_beside(const std::string& name, const std::string& what, const std::vector<std::string>& folders) {
+std::string program_beside(const std::string& name, const std::string& missing,
+                           const std::vector<std::string>& folders) {
   std::error_code fault;
   const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", fault).parent_path();
   std::string tried;
@@ -26,7 +27,7 @@ std::string program_beside(const std::string& name, const std::string& what, con
     if (access(program.c_str(), X_OK) == 0) return program;
     tried += fmt::format("{}{}", tried.empty() ? "" : " nor ", program.string());
   }
-  throw std::runtime_error(fmt::format("{} is missing: there is no {}", what, tried));
+  throw std::runtime_error(fmt::format("{} {}", missing, tried));
 }
 
 pid_t start_child(const std::vector<std::string>& words, const std::vector<std::pair<int, int>>& descriptors) {

@@ -13,9 +13,10 @@
 
 namespace pose_wall::tools::live {
 
-// In one of these folders, seen from the daemon's own executable: "" in a build. Throws std::runtime_error that says
-// where it was looked for; what: "the program of ROS 1".
-std::string program_beside(const std::string& name, const std::string& what, const std::vector<std::string>& folders);
+// In one of these folders, seen from the daemon's own executable: "" in a build. Else throws std::runtime_error of what
+// is missing and of where it was looked for.
+std::string program_beside(const std::string& name, const std::string& missing,
+                           const std::vector<std::string>& folders);
 
 // The words begin with the program's path. It has no signal blocked and each at its default, as those of the daemon are
 // none of its. descriptors: each is found in the child under the second number. Throws std::runtime_error.

@@ -34,7 +34,7 @@ struct LiveSettings {
   std::string commissioned;  // a folder
   std::string foxglove;      // HOST:PORT; empty: off
   std::string foxglove_origin;
-  std::string can;           // interface; empty: off
+  std::string can;  // interface; empty: off
   std::string can_frames = "11bit";
   double can_first = 0, can_address = 128;
   std::string mqtt_topic = "pose_wall";

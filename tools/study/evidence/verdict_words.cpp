@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<const char*, 4> kStateWords = {"same", "changed", "missing", "unreadable"};
 constexpr std::array<const char*, 4> kStateTexts = {translatable("as packed"), translatable("changed"),
-                                                    translatable("missing"), translatable("damaged")};
+                                                    translatable("not there"), translatable("damaged")};
 constexpr std::array<const char*, 5> kSignatureWords = {"none", "own_key", "site", "other", "wrong"};
 
 std::string paragraph(const std::string& text) {

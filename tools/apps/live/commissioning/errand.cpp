@@ -49,7 +49,8 @@ std::string end_of(std::FILE* file) {
 }  // namespace
 
 ErrandOutcome run_errand(const std::vector<std::string>& words, const std::atomic<bool>& given_up) {
-  std::vector<std::string> all = {program_beside("pose_wall", "the command of the package pose-wall", {"", "../bin"})};
+  std::vector<std::string> all = {
+      program_beside("pose_wall", "the command of the package pose-wall is missing: there is no", {"", "../bin"})};
   all.insert(all.end(), words.begin(), words.end());
   const Paper output = new_paper(), errors = new_paper();
   const pid_t child = start_child(all, {{fileno(output.get()), STDOUT_FILENO}, {fileno(errors.get()), STDERR_FILENO}});

@@ -187,9 +187,7 @@ Json CommissioningSteps::check(const Changes& changes, const std::string& langua
   const ErrandOutcome report =
       run_errand(joined(joined({"report", "--quiet", "-o", report_file()}, words), recordings()), given_up);
   require_done(report, "report");
-  return {{"changes", changes},
-          {"config_crc32", crc_of(trial)},
-          {"told", lines_of(run.errors)}};
+  return {{"changes", changes}, {"config_crc32", crc_of(trial)}, {"told", lines_of(run.errors)}};
 }
 
 Json CommissioningSteps::save(const Json& who, const Json& examined, const Json& checked,

@@ -66,8 +66,9 @@ class PageServer final : public Sink {
     } catch (const std::exception& fault) {
       throw std::runtime_error(fmt::format("http: {}", fault.what()));
     }
+    const std::string address = fmt::format("{}://{}", server_.access().scheme(), loaded_.live.http);
     log_line(Grade::kGood, part(),
-             fmt::format("{}://{} shows the page; {}", server_.access().scheme(), loaded_.live.http,
+             fmt::format("{} shows the page; {}", address,
                          is_loopback(place_.host)            ? "only this machine reaches it"
                          : server_.access().asks_for_login() ? "who has a login may look"
                                                              : "everybody who reaches this address may look"));

@@ -28,7 +28,7 @@ constexpr auto kLook = std::chrono::milliseconds(5);
 }  // namespace
 
 std::string node_program() {
-  return program_beside(kProgram, "the program of ROS 1", {"", POSE_WALL_LIBEXEC_FROM_BIN});
+  return program_beside(kProgram, "the program of ROS 1 is missing: there is no", {"", POSE_WALL_LIBEXEC_FROM_BIN});
 }
 
 NodeProcess::NodeProcess(const std::string& program, const std::string& name) {
