@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -151,10 +152,13 @@ LoadedConfig CommissioningSteps::trial_of(const Changes& changes) const {
     if (loaded_.origin(key.name).rfind(before + ":", 0) == 0) all[key.name] = "";
   }
   for (const auto& [key, value] : changes) {
-    if (!find_config_key(key)) throw std::runtime_error(fmt::format("'{}' is no setting of the engine", key));
+    const std::optional<pose_wall_key_info> known = find_config_key(key);
+    // Texts name topics and frames of others, and would bring their own lines into the file.
+    if (!known || known->type == POSE_WALL_KEY_TEXT) {
+      throw std::runtime_error(fmt::format("'{}' is no setting that the page may change", key));
+    }
     if (config.set(key.c_str(), value.c_str()) != POSE_WALL_OK) {
-      throw std::runtime_error(
-          fmt::format("{}: '{}' is refused; allowed: {}", key, value, allowed_text(*find_config_key(key))));
+      throw std::runtime_error(fmt::format("{}: '{}' is refused; allowed: {}", key, value, allowed_text(*known)));
     }
     all[key] = value;
   }
