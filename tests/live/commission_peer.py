@@ -192,7 +192,7 @@ class Http(unittest.TestCase):
         self.assertIsNone(daemon.program.process.poll(), "it is the same process")
         self.assertEqual(pid, daemon.program.process.pid)
         self.assertFalse(daemon.state()["open"], "a new start takes a new code")
-        self.assertTrue(daemon.program.says("body_box_2: [1, 1.5, -0.2, 0.2, -0.3, 0.3] (" + daemon.home.name))
+        self.assertTrue(daemon.program.says("body_box_2: 1 1.5 -0.2 0.2 -0.3 0.3 (" + daemon.home.name))
         # Saved settings are the ground of the next ones.
         self.assertEqual(daemon.open().status, 200)
         daemon.step("record", {"seconds": RECORDED_S})

@@ -51,7 +51,6 @@ class Daemon::Taker final : public FrameTaker {
   void set_extrinsic(const std::optional<Extrinsic>& extrinsic) override { daemon_.runtime_.set_extrinsic(extrinsic); }
   void wait_idle() override {
     daemon_.runtime_.wait_idle();
-    if (const auto recorder = daemon_.recorder()) recorder->wait_for_room(kDiskStall);
     for (const auto& sink : daemon_.sinks_) sink->wait_for_room(kDiskStall);
   }
 
@@ -95,7 +94,8 @@ void Daemon::make_planar() {
 
 void Daemon::make_edges(const std::optional<ReplayPlan>& replay) {
   const LiveSettings& live = loaded_.live;
-  if (!live.recording.empty()) recorder_ = std::make_shared<SinkThread>(make_recorder(loaded_, *this));
+  // First, for sinks end in this order: what is kept is on the disk before a network can hold anything up.
+  if (!live.recording.empty()) add(make_recorder(loaded_, *this));
   if (replay) {
     source_ = make_replay_source(*replay);
   } else if (live.source == "udp") {
@@ -130,7 +130,6 @@ void Daemon::add(RosEdge edge) {
 void Daemon::post(const std::shared_ptr<const LiveResult>& result) {
   if (guard_) guard_->note_motion(*result);
   if (roadway_) roadway_->post(result);
-  if (const auto recorder = this->recorder()) recorder->post(result);
   for (const auto& sink : sinks_) sink->post(result);
 }
 
@@ -162,15 +161,9 @@ void Daemon::log_status() const {
   for (const PartHealth& part : all()) log_line(part.grade, part.part, facts_text(in_language(language(), part)));
 }
 
-std::shared_ptr<SinkThread> Daemon::recorder() const {
-  const std::lock_guard<std::mutex> locked(recorder_lock_);
-  return recorder_;
-}
-
 // The map first: a wrong one is named before anybody is served.
 void Daemon::start() {
   if (roadway_) roadway_->start();
-  if (recorder_) recorder_->start();
   for (const auto& sink : sinks_) sink->start();
   if (guard_) guard_->start();
   runtime_.start();
@@ -183,7 +176,6 @@ void Daemon::stop() {
   runtime_.stop();
   if (roadway_) roadway_->stop();
   // Before the others: what is kept is on the disk before a network can hold anything up.
-  if (const auto recorder = this->recorder()) recorder->stop();
   for (const auto& sink : sinks_) sink->stop();
 }
 
@@ -192,7 +184,6 @@ std::vector<PartHealth> Daemon::all() const {
   if (guard_) parts.push_back(guard_->health());
   if (commands_) parts.push_back(commands_->health(monotonic_ns()));
   if (roadway_) parts.push_back(roadway_->health());
-  if (const auto recorder = this->recorder()) parts.push_back(recorder->health());
   for (const auto& sink : sinks_) parts.push_back(sink->health());
   return parts;
 }
@@ -206,25 +197,6 @@ std::vector<std::string> Daemon::hung() const {
   return hung;
 }
 
-// A recorder that is gone has written all that it was given.
-void Daemon::renew_recorder() {
-  std::shared_ptr<SinkThread> before;
-  {
-    const std::lock_guard<std::mutex> locked(recorder_lock_);
-    before = std::move(recorder_);
-  }
-  if (before) before->stop();
-  if (loaded_.live.recording.empty()) return;
-  try {
-    const auto fresh = std::make_shared<SinkThread>(make_recorder(loaded_, *this));
-    fresh->start();
-    const std::lock_guard<std::mutex> locked(recorder_lock_);
-    recorder_ = fresh;
-  } catch (const std::exception& fault) {
-    log_line(Grade::kBad, "settings", fmt::format("recording: {}; nothing is recorded", fault.what()));
-  }
-}
-
 void Daemon::take_settings(const std::function<LoadedConfig()>& read) {
   LoadedConfig fresh;
   try {
@@ -235,18 +207,15 @@ void Daemon::take_settings(const std::function<LoadedConfig()>& read) {
     return;
   }
   const std::vector<SettingChange> changes = setting_changes(loaded_, fresh);
-  const bool records_otherwise = take_changes(changes, &loaded_);
-  const Grade level = log_level_of(loaded_.live.log_level);
-  set_log_level(Grade::kGood);  // whatever the level was, this is told
+  take_changes(changes, &loaded_);
+  set_log_level(log_level_of(loaded_.live.log_level));
   std::size_t taken = 0;
   for (const SettingChange& change : changes) {
     taken += change.is_taken ? 1 : 0;
-    log_line(change.is_taken ? Grade::kGood : Grade::kWarning, "settings", change_text(change));
+    log_anyway(change.is_taken ? Grade::kGood : Grade::kWarning, "settings", change_text(change));
   }
-  if (records_otherwise) renew_recorder();
-  log_line(Grade::kGood, "settings",
-           fmt::format("read again: {} changed, {} wait for a restart", taken, changes.size() - taken));
-  set_log_level(level);
+  log_anyway(Grade::kGood, "settings",
+             fmt::format("read again: {} changed, {} wait for a restart", taken, changes.size() - taken));
 }
 
 void Daemon::look_around(const Wishes& wishes) {
@@ -277,9 +246,11 @@ void Daemon::run(const Wishes& wishes) {
     }
     std::this_thread::sleep_for(kLook);
   }
+  // Who asks for an end is not overruled by who asks for a new start.
+  if (wishes.stop) restarts_ = false;
   if (!restarts_) service_.stopping();
   const bool was_asked = wishes.stop || restarts_;
-  if (!was_asked) wishes.is_through();
+  if (!wishes.stop) wishes.is_through();
   const std::string failure = was_asked ? "" : source_->failure();
   // What failed stands in the source's line of status.
   if (failure.empty()) {

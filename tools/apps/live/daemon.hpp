@@ -37,7 +37,7 @@ class Daemon final : public HealthBoard {
     // settings are to be read again.
     std::atomic<bool>&looked, &reload;
     std::function<LoadedConfig()> read_settings;
-    std::function<void()> is_through;  // called once where a recording is, before the parts end
+    std::function<void()> is_through;  // called once before the parts end where nobody asked for it
   };
 
   // Until `stop` is true, or a recording is through. Throws what the starts of source and sinks throw, and
@@ -65,8 +65,6 @@ class Daemon final : public HealthBoard {
   void stop();
   void look_around(const Wishes& wishes);
   void take_settings(const std::function<LoadedConfig()>& read);
-  void renew_recorder();
-  std::shared_ptr<SinkThread> recorder() const;
 
   LoadedConfig loaded_;
   LiveRuntime runtime_;
@@ -75,8 +73,6 @@ class Daemon final : public HealthBoard {
   std::unique_ptr<Source> source_;
   std::unique_ptr<StopGuard> guard_;  // where the key `planar` is on
   std::unique_ptr<SinkThread> roadway_;
-  mutable std::mutex recorder_lock_;
-  std::shared_ptr<SinkThread> recorder_;  // may be another one after the settings were read again
   std::vector<std::unique_ptr<SinkThread>> sinks_;
   std::atomic<bool> restarts_{false};
   ServiceManager service_;

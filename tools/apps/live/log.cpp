@@ -104,7 +104,10 @@ Grade log_level_of(const std::string& name) {
 }
 
 void log_line(Grade grade, const std::string& part, const std::string& fact) {
-  if (grade < least_grave.load()) return;
+  if (grade >= least_grave.load()) log_anyway(grade, part, fact);
+}
+
+void log_anyway(Grade grade, const std::string& part, const std::string& fact) {
   static const bool to_journal = std::getenv("JOURNAL_STREAM") != nullptr;
   const std::string line = fmt::format("{}{}{}: {}\n", to_journal ? journal_level(grade) : time_text(),
                                        to_journal ? "" : fmt::format("{:7} ", grade_words(language(), grade)),

@@ -25,6 +25,8 @@ Grade log_level_of(const std::string& name);
 // From any thread; a line is written whole, in the language of the process (--language, POSE_WALL_LANGUAGE, the
 // locale). Part and fact are given in English.
 void log_line(Grade grade, const std::string& part, const std::string& fact);
+// The same whatever the level: what a person has asked for, and must see.
+void log_anyway(Grade grade, const std::string& part, const std::string& fact);
 
 // Writes only what changed: a part's grade or summary. A part may go to and fro, as on a machine that is too slow. When
 // it has said the same a few times within kWindow, one line says so. From then on one line a window sums up, until a

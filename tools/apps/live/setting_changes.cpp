@@ -14,12 +14,7 @@ namespace pose_wall::tools::live {
 namespace {
 
 // What decides neither what is measured, nor who can reach the daemon, nor memory that was taken at the start.
-constexpr std::array<const char*, 5> kTaken = {"log_level", "status_every_s", "recording", "recording_mb",
-                                               "recording_clouds"};
-
-bool is_of_recording(const std::string& key) {
-  return key.rfind("recording", 0) == 0;
-}
+constexpr std::array<const char*, 2> kTaken = {"log_level", "status_every_s"};
 
 std::string shown(const std::string& value) {
   return value.empty() ? "''" : value;
@@ -48,15 +43,12 @@ std::vector<SettingChange> setting_changes(const LoadedConfig& running, const Lo
   return changes;
 }
 
-bool take_changes(const std::vector<SettingChange>& changes, LoadedConfig* running) {
-  bool has_recording = false;
+void take_changes(const std::vector<SettingChange>& changes, LoadedConfig* running) {
   for (const SettingChange& change : changes) {
     if (!change.is_taken) continue;
     // It was read from settings that were allowed.
     static_cast<void>(set_live_value(&running->live, *find_live_key(change.key), change.after));
-    has_recording = has_recording || is_of_recording(change.key);
   }
-  return has_recording;
 }
 
 std::string change_text(const SettingChange& change) {

@@ -20,8 +20,8 @@ struct SettingChange {
 // All keys that differ, in the tables' order.
 std::vector<SettingChange> setting_changes(const LoadedConfig& running, const LoadedConfig& fresh);
 
-// Puts those that can be taken into the running settings. True where one of them is of the recording.
-bool take_changes(const std::vector<SettingChange>& changes, LoadedConfig* running);
+// Puts those that can be taken into the running settings.
+void take_changes(const std::vector<SettingChange>& changes, LoadedConfig* running);
 
 // "log_level: warning instead of info", "udp_port: 2368 instead of 0: waits for a restart".
 std::string change_text(const SettingChange& change);

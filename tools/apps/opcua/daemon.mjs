@@ -87,6 +87,8 @@ export class Document {
     if (this.isAsking) return;
     this.isAsking = true;
     this.askedAt = new Date();
+    // An answer is as old as its question at most: a gateway that was stopped meanwhile reads what was true before.
+    const askedMs = performance.now();
     let text = '', bytes = 0;
     const done = (act) => { if (this.isAsking) { this.isAsking = false; clearTimeout(late); act(); } };
     const request = http.get(this.url, { agent: this.agent }, (answer) => {
@@ -95,15 +97,15 @@ export class Document {
         text += part;
         if ((bytes += part.length) > BYTES_MOST) request.destroy(new Error('answers without an end'));
       });
-      answer.on('error', (error) => done(() => this.tell(error.message)));
-      answer.on('end', () => done(() => this.take(answer.statusCode, text)));
+      answer.on('error', (error) => done(() => this.lose(error.message)));
+      answer.on('end', () => done(() => this.take(answer.statusCode, text, askedMs)));
     });
     // Of the whole answer: one that comes byte by byte is late, too.
     const late = setTimeout(() => request.destroy(new Error('does not answer')), TIMEOUT_MS);
-    request.on('error', (error) => done(() => this.tell(error.message)));
+    request.on('error', (error) => done(() => this.lose(error.message)));
   }
 
-  take(code, text) {
+  take(code, text, askedMs) {
     if (!this.answers.includes(code)) {
       // It answers, and says that it has none of it: the key `planar` is off, or no result is newer than a second.
       this.fault = code === 404 ? 'BadNotConnected' : 'BadOutOfService';
@@ -117,12 +119,18 @@ export class Document {
     }
     // A daemon that repeats itself has stopped: only what has moved on is new.
     if (this.value === null || this.counter(value) !== this.counter(this.value)) {
-      this.newAt = performance.now();
+      this.newAt = askedMs;
       this.receivedAt = new Date();
     }
     this.value = value;
     this.fault = null;
     return this.tell('answers');
+  }
+
+  // What it said of itself before is no news of now. Its value ages.
+  lose(what) {
+    if (this.fault) this.fault = 'BadNoCommunication';
+    this.tell(what);
   }
 
   tell(what) {

@@ -66,15 +66,26 @@ class ConfigLoader {
     }
     if (folder.empty()) return;
     const std::string file = commissioned_file(folder);
-    std::error_code ignored;
-    if (std::filesystem::exists(file, ignored)) return apply_file({file, "", ""});
-    note(say("commissioned: {} is not there yet: nothing was commissioned", file));
+    std::error_code error;
+    const bool is_there = std::filesystem::exists(file, error);
+    only_engine_ = true;
+    if (is_there || error) apply_file({file, "", ""});  // what cannot be looked at is a fault, and no machine without
+    only_engine_ = false;
+    if (is_there || error) return;
+    // A disk that is missing must not bring back the mounting of before.
+    missing_ = file;
   }
 
   void check_rules() {
     if (loaded_.live.extrinsic_from == "tf" && loaded_.live.source == "udp") {
       fault(say("extrinsic_from ({}): tf comes by ROS, so source ({}) must be ros1 or ros2",
                 loaded_.origin("extrinsic_from"), loaded_.origin("source")));
+    }
+    if (!missing_.empty() && loaded_.live.commissioning) {
+      note(say("commissioned: {} is not there yet: nothing was commissioned", missing_));
+    } else if (!missing_.empty()) {
+      fault(say("commissioned ({}): there is no {}. Commission the machine (commissioning: 1), or take this key out",
+                loaded_.origin("commissioned"), missing_));
     }
     const std::string page_rule = broken_page_rule(loaded_.live);
     if (!page_rule.empty()) fault(page_rule);
@@ -100,6 +111,9 @@ class ConfigLoader {
  private:
   // A file that stands over others says what it changes: the order of files is easily mistaken.
   void apply_entry(const std::string& where, const YamlEntry& entry) {
+    if (only_engine_ && !find_config_key(entry.key)) {
+      return fault(say("{}: {}: only settings of the engine are commissioned", where, entry.key));
+    }
     const std::string before = loaded_.origin(entry.key);
     apply(where, entry.key, entry.value, entry.is_sequence);
     const auto [set, is_first] = written_.emplace(entry.key, entry.value);
@@ -227,6 +241,8 @@ class ConfigLoader {
   LoadedConfig loaded_;
   std::map<std::string, std::string> written_;  // values of the files, by key
   std::string faults_;
+  bool only_engine_ = false;  // of a file
+  std::string missing_;       // what was to be commissioned, and was not
 };
 
 }  // namespace

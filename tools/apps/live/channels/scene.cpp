@@ -78,12 +78,15 @@ Json transform(std::int64_t stamp_ns, const std::string& parent, const std::stri
           {"rotation", quaternion(place.linear())}};
 }
 
-// A newer entity of an id takes the place of the older one: what is empty is gone.
+// A newer entity of an id takes the place of the older one: what is empty is gone. Results, and the stop's answers,
+// come ten times a second also in silence: what is a second old was left by a daemon that hangs or cannot be reached.
+constexpr int kLifetime_s = 1;
+
 Json entity(std::int64_t stamp_ns, const std::string& frame, const char* id) {
   Json made = {{"timestamp", stamp_json(stamp_ns)},
                {"frame_id", frame},
                {"id", id},
-               {"lifetime", {{"sec", 0}, {"nsec", 0}}},
+               {"lifetime", {{"sec", kLifetime_s}, {"nsec", 0}}},
                {"frame_locked", true}};
   for (const char* part :
        {"metadata", "arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"}) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
@@ -32,6 +33,8 @@ constexpr const char* kPart = "commissioning";
 constexpr const char* kCookie = "pose_wall_commissioning=";
 // What doctor asks for; a cloud every hundred years is no recording.
 constexpr double kRecordedLeast_s = 2.0, kRecordedMost_s = 120.0, kRecordedUsually_s = 30.0;
+// Two minutes of an OS0-128 with 2048 columns at 10 Hz, 24 bytes a point; so nothing of a recording is deleted.
+constexpr double kRoom_mb = 8000.0;
 constexpr std::int64_t kLook_ns = 100'000'000;
 // What a person must have looked at before anything is saved: frames cannot show it.
 constexpr const char* kToConfirm[] = {"ahead", "mounting", "boxes"};
@@ -41,7 +44,8 @@ constexpr const char* kReportPolicy =
     "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
 
 WebAnswer json_answer(int status, const Json& content) {
-  return web_answer(status, "application/json", content.dump() + "\n");
+  // What a command or a path has that is no UTF-8 is replaced, not thrown.
+  return web_answer(status, "application/json", content.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 WebAnswer refusal(int status, const std::string& why) {
@@ -49,7 +53,8 @@ WebAnswer refusal(int status, const std::string& why) {
 }
 
 std::string token_of(const std::string& cookies) {
-  const std::size_t at = cookies.find(kCookie);
+  std::size_t at = cookies.find(kCookie);
+  while (at != std::string::npos && at != 0 && cookies[at - 1] != ' ') at = cookies.find(kCookie, at + 1);
   if (at == std::string::npos) return "";
   const std::size_t begin = at + std::string_view(kCookie).size();
   return cookies.substr(begin, cookies.find(';', begin) - begin);
@@ -62,6 +67,7 @@ std::string language_of(const Json& asked) {
 // The recorder into the folder of the recording, whatever the settings record elsewhere.
 LoadedConfig settings_of_recorder(LoadedConfig loaded, const std::string& folder) {
   loaded.live.recording = folder;
+  loaded.live.recording_mb = kRoom_mb;
   loaded.live.recording_clouds = true;
   return loaded;
 }
@@ -92,7 +98,10 @@ class CommissioningDesk final : public Commissioning {
   }
 
   void stop() override {
-    ending_ = true;
+    {
+      const std::lock_guard<std::mutex> locked(lock_);
+      ending_ = true;
+    }
     wakes_.notify_all();
     if (thread_.joinable()) thread_.join();
   }
@@ -140,12 +149,12 @@ class CommissioningDesk final : public Commissioning {
 
   // By the server's thread, or before it starts.
   void tell_code() const {
-    log_line(Grade::kWarning, kPart, fmt::format("the code that opens the page once is {}", door_.code()));
+    log_anyway(Grade::kWarning, kPart, fmt::format("the code that opens the page once is {}", door_.code()));
   }
 
-  bool admits(const WebRequest& request) {
+  bool admits(const WebRequest& request, bool is_at_work = true) {
     const std::lock_guard<std::mutex> locked(lock_);
-    return door_.admits(token_of(request.cookies));
+    return door_.admits(token_of(request.cookies), is_at_work);
   }
 
   WebAnswer open(const WebRequest& request) {
@@ -159,12 +168,12 @@ class CommissioningDesk final : public Commissioning {
         return refusal(429, "too many tries at once");
       case Door::Try::kWrong:
         ++wrong_codes_;
-        log_line(Grade::kWarning, kPart, "somebody tried a wrong code");
+        log_anyway(Grade::kWarning, kPart, "somebody tried a wrong code");
         return refusal(403, "this is not the code that the log shows last");
       case Door::Try::kOpened:
         break;
     }
-    log_line(Grade::kWarning, kPart, "a page is open, and any other one is shut");
+    log_anyway(Grade::kWarning, kPart, "a page is open, and any other one is shut");
     tell_code();
     WebAnswer answer = json_answer(200, {{"open", true}});
     answer.headers.emplace_back("set-cookie", fmt::format("{}{}; Path=/; HttpOnly; SameSite=Strict{}", kCookie,
@@ -172,8 +181,9 @@ class CommissioningDesk final : public Commissioning {
     return answer;
   }
 
+  // A page that only looks holds nobody else's place.
   WebAnswer state(const WebRequest& request) {
-    if (!admits(request)) return json_answer(200, {{"schema", 1}, {"open", false}});
+    if (!admits(request, false)) return json_answer(200, {{"schema", 1}, {"open", false}});
     Json told = {{"schema", 1}, {"open", true}, {"mounting", steps_.mounting()}, {"to_confirm", kToConfirm}};
     const std::lock_guard<std::mutex> locked(lock_);
     told["busy"] = busy_;
@@ -259,14 +269,16 @@ class CommissioningDesk final : public Commissioning {
     const Json who = {{"by", by}, {"confirmed", asked.at("confirmed")}};
     return [this, who, examined = examined_, checked = checked_] {
       const Json evidence = steps_.save(who, examined, checked, ending_);
-      log_line(Grade::kWarning, kPart, "settings were saved; they count from the next start on");
+      log_anyway(Grade::kWarning, kPart, "settings were saved; they count from the next start on");
       keep(&saved_, {{"config_crc32", checked.at("config_crc32")}, {"evidence", evidence}});
     };
   }
 
+  // Settings that cannot be read would end it for good.
   Job to_restart(const Json& /*asked*/) {
+    load_config(loaded_.asked_files, loaded_.asked_settings);
     return [this] {
-      log_line(Grade::kWarning, kPart, "the page asks for a start with the settings that are saved");
+      log_anyway(Grade::kWarning, kPart, "the page asks for a start with the settings that are saved");
       restart_();
     };
   }
@@ -317,7 +329,12 @@ class CommissioningDesk final : public Commissioning {
     }
     recorder->stop();
     const PartHealth health = recorder->health();
-    if (health.grade != Grade::kGood) throw std::runtime_error(health.summary);
+    const bool is_whole = std::count(health.facts.begin(), health.facts.end(),
+                                     std::make_pair(std::string("results not recorded"), std::string("0"))) == 1;
+    if (health.grade != Grade::kGood || !is_whole) {
+      steps_.forget_recording();
+      throw std::runtime_error(is_whole ? health.summary : "the disk did not keep up: record again");
+    }
     if (clouds_ == 0) throw std::runtime_error("no cloud came while it was recorded: look at the source");
     keep(&recorded_, {{"seconds", seconds}, {"clouds", clouds_.load()}});
   }

@@ -56,10 +56,10 @@ Door::Try Door::open(const std::string& code, Clock::time_point now) {
   return Try::kOpened;
 }
 
-bool Door::admits(const std::string& token, Clock::time_point now) {
+bool Door::admits(const std::string& token, bool is_at_work, Clock::time_point now) {
   if (now - seen_ > kIdleMost) token_.clear();
   if (token_.empty() || !is_same_secret(token, token_)) return false;
-  seen_ = now;
+  if (is_at_work) seen_ = now;
   return true;
 }
 

@@ -30,7 +30,8 @@ class Door {
   Try open(const std::string& code, Clock::time_point now = Clock::now());
   // By what the opened page shows with each request. Empty while none is open.
   const std::string& token() const { return token_; }
-  bool admits(const std::string& token, Clock::time_point now = Clock::now());
+  // is_at_work: the hour begins anew.
+  bool admits(const std::string& token, bool is_at_work, Clock::time_point now = Clock::now());
 
  private:
   std::string code_, token_;

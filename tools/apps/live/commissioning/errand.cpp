@@ -23,6 +23,7 @@ namespace pose_wall::tools::live {
 namespace {
 
 constexpr int kNice = 10;  // a third of what others get when all want the processors, and not nothing
+constexpr auto kPatience = std::chrono::minutes(20);  // two minutes of an OS0-128 take ten on a small ARM64 controller
 constexpr auto kLook = std::chrono::milliseconds(20);
 constexpr long kKeptBytes = 1'000'000;  // what doctor tells as JSON has 10,000
 
@@ -56,10 +57,13 @@ ErrandOutcome run_errand(const std::vector<std::string>& words, const std::atomi
   const pid_t child = start_child(all, {{fileno(output.get()), STDOUT_FILENO}, {fileno(errors.get()), STDERR_FILENO}});
   setpriority(PRIO_PROCESS, static_cast<id_t>(child), kNice);
   int status = 0;
-  while (waitpid(child, &status, WNOHANG) == 0) {
-    if (given_up) kill(child, SIGKILL);
+  const auto until = std::chrono::steady_clock::now() + kPatience;
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
+    if (given_up || std::chrono::steady_clock::now() > until) kill(child, SIGKILL);
     std::this_thread::sleep_for(kLook);
   }
+  if (ended != child) throw std::runtime_error(fmt::format("pose_wall {}: {}", words.front(), std::strerror(errno)));
   if (given_up) throw std::runtime_error("was given up");
   if (!WIFEXITED(status)) throw std::runtime_error(fmt::format("pose_wall {} {}", words.front(), how_it_ended(status)));
   return {WEXITSTATUS(status), end_of(output.get()), end_of(errors.get())};

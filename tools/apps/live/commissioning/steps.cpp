@@ -65,24 +65,25 @@ void put(const fs::path& file, const fs::path& place) {
   if (fault) fs::copy_file(file, place, fs::copy_options::overwrite_existing);
 }
 
+// As YAML has text in which nothing means anything.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char one : text) out += one == '\'' ? std::string("''") : std::string(1, one);
+  return out + "'";
+}
+
 // All that is set, whoever set it, so that the file alone measures the recording as it was measured.
 std::string whole_settings(const LoadedConfig& loaded) {
-  std::string text =
-      fmt::format("# Settings of the commissioned machine, {}. {}\n", utc_now(), config_crc_text(*loaded.config.get()));
+  std::string text = fmt::format("# {}\n", config_crc_text(*loaded.config.get()));
+  const auto add = [&](const std::string& key, bool is_text, const std::string& value) {
+    if (loaded.origins.count(key) > 0) text += fmt::format("{}: {}\n", key, is_text ? quoted(value) : value);
+  };
   for (const pose_wall_key_info& key : config_keys()) {
-    if (loaded.origins.count(key.name) > 0) {
-      text += fmt::format("{}: {}\n", key.name, config_written_text(*loaded.config.get(), key));
-    }
+    add(key.name, key.type == POSE_WALL_KEY_TEXT, config_value_text(*loaded.config.get(), key));
   }
-  for (const OutsideKey& key : motion_keys()) {
-    if (loaded.origins.count(key.name) > 0) {
-      text += fmt::format("{}: {}\n", key.name, motion_value_text(loaded.motion, key));
-    }
-  }
+  for (const OutsideKey& key : motion_keys()) add(key.name, false, motion_value_text(loaded.motion, key));
   for (const OutsideKey& key : planar_keys()) {
-    if (loaded.origins.count(key.name) > 0) {
-      text += fmt::format("{}: {}\n", key.name, planar_value_text(loaded.planar, key));
-    }
+    add(key.name, key.type == OutsideKey::Type::kText, planar_value_text(loaded.planar, key));
   }
   return text;
 }
@@ -146,16 +147,20 @@ Json CommissioningSteps::examine(const std::string& language, const std::atomic<
 // folder, no other program's business.
 LoadedConfig CommissioningSteps::trial_of(const Changes& changes) const {
   const std::string before = commissioned_file(folder_);
+  const LoadedConfig present = load_config(loaded_.asked_files, loaded_.asked_settings);  // others may have saved since
   Changes all;
-  api::Config config = loaded_.config;
+  api::Config config = present.config;
   for (const pose_wall_key_info& key : config_keys()) {
-    if (loaded_.origin(key.name).rfind(before + ":", 0) == 0) all[key.name] = "";
+    if (present.origin(key.name).rfind(before + ":", 0) == 0) all[key.name] = "";
   }
   for (const auto& [key, value] : changes) {
     const std::optional<pose_wall_key_info> known = find_config_key(key);
     // Texts name topics and frames of others, and would bring their own lines into the file.
     if (!known || known->type == POSE_WALL_KEY_TEXT) {
       throw std::runtime_error(fmt::format("'{}' is no setting that the page may change", key));
+    }
+    if (present.live.extrinsic_from == "tf" && key.rfind("extrinsic_", 0) == 0) {
+      throw std::runtime_error(fmt::format("{} comes from ROS (extrinsic_from: tf): change it there", key));
     }
     if (config.set(key.c_str(), value.c_str()) != POSE_WALL_OK) {
       throw std::runtime_error(fmt::format("{}: '{}' is refused; allowed: {}", key, value, allowed_text(*known)));
@@ -185,6 +190,7 @@ Json CommissioningSteps::check(const Changes& changes, const std::string& langua
   const LoadedConfig trial = trial_of(changes);
   const fs::path folder = folder_ / "trial";
   const std::vector<std::string> words = joined(words_with(folder), {"--language", language});
+  write_whole_file(folder / "whole.yaml", whole_settings(trial));
   const ErrandOutcome run =
       run_errand(joined(joined({"run", "-o", folder / "results.csv"}, words), recordings()), given_up);
   require_done(run, "run");
@@ -201,7 +207,8 @@ Json CommissioningSteps::save(const Json& who, const Json& examined, const Json&
   std::vector<std::string> again = loaded_.asked_settings;
   again.push_back("commissioned=" + trial.string());
   const LoadedConfig saved = load_config(loaded_.asked_files, again);
-  if (crc_of(saved) != checked.at("config_crc32").get<std::uint32_t>()) {
+  const bool is_as_checked = whole_settings(saved) == read_whole_file(trial / "whole.yaml");
+  if (!is_as_checked || crc_of(saved) != checked.at("config_crc32").get<std::uint32_t>()) {
     throw std::runtime_error("the settings have changed since they were checked: check again");
   }
   fs::remove_all(evidence);

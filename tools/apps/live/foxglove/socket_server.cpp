@@ -144,7 +144,7 @@ void SocketServer::start() {
   static const lws_retry_bo_t kSigns = {nullptr, 0, 0, kAskAfter_s, kEndAfter_s, 0};
   lws_set_log_level(0, nullptr);  // it logs what clients do wrong
   bool is_ipv6 = false;
-  const std::string address = resolve(place_, &is_ipv6);
+  address_ = resolve(place_, &is_ipv6);
   lws_context_creation_info info{};
   info.port = place_.port;
   info.protocols = protocols.data();
@@ -157,9 +157,9 @@ void SocketServer::start() {
   info.retry_and_idle_policy = &kSigns;
   info.server_string = "pose_walld";
   info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
-  if (!address.empty()) {
+  if (!address_.empty()) {
     if (!is_ipv6) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
-    if (address != "0.0.0.0" && address != "::") info.iface = address.c_str();
+    if (address_ != "0.0.0.0" && address_ != "::") info.iface = address_.c_str();
     context_ = lws_create_context(&info);
   }
   if (context_ == nullptr) {

@@ -86,6 +86,7 @@ class SocketServer {
   void end(lws* connection);
 
   HostPort place_;
+  std::string address_;  // the library keeps a pointer to it
   Manners manners_;
   lws_context* context_ = nullptr;
   std::unordered_map<lws*, std::unique_ptr<Session>> sessions_;

@@ -106,7 +106,8 @@ struct MqttLink::State {
     changed.notify_all();
   }
   void connect();
-  bool send(const std::string& where, const std::string& message, bool retained);
+  // is_last: whatever waits for the broker's word already.
+  bool send(const std::string& where, const std::string& message, bool retained, bool is_last = false);
 };
 
 // In the library's threads.
@@ -198,10 +199,10 @@ void MqttLink::State::connect() {
   if (status != MQTTASYNC_SUCCESS) fall_apart(MQTTAsync_strerror(status));
 }
 
-bool MqttLink::State::send(const std::string& where, const std::string& message, bool retained) {
+bool MqttLink::State::send(const std::string& where, const std::string& message, bool retained, bool is_last) {
   {
     const std::lock_guard<std::mutex> locked(lock);
-    if (phase != Phase::kConnected || unacknowledged >= kUnacknowledgedMost) {
+    if (phase != Phase::kConnected || (unacknowledged >= kUnacknowledgedMost && !is_last)) {
       ++not_sent;
       return false;
     }
@@ -264,7 +265,7 @@ bool MqttLink::publish(const char* name, const std::string& message, bool retain
 void MqttLink::leave() {
   const auto until = Clock::now() + kLeaveMost;
   if (!is_connected()) return;
-  state_->send(state_->presence_topic, state_->presence.offline, true);
+  state_->send(state_->presence_topic, state_->presence.offline, true, true);
   MQTTAsync_disconnectOptions options = MQTTAsync_disconnectOptions_initializer;
   options.timeout = static_cast<int>(kLeaveMost.count());  // for what is under way
   options.onSuccess = Events::left;

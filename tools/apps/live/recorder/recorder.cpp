@@ -71,13 +71,9 @@ class Recorder final : public Sink, private ChannelOut {
     }
   }
 
-  // Into the chunk that results have begun; they write it.
-  void take_stop(const StopNews& news) override {
-    if (writer_) messages_.tell(news, this);
-  }
-  void take_roadway(const RoadwayNews& news) override {
-    if (writer_) messages_.tell(news, this);
-  }
+  // Into the file that results have begun. Where no result comes any more, they still write what was gathered.
+  void take_stop(const StopNews& news) override { tell(news); }
+  void take_roadway(const RoadwayNews& news) override { tell(news); }
   bool wants_planar() const override { return has_planar_; }
 
   void stop() override {
@@ -126,12 +122,27 @@ class Recorder final : public Sink, private ChannelOut {
     ++files_;
   }
 
+  template <typename News>
+  void tell(const News& news) {
+    if (!writer_) return;
+    try {
+      messages_.tell(news, this);
+      write_chunk_in_time();
+    } catch (const std::exception& fault) {
+      pause(fault.what());
+    }
+  }
+
   void record(const LiveResult& result) {
     messages_.tell(result, this);
     if (Clock::now() - health_last_ >= kHealthEvery) {
       health_last_ = Clock::now();
       messages_.tell(board_.all(), wall_ns(), this);
     }
+    write_chunk_in_time();
+  }
+
+  void write_chunk_in_time() {
     if (Clock::now() - chunk_began_ < kChunkTime && writer_->gathered_bytes() < kChunkBytes) return;
     write_chunk();
     if (writer_->bytes() < file_bytes_most()) return;

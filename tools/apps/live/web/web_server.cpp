@@ -19,6 +19,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "apps/live/log.hpp"
+
 namespace pose_wall::tools::live {
 namespace {
 
@@ -81,13 +83,8 @@ bool write_to(lws* connection, std::string_view bytes, lws_write_protocol kind) 
   return true;
 }
 
-struct Address {
-  std::string numbers;  // empty: all addresses
-  bool is_ipv6;
-};
-
 // The library wants an address in numbers.
-std::optional<Address> resolve(const HostPort& place) {
+std::optional<ListenAddress> resolve(const HostPort& place) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
   hints.ai_flags = AI_PASSIVE;
@@ -96,7 +93,7 @@ std::optional<Address> resolve(const HostPort& place) {
   std::array<char, NI_MAXHOST> numbers{};
   const int fault =
       getnameinfo(found->ai_addr, found->ai_addrlen, numbers.data(), numbers.size(), nullptr, 0, NI_NUMERICHOST);
-  const Address address{numbers.data(), found->ai_family == AF_INET6};
+  const ListenAddress address{numbers.data(), found->ai_family == AF_INET6};
   freeaddrinfo(found);
   if (fault != 0) return std::nullopt;
   return address;
@@ -132,7 +129,17 @@ struct WebServer::Session {
 
 // What the library calls. It knows the server by the context.
 struct WebLoop {
-  static int call(lws* connection, lws_callback_reasons why, void* /*session*/, void* in, std::size_t length) {
+  // The library is written in C: nothing may be thrown through it.
+  static int call(lws* connection, lws_callback_reasons why, void* session, void* in, std::size_t length) {
+    try {
+      return take(connection, why, session, in, length);
+    } catch (const std::exception& fault) {
+      log_line(Grade::kBad, "page", fault.what());
+      return -1;
+    }
+  }
+
+  static int take(lws* connection, lws_callback_reasons why, void* /*session*/, void* in, std::size_t length) {
     lws_context* const context = lws_get_context(connection);
     auto* const server = static_cast<WebServer*>(lws_context_user(context));
     switch (why) {
@@ -192,7 +199,7 @@ void WebServer::post(const std::string& path, Take take) {
 void WebServer::start() {
   static const std::array<lws_protocols, 2> kProtocols = {{{"http", &WebLoop::call, 0, 0, 0, nullptr, 0}, {}}};
   lws_set_log_level(0, nullptr);  // it logs what clients do wrong
-  const std::optional<Address> address = resolve(place_);
+  address_ = resolve(place_);
   lws_context_creation_info info{};
   info.port = place_.port;
   info.protocols = kProtocols.data();
@@ -203,16 +210,17 @@ void WebServer::start() {
   info.timeout_secs = static_cast<unsigned>(kTimeout_s);
   info.keepalive_timeout = kTimeout_s;
   info.server_string = "pose_walld";
+  info.alpn = "http/1.1";  // the other one has no Host, and many streams on a socket
   info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
   const std::string& certificate = access_.certificate_file();
   if (!certificate.empty()) {
     info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
     info.ssl_cert_filepath = info.ssl_private_key_filepath = certificate.c_str();
   }
-  if (address) {
-    if (!address->is_ipv6) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
-    const bool is_any = address->numbers == "0.0.0.0" || address->numbers == "::";
-    if (!is_any) info.iface = address->numbers.c_str();
+  if (address_) {
+    if (!address_->is_ipv6) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
+    const bool is_any = address_->numbers == "0.0.0.0" || address_->numbers == "::";
+    if (!is_any) info.iface = address_->numbers.c_str();
     context_ = lws_create_context(&info);
   }
   if (context_ == nullptr) {
@@ -296,8 +304,13 @@ bool WebServer::send_head(lws* connection, const WebAnswer& answer, std::uint64_
                                   end) != 0) {
     return false;
   }
+  const auto has_own = [&answer](const std::string& name) {
+    return std::any_of(answer.headers.begin(), answer.headers.end(),
+                       [&](const auto& own) { return own.first == name; });
+  };
   for (const auto* headers : {&usual_headers_, &answer.headers}) {
     for (const auto& [name, value] : *headers) {
+      if (headers == &usual_headers_ && has_own(name)) continue;
       const std::string with_colon = name + ":";
       if (lws_add_http_header_by_name(connection, reinterpret_cast<const unsigned char*>(with_colon.c_str()),
                                       reinterpret_cast<const unsigned char*>(value.data()),

@@ -49,6 +49,12 @@ struct WebAnswer {
 WebAnswer web_answer(int status, std::string type, std::shared_ptr<const std::string> content);
 WebAnswer web_answer(int status, std::string type, std::string content);
 
+// Where it listens, as the library wants it.
+struct ListenAddress {
+  std::string numbers;  // 0.0.0.0 and ::: all addresses
+  bool is_ipv6 = false;
+};
+
 struct WebRequest {
   std::string cookies;  // as the browser sends them
   std::string body;     // of a POST: JSON
@@ -104,6 +110,7 @@ class WebServer {
   void end(lws* connection);
 
   HostPort place_;
+  std::optional<ListenAddress> address_;  // the library keeps pointers to it
   WebAccess access_;
   std::vector<std::pair<std::string, std::string>> usual_headers_;
   std::unordered_map<std::string, Take> gives_, takes_;

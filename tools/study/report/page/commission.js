@@ -44,15 +44,15 @@ class CommissionPanel {
   }
 
   propose(changes) {
-    const { draft } = this, boxes = [];
+    const { draft } = this;
     draft.gates = [];
     for (const { key, before, value, reason } of changes) {
       if (key === 'forward_axis') draft.axis = value;
       else if (MOUNTING.includes(key)) draft.mounting[MOUNTING.indexOf(key)] = Number(value);
-      else if (key.startsWith('body_box_')) boxes.push(numbers_of(value));
+      else if (key.startsWith('body_box_')) draft.boxes[Number(key.slice(9)) - 1] = numbers_of(value); // the others stay
       else draft.gates.push({ key, before, value, reason, is_taken: true });
     }
-    if (boxes.length) draft.boxes = boxes.filter((box) => box.length === 6).slice(0, BOXES_MOST);
+    draft.boxes = draft.boxes.filter((box) => box && box.length === 6).slice(0, BOXES_MOST);
     this.confirmed = {};
   }
 
@@ -79,7 +79,9 @@ class CommissionPanel {
     const s = this.state;
     if (!s) return;
     this.panel.hidden = false;
-    const what = JSON.stringify([page.language, this.open_error, s, this.draft && this.draft.gates.length, this.draft && this.draft.boxes.length]);
+    const busy = this.panel.querySelector('.commission-busy');
+    if (busy && s.busy) busy.textContent = this.busy_text();
+    const what = JSON.stringify([page.language, this.open_error, { ...s, busy_s: 0, clouds: 0 }, this.draft && this.draft.gates.length, this.draft && this.draft.boxes.length]);
     if (what === this.shown) return;
     this.shown = what;
     const w = words(), parts = [element('h2', w.commission), element('p', w.commission_on, 'faint')];
@@ -113,10 +115,12 @@ class CommissionPanel {
     });
   }
 
+  busy_text() { return words().commission_busy(words().commission_jobs[this.state.busy], this.state.busy_s); }
+
   // A step's button, or how long it has been at work.
   action(step, text, message) {
-    const s = this.state, w = words();
-    if (s.busy === step) return element('span', w.commission_busy(w.commission_jobs[step], s.busy_s), 'commission-busy');
+    const s = this.state;
+    if (s.busy === step) return element('span', this.busy_text(), 'commission-busy');
     const out = button(text, () => this.ask(step, message ? message() : {}));
     out.disabled = Boolean(s.busy);
     return out;
@@ -168,7 +172,9 @@ class CommissionPanel {
     const confirmations = element('p', undefined, 'commission-confirm');
     for (const name of this.state.to_confirm) {
       const label = element('label');
-      label.append(check_box(this.confirmed[name], (is_so) => { this.confirmed[name] = is_so; }), ` ${w.commission_confirm[name]}`);
+      const box = check_box(this.confirmed[name], (is_so) => { this.confirmed[name] = is_so; });
+      box.dataset.confirms = name;
+      label.append(box, ` ${w.commission_confirm[name]}`);
       confirmations.append(label);
     }
     return [this.canvas, this.space_note, axes, mounting, ...this.draft.boxes.map((_, k) => this.box_row(k)), this.add_row(), confirmations];
@@ -216,6 +222,7 @@ class CommissionPanel {
 
   // is_whole: other rows are shown.
   note_change(is_whole) {
+    for (const box of this.panel.querySelectorAll('[data-confirms]')) box.checked = Boolean(this.confirmed[box.dataset.confirms]);
     if (is_whole) { this.shown = ''; this.show(); } else { this.show_space(); }
   }
 
