@@ -158,7 +158,8 @@ class Http(unittest.TestCase):
         state = daemon.step("examine", {"language": "zh"})
         self.assertRegex(state["examined"]["because"], "[\u4e00-\u9fff]", "in the page's language")
         for key, value in (("http", "0.0.0.0:80"), ("recording", "/etc"), ("no_such_key", "1"), ("planar", "off"),
-                           ("wall_inlier_min", "many"), ("base_frame", "x\nhttp: 0.0.0.0:80"), ("body_box_1", "1 0 0 1 0 1")):
+                           ("wall_inlier_min", "many"), ("base_frame", "x\nhttp: 0.0.0.0:80"),
+                           ("body_box_1", "1 0 0 1 0 1")):
             with self.subTest(key=key):
                 state = daemon.step("check", {"changes": {key: value}})
                 self.assertIn(key, state["error"])
