@@ -46,7 +46,7 @@ std::string result_json(const LiveResult& result) {
 std::string health_json(const std::vector<PartHealth>& parts) {
   Json list = Json::array();
   for (const PartHealth& part : parts) list.push_back(part_json(part));
-  return json_text({{"parts", list}});
+  return json_text({{"schema", 1}, {"parts", list}});
 }
 
 std::string health_in_both_json(const std::vector<PartHealth>& parts) {
