@@ -24,7 +24,7 @@ PAGES = {
     "motion page": (("motion_words.js",), ("motion.html", "motion.js", "motion_views.js")),
 }
 # The English of these comes from the program.
-CHINESE_ALONE = ("reason_texts.", "senses.")
+CHINESE_ALONE = ("reason_texts.", "senses.", "commission_errors.")
 NAMES_ITS_LANGUAGE = "other_language"
 WORDS_MOST, SIGNS_MOST = 40, 80
 HAN = re.compile(r"[\u3400-\u9fff]")

@@ -67,7 +67,9 @@ class View(unittest.TestCase):
 
     def still(self, browser):
         """No frame moves what is looked at; the boxes can be changed, and tell how."""
-        browser.run("page.paused = true; window.edits = [];"
+        browser.run("page.paused = true")
+        self.assertTrue(live_peer.becomes_true(lambda: not browser.run("return page.drawing")), "the last one is drawn")
+        browser.run("window.edits = [];"
                     f"viewer.space.scene.set_boxes({SHORT_BOX}, {{ editable: true, "
                     "on_edit: (index, box, is_done) => window.edits.push([index, box, is_done]) });"
                     "viewer.space.scene.look_from('left')")

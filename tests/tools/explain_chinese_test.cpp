@@ -85,7 +85,7 @@ TEST_F(ExplainInChinese, AnOutcomeIsWhollyChinese) {
 TEST_F(ExplainInChinese, HelpAndFaultsAreChineseToo) {
   const test::Ran help = command({"explain", "--help", "--language", "zh"});
   EXPECT_EQ(help.exit_status, 0);
-  for (const char* part : {"整段记录的摘要", "时间戳最近的一帧", "SVG 文件", "退出状态"}) {
+  for (const char* part : {"整段记录的摘要", "时间戳最近的一帧", "SVG 文件", "退出码"}) {
     EXPECT_TRUE(contains(help.printed, part)) << part;
   }
   const test::Ran stamp = command({"explain", "--stamp", "noon", "frames", "--language", "zh"});

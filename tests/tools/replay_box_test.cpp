@@ -147,7 +147,7 @@ TEST_F(ReplayBox, TellsTheMotionThatWasRecorded) {
 TEST_F(ReplayBox, AGoodBoxComesOutAgain) {
   const Ran ran = replay(path_);
   EXPECT_EQ(ran.exit_status, 0) << ran.printed;
-  EXPECT_TRUE(contains(ran.printed, "6 events (0 to 5): 6 frames, 0 silences")) << ran.printed;
+  EXPECT_TRUE(contains(ran.printed, "events 6 (0 to 5), frames 6, silences 0")) << ran.printed;
   EXPECT_TRUE(contains(ran.printed, "6 bit for bit as recorded, 0 otherwise")) << ran.printed;
 }
 
@@ -407,7 +407,7 @@ TEST_F(ReplayRing, RecordsOfAnEarlierRunAreNotComputed) {
   EXPECT_LT(result.of_other_runs, before);
   const Ran ran = command({"replay-box", "--quiet", path_});
   EXPECT_EQ(ran.exit_status, 0) << ran.printed;
-  EXPECT_TRUE(contains(ran.printed, "4 events (0 to 3)")) << ran.printed;
+  EXPECT_TRUE(contains(ran.printed, "events 4 (0 to 3)")) << ran.printed;
   EXPECT_TRUE(contains(ran.printed, "of another run: not computed")) << ran.printed;
 }
 

@@ -192,7 +192,9 @@ TEST(ReportVerb, SpeaksChineseOnStderrAndInItsHelp) {
 TEST(ReportVerb, IsOneFileThatAsksForNothing) {
   const Road road("1");
   ASSERT_EQ(road.report().exit_status, 0);
-  const std::string page = text_of(road.folder.file("out.html"));
+  std::string page = text_of(road.folder.file("out.html"));
+  const std::string name = "http://www.w3.org/1999/xhtml";  // names a kind of elements, and nothing is asked of it
+  for (std::size_t at = 0; (at = page.find(name)) != std::string::npos;) page.erase(at, name.size());
   for (const char* outside : {"http://", "https://", "src=", "<link", "@import", "url("}) {
     EXPECT_FALSE(contains(page, outside)) << outside;
   }

@@ -41,6 +41,7 @@ std::string hello_event(const LoadedConfig& loaded) {
   return event("hello", json_text({{"head", report::head_json(head, loaded)},
                                    {"words", report::words_json()},
                                    {"mount", mount},
+                                   {"commissioning", loaded.live.commissioning},
                                    {"planar", planar.is_on() ? roadway : Json(nullptr)}}));
 }
 

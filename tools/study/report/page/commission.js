@@ -1,5 +1,6 @@
 // Commissioning from the page: record, examine, axes and boxes, check, save. The daemon keeps what came of each step; the
-// page keeps what a person draws until it is checked. Without the key `commissioning` there is no such panel.
+// page keeps what a person draws until it is checked. The event `hello` tells whether the key `commissioning` is on; else
+// there is no such panel.
 
 const MOUNTING = ['extrinsic_x', 'extrinsic_y', 'extrinsic_z', 'extrinsic_roll', 'extrinsic_pitch', 'extrinsic_yaw'], BOXES_MOST = 4;
 const kDegPerRad = 180 / Math.PI;
@@ -15,7 +16,6 @@ class CommissionPanel {
 
   async look() {
     const answer = await fetch('/commissioning.json').catch(() => null);
-    if (answer && answer.status === 404) return; // for good: a restart with the key brings a new page
     if (answer && answer.ok) this.take(await answer.json());
     setTimeout(() => this.look(), this.state && this.state.open ? 1000 : 5000);
   }
@@ -91,7 +91,7 @@ class CommissionPanel {
     if (s.open && s.recorded) this.show_space();
   }
 
-  error_text(text) { return words().commission_errors[text] || String(text); }
+  error_text(text) { return (words().commission_errors || {})[text] || String(text); }
 
   code() {
     const w = words(), form = element('form', undefined, 'commission-row'), input = element('input');

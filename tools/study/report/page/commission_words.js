@@ -20,7 +20,6 @@ Object.assign(WORDS.en, {
   commission_busy: (what, s) => `${what} … ${Math.round(s)} s`, commission_changed: 'Something was changed since the check: check again.',
   commission_jobs: { record: 'Records', examine: 'Examines', check: 'Checks', save: 'Saves', restart: 'Starts anew' },
   commission_grades: { usable: 'usable', in_part: 'usable in part', not_usable: 'not usable' },
-  commission_errors: {},
 });
 Object.assign(WORDS.zh, {
   commission: '调试', commission_on: 'commissioning 键已打开。机器调试完毕后请将其关闭。',

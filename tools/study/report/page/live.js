@@ -214,6 +214,7 @@ function take_frame(event) {
 
 function take_hello(event) {
   page.hello = JSON.parse(event.data);
+  if (page.hello.commissioning && !commission) commission = new CommissionPanel();
   if (page.hello.planar && !roadway) roadway = new RoadwayView(page.hello.planar);
   if (!recording) return;
   Object.assign(recording, { head: page.hello.head, words: page.hello.words });
@@ -253,4 +254,3 @@ page.language = (navigator.language || 'en').startsWith('zh') ? 'zh' : 'en';
 document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
 show_all();
 connect();
-commission = new CommissionPanel();
