@@ -52,7 +52,7 @@ class View(unittest.TestCase):
         self.port = live_peer.free_port()
         road = live_peer.simulated_road(POSE_WALL)
         self.daemon = live_peer.Program(*live_peer.replay_words(POSE_WALLD, road, "--http", f"127.0.0.1:{self.port}"))
-        self.addCleanup(self.daemon.kill)
+        self.addCleanup(lambda: self.daemon.kill())  # a test may start another one
         self.assertTrue(self.daemon.says("runtime: measures"), self.daemon.log())
 
     def browser(self, width=1000, height=1000, before=""):

@@ -27,9 +27,11 @@ packages_to_test_live="python3-pymodbus python3-serial-asyncio mosquitto mosquit
   python3-rospy python3-rosbag python3-rostopic python3-geometry-msgs python3-sensor-msgs python3-std-msgs
   python3-tf2-msgs python3-diagnostic-msgs python3-genmsg ros-std-msgs ros-sensor-msgs ros-geometry-msgs
   ros-diagnostic-msgs ros-tf2-msgs ros-nav-msgs libtf2-dev python3-roslaunch libfastrtps-dev libfastcdr-dev tshark
-  chromium chromium-driver nodejs python3-prometheus-client python3-jsonschema openssl colcon python3-colcon-cmake
-  python3-colcon-ros ament-cmake rosidl-cmake rosidl-generator-c-cpp librosidl-typesupport-introspection-c-cpp-dev
-  python3-catkin-pkg python3-yaml"
+  chromium chromium-driver nodejs python3-prometheus-client python3-jsonschema openssl"
+# What builds the packages of ROS 2.
+# shellcheck disable=SC2034
+packages_to_test_ros2_packages="colcon python3-colcon-cmake python3-colcon-ros ament-cmake rosidl-cmake
+  rosidl-generator-c-cpp librosidl-typesupport-introspection-c-cpp-dev python3-catkin-pkg python3-yaml"
 # For the tests of the package for Python.
 # shellcheck disable=SC2034
 packages_to_test_python="python3-numpy python3-yaml python3-matplotlib python3-pip python3-setuptools python3-wheel
