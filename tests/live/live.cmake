@@ -17,7 +17,7 @@ function(pose_wall_live_peer name)
     COMMAND ${POSE_WALL_PEER_PYTHON} -W ignore ${CMAKE_CURRENT_SOURCE_DIR}/live/${name}_peer.py ${PROJECT_SOURCE_DIR}
       $<TARGET_FILE:pose_wall_cli> $<TARGET_FILE:pose_walld> ${ARGN})
   set_tests_properties(live.${name}_peer PROPERTIES LABELS live TIMEOUT 600 SKIP_RETURN_CODE 77)
-  if(name MATCHES "^(page|ros1|ros2|endurance)$")
+  if(name MATCHES "^(page|view|ros1|ros2|endurance)$")
     # They measure rates, and a busy machine drops frames.
     set_tests_properties(live.${name}_peer PROPERTIES RUN_SERIAL ON)
   else()
