@@ -3,17 +3,13 @@
 
 #include "apps/live/foxglove/socket_server.hpp"
 
-#include <fmt/format.h>
-#include <libwebsockets.h>
-#include <netdb.h>
-#include <sys/socket.h>
-
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
+#include <vector>
+
+#include "apps/live/web/event_loop.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -22,54 +18,16 @@ using Clock = std::chrono::steady_clock;
 
 // As many as the page has; each may take ten clouds a second.
 constexpr std::size_t kClientsMost = 16;
-constexpr unsigned kConnectionsMost = 64;          // clients, and those that are still asking or are turned away
-constexpr unsigned short kHeaderBytesMost = 4096;  // of a request: a browser's are below 1,000
-// Whoever is slower with a request, or takes nothing of a piece for so long, is gone. Links under ground lose packets
-// for a second or two.
-constexpr int kTimeout_s = 5;
+constexpr unsigned kConnectionsMost = 64;  // clients, and those that are still asking or are turned away
 // So long after the last sign of life a client is asked for one, and so long after that it is ended.
 constexpr std::uint16_t kAskAfter_s = 5, kEndAfter_s = 15;
-constexpr lws_usec_t kWakeEvery_us = 500'000;     // as the page's: health is looked at by then
 constexpr std::size_t kPieceBytes = 65536;        // of a message, between those to others
+constexpr std::size_t kReceivedBytes = 4096;      // at once; a request of a viewer is shorter
 constexpr std::size_t kRequestBytesMost = 65536;  // thousands of subscriptions
 // A viewer asks once for each channel, all at once when it opens a layout.
 constexpr int kRequestsMost = 500;
 constexpr auto kRequestsIn = std::chrono::seconds(1);
-// As in web_server.cpp: the library comes back at once while bytes wait that it does not read.
-constexpr int kTurnsMost = 500;
-constexpr auto kTurnsIn = std::chrono::milliseconds(100), kRest = std::chrono::milliseconds(1);
-
 constexpr unsigned kUpgradeRequired = 426;  // RFC 9110; the library has no name for it
-
-std::string header(lws* connection, lws_token_indexes which) {
-  const int length = lws_hdr_total_length(connection, which);
-  if (length <= 0) return "";
-  std::string text(static_cast<std::size_t>(length) + 1, '\0');  // the copy ends with 0
-  if (lws_hdr_copy(connection, text.data(), length + 1, which) < 0) return "";
-  text.resize(static_cast<std::size_t>(length));
-  return text;
-}
-
-// "localhost:8080", "[::1]:8080".
-std::string host_of(const std::string& header) {
-  if (!header.empty() && header.front() == '[') return header.substr(1, header.find(']') - 1);
-  return header.substr(0, header.rfind(':'));
-}
-
-// The library wants an address in numbers. Empty: there is none.
-std::string resolve(const HostPort& place, bool* is_ipv6) {
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  hints.ai_flags = AI_PASSIVE;
-  addrinfo* found = nullptr;
-  if (getaddrinfo(place.host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) return "";
-  std::array<char, NI_MAXHOST> numbers{};
-  const int fault =
-      getnameinfo(found->ai_addr, found->ai_addrlen, numbers.data(), numbers.size(), nullptr, 0, NI_NUMERICHOST);
-  *is_ipv6 = found->ai_family == AF_INET6;
-  freeaddrinfo(found);
-  return fault == 0 ? numbers.data() : "";
-}
 
 }  // namespace
 
@@ -87,6 +45,10 @@ struct SocketServer::Session {
 // What the library calls. It knows the server by the context.
 struct SocketLoop {
   static int call(lws* connection, lws_callback_reasons why, void* /*session*/, void* in, std::size_t length) {
+    return without_throwing("foxglove", [=] { return take(connection, why, in, length); });
+  }
+
+  static int take(lws* connection, lws_callback_reasons why, void* in, std::size_t length) {
     auto* const server = static_cast<SocketServer*>(lws_context_user(lws_get_context(connection)));
     switch (why) {
       case LWS_CALLBACK_HTTP:
@@ -115,20 +77,10 @@ struct SocketLoop {
         return lws_callback_http_dummy(connection, why, nullptr, in, length);
     }
   }
-
-  struct Timer {
-    lws_sorted_usec_list_t entry;  // the library knows the timer by it
-    SocketServer* server;
-    static void call(lws_sorted_usec_list_t* entry) {
-      Timer* const timer = lws_container_of(entry, Timer, entry);
-      timer->server->wake_all();
-      timer->set();
-    }
-    void set() { lws_sul_schedule(server->context_, 0, &entry, &Timer::call, kWakeEvery_us); }
-  };
 };
 
-SocketServer::SocketServer(HostPort place, Manners manners) : place_(std::move(place)), manners_(std::move(manners)) {}
+SocketServer::SocketServer(HostPort place, Manners manners)
+    : place_(std::move(place)), manners_(std::move(manners)), loop_(std::make_unique<EventLoop>()) {}
 
 SocketServer::~SocketServer() {
   stop();
@@ -136,66 +88,31 @@ SocketServer::~SocketServer() {
 
 void SocketServer::start() {
   // The first is for those who ask for none; nobody gets it.
-  std::vector<lws_protocols> protocols = {{"http", &SocketLoop::call, 0, 0, 0, nullptr, 0}};
+  const auto protocols = std::make_shared<std::vector<lws_protocols>>();
+  protocols->push_back({"http", &SocketLoop::call, 0, 0, 0, nullptr, 0});
   for (const std::string& name : manners_.protocols) {
-    protocols.push_back({name.c_str(), &SocketLoop::call, 0, 4096, 0, nullptr, 0});
+    protocols->push_back({name.c_str(), &SocketLoop::call, 0, kReceivedBytes, 0, nullptr, 0});
   }
-  protocols.push_back({});
+  protocols->push_back({});
+  protocols_ = protocols;
   static const lws_retry_bo_t kSigns = {nullptr, 0, 0, kAskAfter_s, kEndAfter_s, 0};
-  lws_set_log_level(0, nullptr);  // it logs what clients do wrong
-  bool is_ipv6 = false;
-  address_ = resolve(place_, &is_ipv6);
   lws_context_creation_info info{};
-  info.port = place_.port;
-  info.protocols = protocols.data();
+  info.protocols = protocols->data();
   info.user = this;
-  info.fd_limit_per_thread = kConnectionsMost;
-  info.max_http_header_pool = kConnectionsMost;
-  info.max_http_header_data = kHeaderBytesMost;
-  info.timeout_secs = static_cast<unsigned>(kTimeout_s);
-  info.keepalive_timeout = kTimeout_s;
   info.retry_and_idle_policy = &kSigns;
-  info.server_string = "pose_walld";
-  info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
-  if (!address_.empty()) {
-    if (!is_ipv6) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
-    if (address_ != "0.0.0.0" && address_ != "::") info.iface = address_.c_str();
-    context_ = lws_create_context(&info);
-  }
-  if (context_ == nullptr) {
-    throw std::runtime_error(
-        fmt::format("cannot listen at {}:{}: the port is taken, not allowed, or the address is not this machine's",
-                    place_.host, place_.port));
-  }
-  ending_ = false;
-  serves_ = true;
-  thread_ = std::thread([this] { serve(); });
-}
-
-void SocketServer::serve() {
-  SocketLoop::Timer timer{{}, this};
-  timer.set();
-  int turns = 0;
-  Clock::time_point since = Clock::now();
-  while (!ending_ && lws_service(context_, 0) >= 0) {
-    if (Clock::now() - since > kTurnsIn) turns = 0, since = Clock::now();
-    if (++turns > kTurnsMost) std::this_thread::sleep_for(kRest);
-  }
-  serves_ = false;
-  lws_sul_cancel(&timer.entry);
+  loop_->start(place_, kConnectionsMost, info, [this] { wake_all(); });
 }
 
 void SocketServer::wake() {
-  if (context_ != nullptr) lws_cancel_service(context_);
+  loop_->wake();
 }
 
 void SocketServer::stop() {
-  if (context_ == nullptr) return;
-  ending_ = true;
-  lws_cancel_service(context_);
-  thread_.join();
-  lws_context_destroy(context_);
-  context_ = nullptr;
+  loop_->stop();
+}
+
+bool SocketServer::serves() const {
+  return loop_->serves();
 }
 
 void SocketServer::wake_all() {
@@ -206,13 +123,13 @@ void SocketServer::wake_all() {
 // it (DNS rebinding).
 bool SocketServer::lets_in(lws* connection) const {
   if (sessions_.size() >= kClientsMost) return false;
-  const std::string asked = header(connection, WSI_TOKEN_PROTOCOL);
+  const std::string asked = header_text(connection, WSI_TOKEN_PROTOCOL);
   const lws_protocols* const given = lws_get_protocol(connection);
   const bool is_spoken = given != nullptr && std::find(manners_.protocols.begin(), manners_.protocols.end(),
                                                        given->name) != manners_.protocols.end();
   if (asked.empty() || !is_spoken) return false;
-  if (is_loopback(place_.host) && !is_loopback(host_of(header(connection, WSI_TOKEN_HOST)))) return false;
-  return manners_.admits(header(connection, WSI_TOKEN_ORIGIN));
+  if (is_loopback(place_.host) && !is_loopback(host_of(header_text(connection, WSI_TOKEN_HOST)))) return false;
+  return manners_.admits(header_text(connection, WSI_TOKEN_ORIGIN));
 }
 
 void SocketServer::begin(lws* connection) {

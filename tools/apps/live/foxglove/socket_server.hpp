@@ -15,16 +15,16 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <unordered_map>
 #include <vector>
 
 #include "io/config_file/live_settings.hpp"
 
 struct lws;
-struct lws_context;
 
 namespace pose_wall::tools::live {
+
+class EventLoop;
 
 // The head and then the body, as one message.
 struct SocketMessage {
@@ -71,13 +71,12 @@ class SocketServer {
   std::uint64_t turned_away() const { return turned_away_; }  // by origin, name, protocol or number
   std::uint64_t cut_off() const { return cut_off_; }          // that took nothing, or sent too much
   // False once its loop has failed.
-  bool serves() const { return serves_; }
+  bool serves() const;
 
  private:
   friend struct SocketLoop;
   struct Session;
 
-  void serve();
   void wake_all();
   bool lets_in(lws* connection) const;
   void begin(lws* connection);
@@ -86,13 +85,11 @@ class SocketServer {
   void end(lws* connection);
 
   HostPort place_;
-  std::string address_;  // the library keeps a pointer to it
   Manners manners_;
-  lws_context* context_ = nullptr;
   std::unordered_map<lws*, std::unique_ptr<Session>> sessions_;
-  std::thread thread_;
-  std::atomic<bool> ending_{false}, serves_{true};
+  std::shared_ptr<void> protocols_;  // the library may keep a pointer to them
   std::atomic<std::uint64_t> turned_away_{0}, cut_off_{0};
+  std::unique_ptr<EventLoop> loop_;  // last: it ends before what it turns
 };
 
 }  // namespace pose_wall::tools::live

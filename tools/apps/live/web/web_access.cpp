@@ -6,7 +6,6 @@
 #include <arpa/inet.h>
 #include <crypt.h>
 #include <fmt/format.h>
-#include <libwebsockets.h>
 #include <unistd.h>
 
 #include <array>
@@ -17,18 +16,13 @@
 #include <stdexcept>
 
 #include "apps/live/secrets.hpp"
+#include "apps/live/web/event_loop.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
 
 constexpr std::size_t kHostNameBytes = 256;   // POSIX: a name has at most 255
 constexpr std::size_t kLoginBytesMost = 512;  // "Basic " and a name with its password, in base64
-
-// "localhost:8080", "[::1]:8080".
-std::string host_of(const std::string& header) {
-  if (!header.empty() && header.front() == '[') return header.substr(1, header.find(']') - 1);
-  return header.substr(0, header.rfind(':'));
-}
 
 bool is_in_numbers(const std::string& host) {
   std::array<unsigned char, sizeof(in6_addr)> address{};

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <libwebsockets.h>
-#include <netdb.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -19,7 +18,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "apps/live/log.hpp"
+#include "apps/live/web/event_loop.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -28,26 +27,8 @@ using Clock = std::chrono::steady_clock;
 
 // Connections at once: ten times what sixteen viewers, their browsers' spare connections and monitors take.
 constexpr unsigned kConnectionsMost = 512;
-constexpr unsigned short kHeaderBytesMost = 4096;  // of a request: a browser's are below 1,000
-// Whoever is slower with a request, or takes nothing of an answer for so long, holds a descriptor for nothing. Links
-// under ground lose packets for a second or two.
-constexpr int kTimeout_s = 5;
-constexpr lws_usec_t kWakeEvery_us = 500'000;  // a viewer that is gone is noticed by what it does not take
-constexpr std::size_t kPieceBytes = 16384;     // of an answer, between those to others
-// The library comes back at once, again and again, while bytes wait that it does not read: those behind a request, or
-// the end of a connection. So many turns of the loop in so long serve sixteen viewers five times over.
-constexpr int kTurnsMost = 500;
-constexpr auto kTurnsIn = std::chrono::milliseconds(100), kRest = std::chrono::milliseconds(1);
-constexpr std::size_t kHeadBytes = 2048;  // of an answer: the usual headers take 500
-
-std::string header(lws* connection, lws_token_indexes which) {
-  const int length = lws_hdr_total_length(connection, which);
-  if (length <= 0) return "";
-  std::string text(static_cast<std::size_t>(length) + 1, '\0');  // the copy ends with 0
-  if (lws_hdr_copy(connection, text.data(), length + 1, which) < 0) return "";
-  text.resize(static_cast<std::size_t>(length));
-  return text;
-}
+constexpr std::size_t kPieceBytes = 16384;  // of an answer, between those to others
+constexpr std::size_t kHeadBytes = 2048;    // of an answer: the usual headers take 500
 
 bool is_get(lws* connection) {
   return lws_hdr_total_length(connection, WSI_TOKEN_GET_URI) > 0;
@@ -63,8 +44,8 @@ bool is_post(lws* connection) {
 
 // What it would send is not read where nobody takes it, and the library would wait for it.
 bool has_body(lws* connection) {
-  const std::string length = header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH);
-  return (!length.empty() && length != "0") || !header(connection, WSI_TOKEN_HTTP_TRANSFER_ENCODING).empty();
+  const std::string length = header_text(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH);
+  return (!length.empty() && length != "0") || !header_text(connection, WSI_TOKEN_HTTP_TRANSFER_ENCODING).empty();
 }
 
 // Whether a viewer has sent something behind its request, or has gone.
@@ -81,22 +62,6 @@ bool write_to(lws* connection, std::string_view bytes, lws_write_protocol kind) 
   if (lws_write(connection, piece.data() + LWS_PRE, bytes.size(), kind) < 0) return false;
   lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
   return true;
-}
-
-// The library wants an address in numbers.
-std::optional<ListenAddress> resolve(const HostPort& place) {
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_STREAM;
-  hints.ai_flags = AI_PASSIVE;
-  addrinfo* found = nullptr;
-  if (getaddrinfo(place.host.c_str(), nullptr, &hints, &found) != 0 || found == nullptr) return std::nullopt;
-  std::array<char, NI_MAXHOST> numbers{};
-  const int fault =
-      getnameinfo(found->ai_addr, found->ai_addrlen, numbers.data(), numbers.size(), nullptr, 0, NI_NUMERICHOST);
-  const ListenAddress address{numbers.data(), found->ai_family == AF_INET6};
-  freeaddrinfo(found);
-  if (fault != 0) return std::nullopt;
-  return address;
 }
 
 }  // namespace
@@ -129,17 +94,11 @@ struct WebServer::Session {
 
 // What the library calls. It knows the server by the context.
 struct WebLoop {
-  // The library is written in C: nothing may be thrown through it.
-  static int call(lws* connection, lws_callback_reasons why, void* session, void* in, std::size_t length) {
-    try {
-      return take(connection, why, session, in, length);
-    } catch (const std::exception& fault) {
-      log_line(Grade::kBad, "page", fault.what());
-      return -1;
-    }
+  static int call(lws* connection, lws_callback_reasons why, void* /*session*/, void* in, std::size_t length) {
+    return without_throwing("page", [=] { return take(connection, why, in, length); });
   }
 
-  static int take(lws* connection, lws_callback_reasons why, void* /*session*/, void* in, std::size_t length) {
+  static int take(lws* connection, lws_callback_reasons why, void* in, std::size_t length) {
     lws_context* const context = lws_get_context(connection);
     auto* const server = static_cast<WebServer*>(lws_context_user(context));
     switch (why) {
@@ -164,21 +123,13 @@ struct WebLoop {
         return lws_callback_http_dummy(connection, why, nullptr, in, length);
     }
   }
-
-  struct Timer {
-    lws_sorted_usec_list_t entry;  // the library knows the timer by it
-    WebServer* server;
-    static void call(lws_sorted_usec_list_t* entry) {
-      Timer* const timer = lws_container_of(entry, Timer, entry);
-      timer->server->wake_streams();
-      timer->set();
-    }
-    void set() { lws_sul_schedule(server->context_, 0, &entry, &Timer::call, kWakeEvery_us); }
-  };
 };
 
 WebServer::WebServer(HostPort place, WebAccess access, std::vector<std::pair<std::string, std::string>> usual_headers)
-    : place_(std::move(place)), access_(std::move(access)), usual_headers_(std::move(usual_headers)) {}
+    : place_(std::move(place)),
+      access_(std::move(access)),
+      usual_headers_(std::move(usual_headers)),
+      loop_(std::make_unique<EventLoop>()) {}
 
 WebServer::~WebServer() {
   stop();
@@ -198,65 +149,24 @@ void WebServer::post(const std::string& path, Take take) {
 
 void WebServer::start() {
   static const std::array<lws_protocols, 2> kProtocols = {{{"http", &WebLoop::call, 0, 0, 0, nullptr, 0}, {}}};
-  lws_set_log_level(0, nullptr);  // it logs what clients do wrong
-  address_ = resolve(place_);
   lws_context_creation_info info{};
-  info.port = place_.port;
   info.protocols = kProtocols.data();
   info.user = this;
-  info.fd_limit_per_thread = kConnectionsMost;
-  info.max_http_header_pool = kConnectionsMost;
-  info.max_http_header_data = kHeaderBytesMost;
-  info.timeout_secs = static_cast<unsigned>(kTimeout_s);
-  info.keepalive_timeout = kTimeout_s;
-  info.server_string = "pose_walld";
-  info.alpn = "http/1.1";  // the other one has no Host, and many streams on a socket
-  info.options = LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
   const std::string& certificate = access_.certificate_file();
-  if (!certificate.empty()) {
-    info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT;
-    info.ssl_cert_filepath = info.ssl_private_key_filepath = certificate.c_str();
-  }
-  if (address_) {
-    if (!address_->is_ipv6) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
-    const bool is_any = address_->numbers == "0.0.0.0" || address_->numbers == "::";
-    if (!is_any) info.iface = address_->numbers.c_str();
-    context_ = lws_create_context(&info);
-  }
-  if (context_ == nullptr) {
-    throw std::runtime_error(fmt::format(
-        "cannot listen at {}:{}: the port is taken, not allowed, or the address is not this machine's{}", place_.host,
-        place_.port, certificate.empty() ? "" : "; or the certificate and its key do not fit"));
-  }
-  ending_ = false;
-  serves_ = true;
-  thread_ = std::thread([this] { serve(); });
-}
-
-void WebServer::serve() {
-  WebLoop::Timer timer{{}, this};
-  timer.set();
-  int turns = 0;
-  Clock::time_point since = Clock::now();
-  while (!ending_ && lws_service(context_, 0) >= 0) {
-    if (Clock::now() - since > kTurnsIn) turns = 0, since = Clock::now();
-    if (++turns > kTurnsMost) std::this_thread::sleep_for(kRest);
-  }
-  serves_ = false;
-  lws_sul_cancel(&timer.entry);
+  if (!certificate.empty()) info.ssl_cert_filepath = info.ssl_private_key_filepath = certificate.c_str();
+  loop_->start(place_, kConnectionsMost, info, [this] { wake_streams(); });
 }
 
 void WebServer::wake() {
-  if (context_ != nullptr) lws_cancel_service(context_);
+  loop_->wake();
 }
 
 void WebServer::stop() {
-  if (context_ == nullptr) return;
-  ending_ = true;
-  lws_cancel_service(context_);
-  thread_.join();
-  lws_context_destroy(context_);
-  context_ = nullptr;
+  loop_->stop();
+}
+
+bool WebServer::serves() const {
+  return loop_->serves();
 }
 
 void WebServer::wake_streams() {
@@ -274,13 +184,14 @@ std::optional<WebAnswer> WebServer::refusal_of(lws* connection, const std::strin
     return answer;
   }
   if (is_reading && has_body(connection)) return web_answer(400, "text/plain", "a request has no body here\n");
-  if (!header(connection, WSI_TOKEN_HTTP_RANGE).empty()) return web_answer(416, "text/plain", "parts are not given\n");
-  if (!access_.is_own_name(header(connection, WSI_TOKEN_HOST))) {
+  if (!header_text(connection, WSI_TOKEN_HTTP_RANGE).empty())
+    return web_answer(416, "text/plain", "parts are not given\n");
+  if (!access_.is_own_name(header_text(connection, WSI_TOKEN_HOST))) {
     return web_answer(421, "text/plain",
                       is_loopback(place_.host) ? "ask for localhost or 127.0.0.1\n"
                                                : "ask by this machine's address or name, or by one of http_names\n");
   }
-  const WebAccess::Login login = access_.login(header(connection, WSI_TOKEN_HTTP_AUTHORIZATION));
+  const WebAccess::Login login = access_.login(header_text(connection, WSI_TOKEN_HTTP_AUTHORIZATION));
   if (login == WebAccess::Login::kTooOften) {
     WebAnswer answer = web_answer(429, "text/plain", "too many logins at once: try again\n");
     answer.headers.emplace_back("retry-after", "1");
@@ -327,14 +238,14 @@ int WebServer::begin(lws* connection, const std::string& path) {
   std::optional<WebAnswer> refusal = refusal_of(connection, path);
   if (refusal) return give(connection, std::move(*refusal), is_post(connection) || has_body(connection));
   if (is_post(connection)) return begin_body(connection, takes_.at(path));
-  const WebRequest request{header(connection, WSI_TOKEN_HTTP_COOKIE), ""};
+  const WebRequest request{header_text(connection, WSI_TOKEN_HTTP_COOKIE), ""};
   return give(connection, gives_.at(path)(request), false);
 }
 
 // A page of somebody else's can have a browser send text, and nothing that is called JSON.
 int WebServer::begin_body(lws* connection, const Take& take) {
-  const std::string kind = header(connection, WSI_TOKEN_HTTP_CONTENT_TYPE);
-  const std::string length = header(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH);
+  const std::string kind = header_text(connection, WSI_TOKEN_HTTP_CONTENT_TYPE);
+  const std::string length = header_text(connection, WSI_TOKEN_HTTP_CONTENT_LENGTH);
   std::uint64_t bytes = 0;
   const auto [end, fault] = std::from_chars(length.data(), length.data() + length.size(), bytes);
   if (kind.compare(0, std::strlen("application/json"), "application/json") != 0) {
@@ -350,7 +261,7 @@ int WebServer::begin_body(lws* connection, const Take& take) {
   }
   auto session = std::make_unique<Session>();
   session->take = &take;
-  session->request.cookies = header(connection, WSI_TOKEN_HTTP_COOKIE);
+  session->request.cookies = header_text(connection, WSI_TOKEN_HTTP_COOKIE);
   sessions_[connection] = std::move(session);
   lws_set_timeout(connection, PENDING_TIMEOUT_HTTP_CONTENT, kTimeout_s);
   return 0;

@@ -14,7 +14,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -23,9 +22,10 @@
 #include "io/config_file/live_settings.hpp"
 
 struct lws;
-struct lws_context;
 
 namespace pose_wall::tools::live {
+
+class EventLoop;
 
 // What one viewer gets bit by bit. All calls come from the server's thread.
 class WebStream {
@@ -48,12 +48,6 @@ struct WebAnswer {
 };
 WebAnswer web_answer(int status, std::string type, std::shared_ptr<const std::string> content);
 WebAnswer web_answer(int status, std::string type, std::string content);
-
-// Where it listens, as the library wants it.
-struct ListenAddress {
-  std::string numbers;  // 0.0.0.0 and ::: all addresses
-  bool is_ipv6 = false;
-};
 
 struct WebRequest {
   std::string cookies;  // as the browser sends them
@@ -88,13 +82,12 @@ class WebServer {
   // Viewers of streams that took nothing for seconds, and were ended.
   std::uint64_t cut_off() const { return cut_off_; }
   // False once its loop has failed.
-  bool serves() const { return serves_; }
+  bool serves() const;
 
  private:
   friend struct WebLoop;
   struct Session;
 
-  void serve();
   void wake_streams();
   int begin(lws* connection, const std::string& path);
   int begin_body(lws* connection, const Take& take);
@@ -110,15 +103,12 @@ class WebServer {
   void end(lws* connection);
 
   HostPort place_;
-  std::optional<ListenAddress> address_;  // the library keeps pointers to it
   WebAccess access_;
   std::vector<std::pair<std::string, std::string>> usual_headers_;
   std::unordered_map<std::string, Take> gives_, takes_;
-  lws_context* context_ = nullptr;
   std::unordered_map<lws*, std::unique_ptr<Session>> sessions_;
-  std::thread thread_;
-  std::atomic<bool> ending_{false}, serves_{true};
   std::atomic<std::uint64_t> cut_off_{0};
+  std::unique_ptr<EventLoop> loop_;  // last: it ends before what it turns
 };
 
 }  // namespace pose_wall::tools::live
