@@ -15,6 +15,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
+// Any: 50 s after a start, in January 2027.
 constexpr std::int64_t kPublished_ns = 50'000'000'000, kWall_ns = 1'800'000'000'000'000'000;
 
 LiveResult good_result() {

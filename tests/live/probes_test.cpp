@@ -19,7 +19,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr std::int64_t kNow_ns = 50'000'000'000;
+constexpr std::int64_t kNow_ns = 50'000'000'000;  // any, and later than all ages of these tests
 
 // All seven values valid, of a frame that was published 0.1 s ago.
 Moment good_moment() {

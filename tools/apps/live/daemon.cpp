@@ -14,6 +14,7 @@
 #include "apps/live/health_words.hpp"
 #include "apps/live/planar/roadway_sink.hpp"
 #include "apps/live/setting_changes.hpp"
+#include "io/config_file/all_settings.hpp"
 #include "io/config_file/key_table.hpp"
 #include "io/config_file/resolved_frames.hpp"
 #include "io/language/language.hpp"
@@ -136,14 +137,14 @@ void Daemon::post(const std::shared_ptr<const LiveResult>& result) {
 void Daemon::log_start() const {
   log_line(Grade::kGood, "pose_walld", fmt::format("version {}", pose_wall_version()));
   log_lines("axes", resolved_frames_text(resolve_frames(loaded_.config), ""));
-  const auto tell = [this](const std::string& name, const std::string& value) {
-    if (loaded_.origins.count(name) == 0) return;
-    log_line(Grade::kGood, "config", fmt::format("{}: {} ({})", name, value, loaded_.origin(name)));
-  };
-  for (const pose_wall_key_info& key : config_keys()) tell(key.name, config_written_text(*loaded_.config.get(), key));
-  for (const OutsideKey& key : motion_keys()) tell(key.name, motion_value_text(loaded_.motion, key));
-  for (const OutsideKey& key : live_keys()) tell(key.name, live_value_text(loaded_.live, key));
-  for (const OutsideKey& key : planar_keys()) tell(key.name, planar_value_text(loaded_.planar, key));
+  for (const SettingText& setting : all_settings(loaded_)) {
+    if (loaded_.origins.count(setting.key) == 0) continue;
+    // An empty name is told as nothing is, and not in quotes.
+    const bool is_engine = setting.reader == SettingText::Reader::kEngine;
+    log_line(Grade::kGood, "config",
+             fmt::format("{}: {} ({})", setting.key, is_engine ? setting.written() : setting.value,
+                         loaded_.origin(setting.key)));
+  }
   const bool moves = config_text(*loaded_.config.get(), "motion") == "on";
   log_line(Grade::kGood, "motion",
            moves ? "on: held values move with the machine, and its way along the road is told (key motion)"
@@ -207,7 +208,7 @@ void Daemon::take_settings(const std::function<LoadedConfig()>& read) {
     return;
   }
   const std::vector<SettingChange> changes = setting_changes(loaded_, fresh);
-  take_changes(changes, &loaded_);
+  take_changes(changes, fresh, &loaded_);
   set_log_level(log_level_of(loaded_.live.log_level));
   std::size_t taken = 0;
   for (const SettingChange& change : changes) {

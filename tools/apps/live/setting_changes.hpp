@@ -21,7 +21,7 @@ struct SettingChange {
 std::vector<SettingChange> setting_changes(const LoadedConfig& running, const LoadedConfig& fresh);
 
 // Puts those that can be taken into the running settings.
-void take_changes(const std::vector<SettingChange>& changes, LoadedConfig* running);
+void take_changes(const std::vector<SettingChange>& changes, const LoadedConfig& fresh, LoadedConfig* running);
 
 // "log_level: warning instead of info", "udp_port: 2368 instead of 0: waits for a restart".
 std::string change_text(const SettingChange& change);

@@ -26,15 +26,6 @@ bool write_part(const std::filesystem::path& part, std::string_view bytes) {
   return static_cast<bool>(out);
 }
 
-// Waits until a file's bytes, or a folder's names, are on the disk.
-std::error_code sync_to_disk(const std::filesystem::path& path) {
-  const int opened = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool is_synced = opened >= 0 && fsync(opened) == 0;
-  const std::error_code error = is_synced ? std::error_code() : std::error_code(errno, std::generic_category());
-  if (opened >= 0) close(opened);
-  return error;
-}
-
 void write_file(const std::filesystem::path& file, std::string_view bytes, bool survives_power_cut) {
   const std::filesystem::path part = part_of(file);
   std::error_code error, ignored;
@@ -53,6 +44,14 @@ void write_file(const std::filesystem::path& file, std::string_view bytes, bool 
 }
 
 }  // namespace
+
+std::error_code sync_to_disk(const std::filesystem::path& path) {
+  const int opened = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_synced = opened >= 0 && fsync(opened) == 0;
+  const std::error_code error = is_synced ? std::error_code() : std::error_code(errno, std::generic_category());
+  if (opened >= 0) close(opened);
+  return error;
+}
 
 std::filesystem::path part_of(const std::filesystem::path& file) {
   return file.string() + ".pose_wall.part";

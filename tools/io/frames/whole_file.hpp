@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace pose_wall::tools {
 
@@ -19,6 +20,9 @@ void write_whole_file(const std::filesystem::path& file, std::string_view bytes)
 
 // The same, and on the disk when it returns: a power cut leaves the file of before or this one. It waits for the disk.
 void write_lasting_file(const std::filesystem::path& file, std::string_view bytes);
+
+// Waits until a file's bytes, or a folder's names, are on the disk.
+std::error_code sync_to_disk(const std::filesystem::path& path);
 
 // Throws std::runtime_error that names the file.
 std::string read_whole_file(const std::filesystem::path& file);

@@ -8,6 +8,7 @@
 #include "io/config_file/load_config.hpp"
 #include "io/frames/whole_file.hpp"
 #include "io/language/language.hpp"
+#include "io/numbers/utc_text.hpp"
 #include "io/outputs/output_file.hpp"
 #include "io/terminal/interrupt.hpp"
 #include "pose_wall_planar_stop.h"
@@ -21,15 +22,6 @@ namespace pose_wall::tools::evidence {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string now_text() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[sizeof "2026-11-30T08:15:02Z"] = "";
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
-}
 
 // As the daemon's log tells them.
 SettingsMark settings_mark(const fs::path& file) {
@@ -63,7 +55,7 @@ std::uint64_t chunks_of(const fs::path& folder, const Listing& listing) {
 Manifest manifest_of_folder(const fs::path& folder, const Listing& listing, const std::optional<SiteKey>& key,
                             const Step& step) {
   Manifest manifest;
-  manifest.made_at = now_text();
+  manifest.made_at = utc_text(std::time(nullptr));
   manifest.version = pose_wall_version();
   if (key) manifest.signed_by = key->fingerprint();
   for (const std::string& name : listing.files) {

@@ -3,13 +3,11 @@
 
 #include "study/evidence/zip_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <zip.h>
 
-#include <cerrno>
 #include <stdexcept>
 
+#include "io/frames/whole_file.hpp"
 #include "io/language/language.hpp"
 #include "io/language/system_errors.hpp"
 #include "io/terminal/interrupt.hpp"
@@ -51,14 +49,6 @@ void tell_share(zip_t* /*zip*/, double share, void* done) {
   }
 }
 
-// A name must not be that of bytes which a power cut takes.
-bool is_on_disk(const std::filesystem::path& file) {
-  const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (opened < 0) return false;
-  const bool is_synced = fsync(opened) == 0;
-  return close(opened) == 0 && is_synced;
-}
-
 int is_cancelled(zip_t* /*zip*/, void* /*nothing*/) {
   return InterruptWatch::is_interrupted() ? 1 : 0;
 }
@@ -80,7 +70,8 @@ void write_zip(const std::filesystem::path& file, const std::vector<NewMember>& 
     refuse_write(file, zip_strerror(zip.get()));
   }
   static_cast<void>(zip.release());
-  if (!is_on_disk(file)) refuse_write(file, system_error_text(errno));
+  // A name must not be that of bytes which a power cut takes.
+  if (const std::error_code error = sync_to_disk(file)) refuse_write(file, system_error_text(error.value()));
 }
 
 ZipReader::ZipReader(const std::filesystem::path& file) : zip_(nullptr, zip_discard) {

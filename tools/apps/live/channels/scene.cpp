@@ -32,10 +32,11 @@ struct Colour {
 // States as the page has them: green, amber, grey; red where a machine must stand.
 constexpr Colour kGreen{0.16, 0.62, 0.36, 0.35}, kAmber{0.90, 0.62, 0.10, 0.35}, kGrey{0.55, 0.55, 0.55, 0.35},
     kRed{0.85, 0.16, 0.16, 0.5};
-constexpr double kSteps = 1e4;  // of a length, in a metre: what nobody sees is not written
-constexpr double kTextHeight_m = 0.25;
-constexpr double kLine_m = 0.03;  // thickness of a line
-constexpr double kThing_m = 0.3;  // across a thing's ball
+constexpr double kSteps = 1e4;          // of a length, in a metre: what nobody sees is not written
+constexpr double kTextHeight_m = 0.25;  // read across a road of 5 m on a small screen
+constexpr double kLine_m = 0.03;        // thickness of a line
+constexpr double kThing_m = 0.3;        // across a thing's ball
+// Longer than a machine at 1 m/s takes to stand by the default brakes (1.2 s), with a footprint each half metre.
 constexpr double kWay_s = 2.0, kWayStep_s = 0.5;
 constexpr double kStands_m_s = 0.02;  // below it there is no way to be drawn
 

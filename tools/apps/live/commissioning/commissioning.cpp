@@ -35,7 +35,7 @@ constexpr const char* kCookie = "pose_wall_commissioning=";
 constexpr double kRecordedLeast_s = 2.0, kRecordedMost_s = 120.0, kRecordedUsually_s = 30.0;
 // Two minutes of an OS0-128 with 2048 columns at 10 Hz, 24 bytes a point; so nothing of a recording is deleted.
 constexpr double kRoom_mb = 8000.0;
-constexpr std::int64_t kLook_ns = 100'000'000;
+constexpr std::int64_t kLook_ns = 100'000'000;  // a cloud of the usual sensors
 // What a person must have looked at before anything is saved: frames cannot show it.
 constexpr const char* kToConfirm[] = {"ahead", "mounting", "boxes"};
 

@@ -3,7 +3,6 @@
 
 #include "apps/live/commissioning/steps.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,9 +12,11 @@
 #include <stdexcept>
 
 #include "apps/live/commissioning/errand.hpp"
+#include "io/config_file/all_settings.hpp"
 #include "io/config_file/key_table.hpp"
 #include "io/frames/whole_file.hpp"
 #include "io/language/language.hpp"
+#include "io/numbers/utc_text.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -50,10 +51,6 @@ std::vector<std::string> joined(std::vector<std::string> words, const std::vecto
   return words;
 }
 
-std::string utc_now() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-}
-
 bool is_mounting(const std::string& key) {
   return key == "forward_axis" || key.rfind("extrinsic_", 0) == 0 || key.rfind("body_box_", 0) == 0;
 }
@@ -75,15 +72,10 @@ std::string quoted(const std::string& text) {
 // All that is set, whoever set it, so that the file alone measures the recording as it was measured.
 std::string whole_settings(const LoadedConfig& loaded) {
   std::string text = fmt::format("# {}\n", config_crc_text(*loaded.config.get()));
-  const auto add = [&](const std::string& key, bool is_text, const std::string& value) {
-    if (loaded.origins.count(key) > 0) text += fmt::format("{}: {}\n", key, is_text ? quoted(value) : value);
-  };
-  for (const pose_wall_key_info& key : config_keys()) {
-    add(key.name, key.type == POSE_WALL_KEY_TEXT, config_value_text(*loaded.config.get(), key));
-  }
-  for (const OutsideKey& key : motion_keys()) add(key.name, false, motion_value_text(loaded.motion, key));
-  for (const OutsideKey& key : planar_keys()) {
-    add(key.name, key.type == OutsideKey::Type::kText, planar_value_text(loaded.planar, key));
+  for (const SettingText& setting : all_settings(loaded)) {
+    // Ports and folders are this machine's, and measure nothing.
+    if (setting.reader == SettingText::Reader::kLive || loaded.origins.count(setting.key) == 0) continue;
+    text += fmt::format("{}: {}\n", setting.key, setting.is_text ? quoted(setting.value) : setting.written());
   }
   return text;
 }
@@ -167,7 +159,7 @@ LoadedConfig CommissioningSteps::trial_of(const Changes& changes) const {
     }
     all[key] = value;
   }
-  std::string text = fmt::format("# Commissioned from the page, {}.\n", utc_now());
+  std::string text = fmt::format("# Commissioned from the page, {}.\n", utc_text(std::time(nullptr)));
   for (const auto& [key, value] : all) {
     text += fmt::format("{}: {}\n", key, config_written_text(*config.get(), *find_config_key(key)));
   }
@@ -215,8 +207,9 @@ Json CommissioningSteps::save(const Json& who, const Json& examined, const Json&
   fs::create_directories(evidence);
   write_whole_file(evidence / "settings.yaml", whole_settings(saved));
   write_whole_file(evidence / "doctor.json", examined.dump(2) + "\n");
-  write_whole_file(evidence / "commissioning.json",
-                   Json({{"schema", 1}, {"at", utc_now()}, {"who", who}, {"checked", checked}}).dump(2) + "\n");
+  write_whole_file(
+      evidence / "commissioning.json",
+      Json({{"schema", 1}, {"at", utc_text(std::time(nullptr))}, {"who", who}, {"checked", checked}}).dump(2) + "\n");
   for (const char* file : {"results.csv", "report.html"}) put(trial / file, evidence / file);
   for (const std::string& file : recordings()) put(file, evidence / fs::path(file).filename());
   std::vector<std::string> words = {"evidence", evidence, "--force", "-o", evidence_file()};

@@ -4,10 +4,10 @@
 // What commissioning works out and writes, step by step: record, examine, check, save, prove. All of it lies in one
 // folder (key `commissioned`):
 //
-//   settings.yaml   what was saved; it stands over the settings file
-//   recording/      the clouds of the standing machine, MCAP
-//   trial/          the settings that were checked last, with results.csv and report.html
-//   evidence.zip    what proves how the machine was commissioned; signed where site.pem is there
+//   settings.yaml   What was saved. It stands over the settings file.
+//   recording/      The clouds of the standing machine, MCAP.
+//   trial/          The settings that were checked last, with results.csv and report.html.
+//   evidence.zip    What proves how the machine was commissioned. It is signed where site.pem is there.
 
 #pragma once
 

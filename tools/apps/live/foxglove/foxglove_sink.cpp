@@ -64,16 +64,16 @@ class FoxgloveSink final : public Sink, private ChannelOut {
   void take(const LiveResult& result) override {
     messages_.tell(result, this);
     tell_health_now_and_then();
-    server_.wake();
+    wake();
   }
   bool wants_planar() const override { return has_planar_; }
   void take_stop(const StopNews& news) override {
     messages_.tell(news, this);
-    server_.wake();
+    wake();
   }
   void take_roadway(const RoadwayNews& news) override {
     messages_.tell(news, this);
-    server_.wake();
+    wake();
   }
 
   void stop() override { server_.stop(); }
@@ -97,6 +97,10 @@ class FoxgloveSink final : public Sink, private ChannelOut {
 
  private:
   std::string part() const { return "sink foxglove " + address_; }
+
+  void wake() {
+    if (counts_.viewers > 0) server_.wake();
+  }
 
   // What is kept for those who come later is made without subscribers, but for the map, which is large.
   bool wants(ChannelNumber channel) const override { return channel == kLogChannel || news_.has_subscribers(channel); }

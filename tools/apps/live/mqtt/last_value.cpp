@@ -15,7 +15,6 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr std::int64_t kOld_ns = 1'000'000'000;  // ten publications of silence
 constexpr std::int64_t kHolds_ns = std::chrono::nanoseconds(kLastValueHolds).count();
 
 Json in_both(const char* text) {
@@ -58,7 +57,7 @@ LastValue last_value(const LiveResult* newest, std::int64_t now_ns, std::int64_t
     if (publication.age_ns < INT64_MAX - since_ns) {
       json["age_s"] = static_cast<double>(publication.age_ns + since_ns) * 1e-9;
     }
-    if (since_ns <= kOld_ns) {
+    if (since_ns <= kOldResult_ns) {
       api::Config config;
       *config.get() = newest->config;
       const Steering steering = steering_of(publication.result, alert_limits_of(config));

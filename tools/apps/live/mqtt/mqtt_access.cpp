@@ -5,12 +5,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <fstream>
 #include <stdexcept>
 #include <vector>
 
-#include "io/language/system_errors.hpp"
+#include "apps/live/key_file.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -19,10 +18,9 @@ namespace {
 constexpr std::size_t kPasswordMost = 65535;
 
 std::ifstream opened(const char* key, const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || stream.peek() == std::ifstream::traits_type::eof()) {
-    throw std::runtime_error(
-        fmt::format("{}: {}: cannot be read: {}", key, file, stream ? "it is empty" : system_error_text(errno)));
+  std::ifstream stream = open_key_file(key, file);
+  if (stream.peek() == std::ifstream::traits_type::eof()) {
+    throw std::runtime_error(fmt::format("{}: {}: cannot be read: it is empty", key, file));
   }
   return stream;
 }

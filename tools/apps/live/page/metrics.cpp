@@ -19,7 +19,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr double kSecondsPerNs = 1e-9;
+constexpr double kSecondsPerNs = 1e-9;                // OpenMetrics wants seconds
 constexpr std::uint32_t kAngles = POSE_WALL_YAW + 1;  // roll, pitch, yaw come first
 
 double seconds(std::int64_t ns) {

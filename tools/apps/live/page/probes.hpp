@@ -18,9 +18,6 @@
 
 namespace pose_wall::tools::live {
 
-// Older than this a result is that of a worker that hangs: ten publications of silence.
-constexpr std::int64_t kOldResult_ns = 1'000'000'000;
-
 // All that is known at a moment.
 struct Moment {
   std::int64_t now_ns = 0;           // by the clock that nobody sets

@@ -9,12 +9,11 @@
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "apps/live/key_file.hpp"
 #include "apps/live/secrets.hpp"
 #include "apps/live/web/event_loop.hpp"
 
@@ -30,12 +29,6 @@ bool is_in_numbers(const std::string& host) {
          inet_pton(AF_INET6, host.c_str(), address.data()) == 1;
 }
 
-std::ifstream opened(const char* key, const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(fmt::format("{}: {}: {}", key, file, std::strerror(errno)));
-  return stream;
-}
-
 std::string hash_of(const std::string& password, const std::string& setting) {
   crypt_data room{};
   const char* const hash = crypt_r(password.c_str(), setting.c_str(), &room);
@@ -45,7 +38,7 @@ std::string hash_of(const std::string& password, const std::string& setting) {
 // "NAME:HASH", a line each, as `openssl passwd -6` makes the hash.
 std::map<std::string, std::string> read_logins(const std::string& file) {
   std::map<std::string, std::string> hashes;
-  std::ifstream stream = opened("http_login", file);
+  std::ifstream stream = open_key_file("http_login", file);
   std::size_t number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
@@ -64,7 +57,7 @@ std::map<std::string, std::string> read_logins(const std::string& file) {
 
 void look_at_certificate(const std::string& file) {
   std::ostringstream text;
-  text << opened("http_certificate", file).rdbuf();
+  text << open_key_file("http_certificate", file).rdbuf();
   for (const char* part : {"-----BEGIN CERTIFICATE-----", "PRIVATE KEY-----"}) {
     if (text.str().find(part) == std::string::npos) {
       throw std::runtime_error(fmt::format(
