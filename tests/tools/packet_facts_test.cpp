@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "io/packets/hesai_models.hpp"
 #include "io/packets/packet_words.hpp"
 #include "ouster_packets.hpp"
 #include "packet_files.hpp"
@@ -222,6 +223,75 @@ TEST(PacketFacts, OfAnOuster) {
   const SourceSender window = sender_of(", \"column_window\": [0, 13]");
   EXPECT_EQ(found(window, "column window"), "0-13 / 16");
   EXPECT_EQ(found(window, "packets lost"), "") << "not all packets of a turn are sent";
+}
+
+// Bytes 18 and 19 of its head.
+std::string heated(std::string payload, char shutting_down, char limiting) {
+  payload[18] = shutting_down;
+  payload[19] = limiting;
+  return payload;
+}
+
+TEST(PacketFacts, TheHeatOfAnOusterIsThatOfItsNewestPacketAndARecordingTellsAllOfIt) {
+  for (const bool is_fusa : {false, true}) {
+    SCOPED_TRACE(is_fusa);
+    test::OusterPacket packet;
+    packet.profile = is_fusa ? "FUSA_RNG15_RFL8_NIR8_DUAL" : "RNG15_RFL8_NIR8";
+    packet.is_fusa = is_fusa;
+    packet.serial = test::kOusterSerial;
+    const std::string json = test::ouster_json(
+        {packet.profile, is_fusa ? ", \"header_type\": \"FUSA\"" : "", test::ouster_serial_told(packet.serial)});
+    const std::string cool = payload_of(packet);
+    const std::unique_ptr<PacketWords> words = packet_words_for(test::view_of(cool), json);
+    ASSERT_TRUE(words);
+    const auto alert_of = [&](const std::string& payload) {
+      words->hear({0, {}, test::view_of(payload)});
+      return words->state().alert.value_or("not told");
+    };
+    EXPECT_EQ(alert_of(cool), "");
+    EXPECT_EQ(alert_of(heated(cool, 0, 1)), "the sensor is hot and will soon send fewer shots: cool it");
+    EXPECT_EQ(alert_of(heated(cool, 0, 5)),
+              "the sensor is too hot and sends up to 40 % fewer shots, so that dark walls may be missing: cool it");
+    EXPECT_EQ(alert_of(heated(cool, 1, 5)), "the sensor is too hot and will switch itself off: cool it");
+    EXPECT_EQ(alert_of(heated(cool, 0x10, 0x30)), "") << "only the lower halves tell it";
+    SourceSender sender;
+    words->describe(&sender);
+    ASSERT_EQ(sender.oddities.size(), 3U);
+    EXPECT_EQ(sender.oddities.front(), "1 of 5 packets: the sensor is hot and will soon send fewer shots: cool it");
+  }
+  test::OusterPacket legacy;
+  legacy.profile = "LEGACY";
+  const std::string payload = payload_of(legacy);
+  const std::unique_ptr<PacketWords> words = packet_words_for(test::view_of(payload), test::ouster_json({"LEGACY"}));
+  ASSERT_TRUE(words);
+  words->hear({0, {}, test::view_of(payload)});
+  EXPECT_FALSE(words->state().alert) << "it has no place for it";
+}
+
+// Of an XT32: bytes 9, 13 and 19 of its tail.
+std::string hesai_tail(const std::string& date, char heat) {
+  std::string payload = payload_of(test::HesaiPacket{});
+  const std::size_t tail = hesai_traits(HesaiModel::kXt32).tail_at();
+  payload[tail + 9] = heat;
+  payload.replace(tail + 13, 6, date);
+  payload.replace(tail + 19, 4, raw(250'000U));
+  return payload;
+}
+
+TEST(PacketFacts, AHesaiTellsItsHeatAndADateOrSeconds) {
+  const auto state_of = [](const std::string& payload) {
+    const std::unique_ptr<PacketWords> words = packet_words_for(test::view_of(payload), "");
+    words->hear({0, {}, test::view_of(payload)});
+    return words->state();
+  };
+  const std::string new_year_2026("\x7E\x01\x01\0\0\0", 6), in_seconds("\0\0\x69\x55\xB9\0", 6);
+  EXPECT_EQ(state_of(hesai_tail(new_year_2026, 0)).alert.value(), "");
+  EXPECT_EQ(state_of(hesai_tail(new_year_2026, 1)).alert.value(), "the sensor is too hot and pauses: cool it");
+  constexpr std::int64_t kNewYear_ns = 1'767'225'600'250'000'000;  // date -u -d 2026-01-01 +%s, and the microseconds
+  EXPECT_EQ(state_of(hesai_tail(new_year_2026, 0)).clock.value().clock_ns, kNewYear_ns);
+  EXPECT_EQ(state_of(hesai_tail(in_seconds, 0)).clock.value().clock_ns, kNewYear_ns);
+  EXPECT_FALSE(state_of(hesai_tail(std::string(6, '\0'), 0)).clock) << "nobody set it";
+  EXPECT_FALSE(state_of(hesai_tail(std::string("\x7E\x0D\x01\0\0\0", 6), 0)).clock) << "there is no 13th month";
 }
 
 TEST(PacketFacts, OfARoboSense) {

@@ -181,7 +181,7 @@ void Daemon::stop() {
 }
 
 std::vector<PartHealth> Daemon::all() const {
-  std::vector<PartHealth> parts = {runtime_.health(), source_->health()};
+  std::vector<PartHealth> parts = {runtime_.health(), source_->health(), host_clock_.health()};
   if (guard_) parts.push_back(guard_->health());
   if (commands_) parts.push_back(commands_->health(monotonic_ns()));
   if (roadway_) parts.push_back(roadway_->health());

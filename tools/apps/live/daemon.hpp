@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "apps/live/edges.hpp"
+#include "apps/live/host_clock.hpp"
 #include "apps/live/images.hpp"
 #include "apps/live/live_runtime.hpp"
 #include "apps/live/log.hpp"
@@ -76,6 +77,7 @@ class Daemon final : public HealthBoard {
   std::vector<std::unique_ptr<SinkThread>> sinks_;
   std::atomic<bool> restarts_{false};
   ServiceManager service_;
+  HostClock host_clock_;
   HealthLog health_log_;
   std::atomic<std::int64_t> looked_ns_{0};  // when the daemon's own loop last went round; 0: not yet
 };

@@ -11,25 +11,37 @@ namespace {
 
 // Kinds of parts. The longer ones come first.
 constexpr const char* kKinds[] = {
-    translatable("planar stop"),   translatable("planar roadway"), translatable("planar command"),
-    translatable("commands"),      translatable("source replay"),  translatable("source udp"),
-    translatable("source ros1"),   translatable("source ros2"),    translatable("sink page"),
-    translatable("sink recorder"), translatable("sink"),           translatable("part black box"),
-    translatable("part runtime"),  translatable("part config"),    translatable("part axes"),
+    translatable("planar stop"),
+    translatable("planar roadway"),
+    translatable("planar command"),
+    translatable("commands"),
+    translatable("source replay"),
+    translatable("source udp"),
+    translatable("source ros1"),
+    translatable("source ros2"),
+    translatable("sink page"),
+    translatable("sink recorder"),
+    translatable("sink"),
+    translatable("part black box"),
+    translatable("part runtime"),
+    translatable("part config"),
+    translatable("part axes"),
     translatable("part motion"),
+    translatable("part host clock"),
 };
 
 // Names and values of facts that are no sentence: elsewhere the same word may mean something else.
 [[maybe_unused]] constexpr const char* kWords[] = {
-    translatable("fact of"),       translatable("fact type"),         translatable("fact frames"),
-    translatable("fact waits"),    translatable("fact commands"),     translatable("fact stops"),
-    translatable("value type"),    translatable("value unit"),        translatable("value none"),
-    translatable("value good"),    translatable("value none_moving"), translatable("value one_time"),
-    translatable("value stop"),    translatable("value slow"),        translatable("value go"),
-    translatable("value nothing"), translatable("value wait"),        translatable("value choice"),
-    translatable("value frame"),   translatable("value silence"),     translatable("value callback"),
-    translatable("value first"),   translatable("value blind"),       translatable("value tracked"),
-    translatable("value refused"),
+    translatable("fact of"),           translatable("fact type"),         translatable("fact frames"),
+    translatable("fact waits"),        translatable("fact commands"),     translatable("fact stops"),
+    translatable("value type"),        translatable("value unit"),        translatable("value none"),
+    translatable("value good"),        translatable("value none_moving"), translatable("value one_time"),
+    translatable("value stop"),        translatable("value slow"),        translatable("value go"),
+    translatable("value nothing"),     translatable("value wait"),        translatable("value choice"),
+    translatable("value frame"),       translatable("value silence"),     translatable("value callback"),
+    translatable("value first"),       translatable("value blind"),       translatable("value tracked"),
+    translatable("value refused"),     translatable("value yes"),         translatable("value no"),
+    translatable("value since_start"),
 };
 
 // The catalogue's word for one of a kind, else its word for it anywhere, else the word.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <sstream>
 
 #include "io/csv/csv_table.hpp"
@@ -24,6 +25,11 @@ constexpr std::uint8_t kHasSequence = 0x01, kHasSafety = 0x04, kHasConfidence = 
 constexpr std::size_t kSequenceBytes = 4;
 constexpr std::uint16_t kXtProtocol = 0x0106;     // 6.1, as HesaiLidar_SDK_2.0 tells an XT from others
 constexpr std::uint16_t kQt128Protocol = 0x0203;  // 3.2
+// Of a tail's date: years since 1900, or a first byte of 0 and the seconds since 1970 in the last four, the highest
+// byte first. Bit 0 of the byte of heat.
+constexpr std::uint8_t kFirstYear = 70, kCentury = 100, kPauses = 0x01;
+constexpr std::size_t kDateBytes = 6;
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr double kElevationMax_deg = 90.0, kAzimuthMax_deg = 180.0;
 
 std::uint8_t byte_at(ByteView payload, std::size_t offset) {
@@ -139,18 +145,22 @@ double HesaiTraits::firing_start_ns(std::size_t firing, std::size_t firings) con
 
 const HesaiTraits& hesai_traits(HesaiModel model) {
   // Appendix II of each manual has the times: of a packet, and the first one of a laser. Those of an XT32M count from
-  // its last of six blocks, as HesaiLidar_SDK_2.0 does (udp6_1_parser.cc) and as three returns do in Nebula.
+  // its last of six blocks, as HesaiLidar_SDK_2.0 does (udp6_1_parser.cc) and as three returns do in Nebula. Where a
+  // tail has date, microseconds and heat is as in that SDK (udp_protocol_*.h, ea7f86f).
   static const std::array<HesaiTraits, kHesaiModels.size()> traits = {
-      {{HesaiModel::kXt32, hesai_xt32(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 11, 368.0, 5'632.0, true, kXtProtocol},
-       {HesaiModel::kPandar40p, hesai_pandar40p(), 10, 0, 4, 3, 22, 14, 8, -54'670.0, -28'580.0, true},
-       {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 10, 12'310.0, 25'710.0, false},
-       {HesaiModel::kXt16, hesai_xt16(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 11, 368.0, 5'632.0, true, kXtProtocol},
-       {HesaiModel::kXt32m, hesai_xt32m(), 6, kHesaiHeadBytes, 2, 4, 24, 10, 11, 368.0, 5'632.0, true, kXtProtocol, 3},
+      {{HesaiModel::kXt32, hesai_xt32(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 11, 13, 19, 9, 368.0, 5'632.0, true,
+        kXtProtocol},
+       {HesaiModel::kPandar40p, hesai_pandar40p(), 10, 0, 4, 3, 22, 14, 8, 16, 10, 5, -54'670.0, -28'580.0, true},
+       {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 10, 18, 12, 6, 12'310.0, 25'710.0, false},
+       {HesaiModel::kXt16, hesai_xt16(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 11, 13, 19, 9, 368.0, 5'632.0, true,
+        kXtProtocol},
+       {HesaiModel::kXt32m, hesai_xt32m(), 6, kHesaiHeadBytes, 2, 4, 24, 10, 11, 13, 19, 9, 368.0, 5'632.0, true,
+        kXtProtocol, 3},
        // Checksum and state of its safety stand before its tail, as HesaiLidar_SDK_2.0 has it (udp_protocol_v3_2.h).
-       {HesaiModel::kQt128, hesai_qt128(), 2, kHesaiHeadBytes, 2, 4, 47, 33, 34, 1'028.0, 9'000.0, false,
-        kQt128Protocol, 2, kHasSafety | kHasConfidence | kHasOwnChannels, kHasSafety | kHasConfidence},
-       {HesaiModel::kPandar64, hesai_pandar64(), 6, kHesaiShortHeadBytes, 2, 3, 22, 14, 8, -54'668.0, -42'580.0,
-        true}}};
+       {HesaiModel::kQt128, hesai_qt128(), 2, kHesaiHeadBytes, 2, 4, 47, 33, 34, 36, 42, kHesaiNowhere, 1'028.0,
+        9'000.0, false, kQt128Protocol, 2, kHasSafety | kHasConfidence | kHasOwnChannels, kHasSafety | kHasConfidence},
+       {HesaiModel::kPandar64, hesai_pandar64(), 6, kHesaiShortHeadBytes, 2, 3, 22, 14, 8, 16, 10, 5, -54'668.0,
+        -42'580.0, true}}};
   return traits[static_cast<std::size_t>(model)];
 }
 
@@ -187,6 +197,35 @@ std::optional<std::uint32_t> hesai_number(const HesaiTraits& traits, ByteView pa
   const bool has_it = !tells || (byte_at(payload, kFlagsAt) & kHasSequence) != 0;
   if (!has_it || payload.size < traits.bytes() + kSequenceBytes) return std::nullopt;
   return little_endian_at(payload, traits.bytes(), kSequenceBytes);
+}
+
+std::optional<std::int64_t> hesai_clock_ns(const HesaiTraits& traits, ByteView payload) {
+  const std::size_t at = traits.tail_at() + traits.date_offset;
+  std::int64_t seconds = 0;
+  if (byte_at(payload, at) != 0) {
+    std::tm date{};
+    // A Pandar40P and a Pandar64 leave the century out.
+    date.tm_year = byte_at(payload, at) < kFirstYear ? byte_at(payload, at) + kCentury : byte_at(payload, at);
+    date.tm_mon = byte_at(payload, at + 1) - 1;
+    date.tm_mday = byte_at(payload, at + 2);
+    date.tm_hour = byte_at(payload, at + 3);
+    date.tm_min = byte_at(payload, at + 4);
+    date.tm_sec = byte_at(payload, at + 5);
+    const bool is_date = date.tm_mon >= 0 && date.tm_mon < 12 && date.tm_mday >= 1 && date.tm_mday <= 31 &&
+                         date.tm_hour < 24 && date.tm_min < 60 && date.tm_sec <= 60;
+    if (!is_date) return std::nullopt;
+    seconds = timegm(&date);
+  } else {
+    for (std::size_t i = 2; i < kDateBytes; ++i) seconds = seconds << 8 | byte_at(payload, at + i);
+    if (seconds == 0) return std::nullopt;
+  }
+  return kSecond_ns * seconds +
+         1000 * std::int64_t{little_endian_at(payload, traits.tail_at() + traits.micros_offset, 4)};
+}
+
+bool is_hesai_overheated(const HesaiTraits& traits, ByteView payload) {
+  return traits.heat_offset != kHesaiNowhere &&
+         (byte_at(payload, traits.tail_at() + traits.heat_offset) & kPauses) != 0;
 }
 
 std::size_t hesai_returns(const HesaiTraits& traits, ByteView payload) {

@@ -23,6 +23,7 @@ constexpr std::array<HesaiModel, 7> kHesaiModels = {HesaiModel::kXt32,    HesaiM
                                                     HesaiModel::kXt16,    HesaiModel::kXt32m,     HesaiModel::kQt128,
                                                     HesaiModel::kPandar64};
 
+constexpr std::size_t kHesaiNowhere = static_cast<std::size_t>(-1);
 constexpr std::size_t kHesaiShortHeadBytes = 8;  // of a Pandar64, as of a Pandar20
 
 struct HesaiLaser {
@@ -38,10 +39,13 @@ struct HesaiTraits {
   std::size_t block_head_bytes;  // flag and azimuth before a block's returns
   std::size_t return_bytes;
   std::size_t tail_bytes;
-  std::size_t mode_offset;   // of the return mode, within the tail
-  std::size_t speed_offset;  // of the turns a minute, within the tail
-  double first_laser_ns;     // from a firing's time to the first laser's
-  double known_firing_ns;    // from a packet's time to its first firing, or to the last
+  std::size_t mode_offset;    // of the return mode, within the tail
+  std::size_t speed_offset;   // of the turns a minute, within the tail
+  std::size_t date_offset;    // of the time of its packet, six bytes down to the second, within the tail
+  std::size_t micros_offset;  // of the microseconds since then, within the tail
+  std::size_t heat_offset;    // of whether it pauses because of heat, within the tail; kHesaiNowhere: not told
+  double first_laser_ns;      // from a firing's time to the first laser's
+  double known_firing_ns;     // from a packet's time to its first firing, or to the last
   bool last_is_known;
   std::uint16_t protocol = 0;    // version of its head, the lower byte first; 0: it is not looked at
   std::size_t returns_most = 2;  // of a laser's shot
@@ -69,6 +73,12 @@ std::string unread_hesai(ByteView payload);
 
 // The packet's number, where it has one.
 std::optional<std::uint32_t> hesai_number(const HesaiTraits& traits, ByteView payload);
+
+// The time of the packet by the sensor's clock, since 1970; nothing where it is no date.
+std::optional<std::int64_t> hesai_clock_ns(const HesaiTraits& traits, ByteView payload);
+
+// Whether it says that it pauses because of heat.
+bool is_hesai_overheated(const HesaiTraits& traits, ByteView payload);
 
 // How many returns of a shot such data holds, one block each: 1 to 3.
 std::size_t hesai_returns(const HesaiTraits& traits, ByteView payload);

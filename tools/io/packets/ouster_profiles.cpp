@@ -13,6 +13,9 @@ constexpr double kShortUnit_m = 8e-3;  // of the profiles of 15 bits
 constexpr std::size_t kTailBytes = 32;
 constexpr std::size_t kColumnHeadBytes = 12, kLegacyColumnHeadBytes = 16, kLegacyColumnTailBytes = 4;
 constexpr std::uint32_t kLidarPacket = 1;
+// Alike in both heads; of firmware that does not know them they are 0.
+constexpr std::size_t kShuttingDownAt = 18, kLimitingAt = 19;
+constexpr std::uint32_t kLowHalf = 0x0F;
 
 std::uint64_t serial_at(ByteView packet, std::size_t offset) {
   return little_endian_at(packet, offset, 4) | std::uint64_t{little_endian_at(packet, offset + 4, 1)} << 32U;
@@ -60,16 +63,26 @@ OusterReturn ouster_return(const OusterProfile& profile, ByteView pixel, bool ta
 
 OusterHead ouster_head(OusterHeader header, ByteView packet) {
   const auto byte = [&](std::size_t offset) { return little_endian_at(packet, offset, 1); };
-  if (header == OusterHeader::kNone) return {true, 0, 0, 0};
+  if (header == OusterHeader::kNone) return {true};
+  const bool is_shutting_down = (byte(kShuttingDownAt) & kLowHalf) != 0;
+  const std::uint32_t limiting = byte(kLimitingAt) & kLowHalf;
   if (header == OusterHeader::kStandard) {
-    return {little_endian_at(packet, 0, 2) == kLidarPacket, little_endian_at(packet, 2, 2),
-            little_endian_at(packet, 4, 3), serial_at(packet, 7)};
+    return {little_endian_at(packet, 0, 2) == kLidarPacket,
+            little_endian_at(packet, 2, 2),
+            little_endian_at(packet, 4, 3),
+            serial_at(packet, 7),
+            is_shutting_down,
+            limiting};
   }
   // Its kind is one byte, so that a standard head passes for one; there bytes 9 and 10 are of the serial number, here
   // they are reserved.
   const bool is_standard = byte(1) == 0 && (byte(9) | byte(10)) != 0;
-  return {byte(0) == kLidarPacket && !is_standard, little_endian_at(packet, 4, 4), little_endian_at(packet, 1, 3),
-          serial_at(packet, 11)};
+  return {byte(0) == kLidarPacket && !is_standard,
+          little_endian_at(packet, 4, 4),
+          little_endian_at(packet, 1, 3),
+          serial_at(packet, 11),
+          is_shutting_down,
+          limiting};
 }
 
 const char* ouster_header_name(OusterHeader header) {

@@ -50,8 +50,10 @@ inline constexpr std::size_t kOusterHeadBytes = 32;
 struct OusterHead {
   bool is_lidar = false;  // points, as far as can be told
   std::uint32_t frame = 0;
-  std::uint32_t session = 0;  // init id: another one each time the sensor starts or is set up
-  std::uint64_t serial = 0;   // 0: not told
+  std::uint32_t session = 0;      // init id: another one each time the sensor starts or is set up
+  std::uint64_t serial = 0;       // 0: not told
+  bool is_shutting_down = false;  // of heat, soon
+  std::uint32_t limiting = 0;     // of its shots, of heat: 0 none, 1 soon, from 2 on a step of 10 % more each
 };
 
 // `packet` has at least kOusterHeadBytes.

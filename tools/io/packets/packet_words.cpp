@@ -9,11 +9,13 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "io/language/language.hpp"
+#include "io/language/retold.hpp"
 #include "io/packets/hesai_models.hpp"
 #include "io/packets/livox.hpp"
 #include "io/packets/lslidar_models.hpp"
@@ -32,6 +34,11 @@ constexpr double kSpanLeast_s = 1.0;
 // Clocks of sensors and computers differ by a ten-thousandth; what arrives is late by milliseconds.
 constexpr double kClockShare = 0.02, kClockApart_s = 0.1;
 constexpr std::uint64_t kStandingLeast = 10;  // packets
+
+constexpr const char* kFewerShots =
+    translatable("the sensor is too hot and sends up to {} % fewer shots, so that dark walls may be missing: cool it");
+constexpr std::uint32_t kLimitingSoon = 1, kLimitingStep_percent = 10;
+constexpr std::uint64_t kClockMost = 0x7FFFFFFFFFFFFFFFU;  // of an int64
 
 constexpr std::int64_t kHourOfClock_us = 3'600'000'000;
 // A turn takes 50 ms at least: within this an azimuth is not passed twice.
@@ -55,6 +62,29 @@ void add_missing(SourceSender* sender, const MissingPackets& packets) {
             missing, 100.0 * packets.share()));
   }
 }
+
+std::optional<std::uint64_t> missing_of(const MissingPackets& packets) {
+  return packets.is_told() ? std::optional<std::uint64_t>(packets.missing()) : std::nullopt;
+}
+
+// Alerts of a recording: each with the packets that had it.
+class AlertsHeard {
+ public:
+  void hear(const std::string& alert) {
+    ++packets_;
+    if (!alert.empty()) ++heard_[alert];
+  }
+
+  void describe(SourceSender* sender) const {
+    for (const auto& [alert, packets] : heard_) {
+      sender->oddities.push_back(say("{} of {} packets: {}", packets, packets_, retold(language(), alert)));
+    }
+  }
+
+ private:
+  std::map<std::string, std::uint64_t> heard_;
+  std::uint64_t packets_ = 0;
+};
 
 void add_oddity(SourceSender* sender, std::string oddity) {
   if (!oddity.empty()) sender->oddities.push_back(std::move(oddity));
@@ -144,6 +174,13 @@ class VelodyneWords : public PacketWords {
     add_oddity(sender, clock_.oddity());
   }
 
+  SensorState state() const override {
+    SensorState state;
+    if (last_us_) state.clock = ClockReading{1000 * *last_us_, 1000 * kHourOfClock_us};
+    if (turned_deg_ >= kTurnsForView * 360.0 && hole().second < kSectorsOfHole) state.missing = missing_of(packets_);
+    return state;
+  }
+
  private:
   static double azimuth_at_block(ByteView payload, std::size_t block) {
     return 0.01 * little_endian_at(payload, block * kVelodyneBlockBytes + 2, 2);
@@ -191,16 +228,34 @@ class HesaiWords : public PacketWords {
     if (const std::optional<std::uint32_t> number = hesai_number(traits, payload)) {
       packets_.hear(*number, 1.0, std::int64_t{1} << 32);
     }
+    clock_ns_ = hesai_clock_ns(traits, payload);
+    tells_heat_ = traits.heat_offset != kHesaiNowhere;
+    is_overheated_ = is_hesai_overheated(traits, payload);
+    alerts_.hear(alert());
   }
 
   void describe(SourceSender* sender) const override {
     if (const char* const mode = hesai_return_mode(mode_)) add_fact(sender, "return mode", mode);
     if (speed_rpm_ > 0) add_fact(sender, "turn rate", rpm_text(speed_rpm_ / 60.0));
     add_missing(sender, packets_);
+    alerts_.describe(sender);
+  }
+
+  SensorState state() const override {
+    SensorState state;
+    if (tells_heat_) state.alert = alert();
+    if (clock_ns_) state.clock = ClockReading{*clock_ns_};
+    state.missing = missing_of(packets_);
+    return state;
   }
 
  private:
+  std::string alert() const { return is_overheated_ ? translatable("the sensor is too hot and pauses: cool it") : ""; }
+
   std::uint32_t mode_ = 0, speed_rpm_ = 0;
+  std::optional<std::int64_t> clock_ns_;
+  bool tells_heat_ = false, is_overheated_ = false;
+  AlertsHeard alerts_;
   MissingPackets packets_;
 };
 
@@ -221,12 +276,20 @@ class LivoxWords : public PacketWords {
     last_number_ = number;
     const std::uint64_t high = little_endian_at(payload, kClockAt + 4, 4);
     const std::uint64_t clock_ns = high << 32U | little_endian_at(payload, kClockAt, 4);
-    clock_.hear(static_cast<std::int64_t>(clock_ns & 0x7FFFFFFFFFFFFFFFU), datagram.captured_ns, 0);
+    clock_ns_ = static_cast<std::int64_t>(clock_ns & kClockMost);
+    clock_.hear(clock_ns_, datagram.captured_ns, 0);
+  }
+
+  SensorState state() const override {
+    SensorState state;
+    if (time_type_ < kTimeSources.size()) state.is_synchronised = time_type_ > 0;
+    state.clock = ClockReading{clock_ns_};
+    state.missing = missing_of(packets_);
+    return state;
   }
 
   void describe(SourceSender* sender) const override {
     add_fact(sender, "return mode", is_dual_ ? translatable("two returns") : translatable("one return"));
-    static constexpr std::array<const char*, 3> kTimeSources = {translatable("none: since its start"), "PTP", "GPS"};
     if (time_type_ < kTimeSources.size()) {
       add_fact(sender, "time source", kTimeSources[time_type_]);
       add_fact(sender, translatable("synchronised"), time_type_ > 0 ? translatable("yes") : translatable("no"));
@@ -236,8 +299,11 @@ class LivoxWords : public PacketWords {
   }
 
  private:
+  static constexpr std::array<const char*, 3> kTimeSources = {translatable("none: since its start"), "PTP", "GPS"};
+
   bool is_dual_ = false;
   std::uint32_t time_type_ = 0, last_number_ = 0;
+  std::int64_t clock_ns_ = 0;
   MissingPackets packets_;
   ClockBesideArrival clock_;
 };
@@ -264,12 +330,15 @@ class OusterWords : public PacketWords {
       const OusterHead head = ouster_head(metadata_.header, payload);
       frame = head.frame;
       serial_ = head.serial;
+      head_ = head;
     } else {
       frame = little_endian_at(payload, column_at + 10, 2);
     }
     const std::uint64_t high = little_endian_at(payload, column_at + 4, 4);
     const std::uint64_t clock_ns = high << 32U | little_endian_at(payload, column_at, 4);
-    clock_.hear(static_cast<std::int64_t>(clock_ns & 0x7FFFFFFFFFFFFFFFU), datagram.captured_ns, 0);
+    clock_ns_ = static_cast<std::int64_t>(clock_ns & kClockMost);
+    clock_.hear(clock_ns_, datagram.captured_ns, 0);
+    alerts_.hear(alert());
     const std::int64_t columns = metadata_.columns_per_frame, of_packet = metadata_.columns_per_packet;
     // Within a window not all packets come, and which ones depends on the firmware.
     const bool is_all = !metadata_.window || metadata_.window->columns(metadata_.columns_per_frame) == columns;
@@ -294,9 +363,29 @@ class OusterWords : public PacketWords {
     }
     add_missing(sender, packets_);
     add_oddity(sender, clock_.oddity());
+    alerts_.describe(sender);
+  }
+
+  SensorState state() const override {
+    SensorState state;
+    if (metadata_.header != OusterHeader::kNone) state.alert = alert();
+    state.clock = ClockReading{clock_ns_};
+    state.missing = missing_of(packets_);
+    return state;
   }
 
  private:
+  // The steps as ouster-sdk names them (sensor_info.h, 46b7bcee).
+  std::string alert() const {
+    if (head_.is_shutting_down) return translatable("the sensor is too hot and will switch itself off: cool it");
+    if (head_.limiting == kLimitingSoon)
+      return translatable("the sensor is hot and will soon send fewer shots: cool it");
+    if (head_.limiting > kLimitingSoon) {
+      return fmt::format(kFewerShots, kLimitingStep_percent * (head_.limiting - kLimitingSoon));
+    }
+    return "";
+  }
+
   void add_told(SourceSender* sender, const char* word, const char* key) const {
     for (const char* const group : {"", "sensor_info", "config_params"}) {
       const nlohmann::json* page = &page_;
@@ -310,6 +399,9 @@ class OusterWords : public PacketWords {
   OusterMetadata metadata_;
   nlohmann::json page_;
   std::uint64_t serial_ = 0;  // of the packets
+  OusterHead head_;
+  std::int64_t clock_ns_ = 0;
+  AlertsHeard alerts_;
   MissingPackets packets_;
   ClockBesideArrival clock_;
 };
@@ -325,6 +417,11 @@ class RoboSenseM1Words : public PacketWords {
   }
 
   void describe(SourceSender* sender) const override { add_missing(sender, packets_); }
+  SensorState state() const override {
+    SensorState state;
+    state.missing = missing_of(packets_);
+    return state;
+  }
 
  private:
   MissingPackets packets_;
@@ -342,6 +439,8 @@ class LslidarWords : public PacketWords {
   void describe(SourceSender* sender) const override {
     add_fact(sender, "return mode", is_dual_ ? translatable("two returns") : translatable("one return"));
   }
+
+  SensorState state() const override { return {}; }
 
  private:
   bool is_dual_ = false;

@@ -2,13 +2,14 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // What the data packets of one sender tell of it beside its points: return mode, turn rate, source of time, and how
-// many of them are missing. A value of which the packets are no certain witness is left out.
+// many of them are missing; and how it fares. A value of which the packets are no certain witness is left out.
 
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "io/frames/frame_source.hpp"
@@ -48,6 +49,20 @@ class ClockBesideArrival {
   std::uint64_t heard_ = 0;
 };
 
+// A sensor's clock at a packet.
+struct ClockReading {
+  std::int64_t clock_ns = 0;
+  std::int64_t modulus_ns = 0;  // at which it begins anew; 0: never
+};
+
+// What the newest packet of a sensor says of its own state, as far as its packets tell.
+struct SensorState {
+  std::optional<std::string> alert;      // a sentence in English, as retold() takes it; "": all is well
+  std::optional<bool> is_synchronised;   // to a clock outside
+  std::optional<ClockReading> clock;     // nothing: none that could be compared
+  std::optional<std::uint64_t> missing;  // packets, by their numbers
+};
+
 // Is told of all datagrams of one sender.
 class PacketWords {
  public:
@@ -57,7 +72,10 @@ class PacketWords {
   virtual ~PacketWords() = default;
 
   virtual void hear(const Datagram& datagram) = 0;
+  // Of all that was heard.
   virtual void describe(SourceSender* sender) const = 0;
+  // Of the newest packet.
+  virtual SensorState state() const = 0;
 };
 
 // For the sensor whose data this is; nothing where it is of none that tells more. `metadata`: that of an Ouster, or "".

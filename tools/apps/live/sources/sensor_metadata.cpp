@@ -173,6 +173,11 @@ std::unique_ptr<ScanAssembler> SensorMetadata::assembler() {
   return make_assembler(choice_);
 }
 
+std::string SensorMetadata::of_ouster() const {
+  const std::lock_guard<std::mutex> locked(lock_);
+  return is_ouster_metadata(choice_.metadata) ? choice_.metadata : "";
+}
+
 std::uint16_t SensorMetadata::usual_port() const {
   const std::lock_guard<std::mutex> locked(lock_);
   if (by_http_ || is_ouster_metadata(choice_.metadata)) return known_sensor(SensorKind::kOuster).port;

@@ -28,6 +28,8 @@ class SensorMetadata {
 
   // Of its packets; nothing while the sensor has not told yet. Throws FrameError for metadata that does not fit.
   std::unique_ptr<ScanAssembler> assembler();
+  // What an Ouster says of itself; "": another sensor, or not told yet.
+  std::string of_ouster() const;
   // After the sensor was gone: it may tell something else now.
   void ask_again();
 

@@ -14,6 +14,7 @@
 #include "apps/live/edges.hpp"
 #include "apps/live/log.hpp"
 #include "apps/live/sources/sensor_metadata.hpp"
+#include "apps/live/sources/sensor_watch.hpp"
 #include "apps/live/sources/udp_receiver.hpp"
 #include "io/packets/one_sender.hpp"
 #include "io/packets/sensors.hpp"
@@ -111,6 +112,7 @@ class UdpSource final : public Source {
     health.add("packets lost by the kernel", lost_.load());
     if (device_) health.add("packets of the device port", device_packets_.load());
     health.add("silences", silences_.load());
+    watch_.tell(&health);
     return health;
   }
 
@@ -190,6 +192,7 @@ class UdpSource final : public Source {
     }
     last_packet_ns_ = monotonic_ns();
     read_address_ = datagram.from.address;
+    watch_.hear(datagram, watch_.knows_sensor() ? "" : metadata_.of_ouster());
     ++packets_of_use_;
     if (assembler_->senders().chosen() && assembler_->senders().refused() > 0) are_two_ = true;
     while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
@@ -267,6 +270,7 @@ class UdpSource final : public Source {
     }
     are_two_ = false;
     assembler_.reset();
+    watch_.begin_anew();
     metadata_.ask_again();
     is_first_turn_ = true;
     const std::lock_guard<std::mutex> locked(words_lock_);
@@ -293,6 +297,7 @@ class UdpSource final : public Source {
   std::unique_ptr<UdpReceiver> receiver_;
   std::unique_ptr<UdpReceiver> device_;  // of sensors that describe themselves by a port of its own
   std::unique_ptr<OneSender> assembler_;
+  SensorWatch watch_;
   bool are_two_ = false;                 // another one was heard between packets of the one that is read
   std::string wanted_;                   // of two that were heard the one that was read; "": any
   std::optional<std::uint32_t> sender_;  // as the settings name it

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026 the pose_wall authors
+
+// How the sensor fares by its own packets, for the health of its source: its alerts, its clock beside this machine's,
+// and packets that the network lost.
+
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "apps/live/health.hpp"
+#include "io/packets/packet_words.hpp"
+
+namespace pose_wall::tools::live {
+
+// How far a sensor's clock is ahead of this machine's: of all packets of a while the one that was on its way for the
+// shortest time.
+class ClockAhead {
+ public:
+  void hear(const ClockReading& clock, std::int64_t wall_ns);
+  void begin_anew() { *this = ClockAhead(); }
+
+  // Whether it counts from a date, and not since the sensor's start.
+  bool is_of_a_date() const { return is_of_a_date_; }
+  // Nothing before the first packet.
+  std::optional<double> ahead_ms() const;
+
+ private:
+  static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
+  bool is_of_a_date_ = false;
+  std::int64_t while_began_ns_ = 0;
+  std::int64_t ahead_ns_ = kNone, ahead_before_ns_ = kNone;  // in this while, and in the one before
+};
+
+class SensorWatch {
+ public:
+  // Of each data packet of the sensor that is read, in one thread. `metadata`: that of an Ouster, or "".
+  void hear(const Datagram& datagram, const std::string& metadata);
+  bool knows_sensor() const { return words_ != nullptr; }
+  // After the sensor was silent: another one may stand there.
+  void begin_anew();
+
+  // From any thread. Adds facts; an alert makes it a warning. Of a silent sensor it tells the last alert.
+  void tell(PartHealth* health) const;
+
+ private:
+  std::unique_ptr<PacketWords> words_;
+  mutable std::mutex lock_;  // of all below
+  SensorState state_;
+  ClockAhead ahead_;
+  std::uint64_t missing_before_ = 0;
+  bool was_synchronised_ = false;
+};
+
+}  // namespace pose_wall::tools::live
