@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Copyright (c) 2026 the pose_wall authors
 """pose_walld for long: an OS0-128 of 131,072 points at 20 Hz that disappears ten times, and every sink at work with one
-who takes from it: page, ROS 1, ROS 2, Modbus TCP, MQTT, recording with clouds, black box. Each frame is accounted for
-from the sensor to the end of each sink; memory stays flat; the latency is printed.
+who takes from it: page, metrics, Foxglove, ROS 1, ROS 2, Modbus TCP, MQTT, recording with clouds, black box. Each frame
+is accounted for from the sensor to the end of each sink; memory stays flat; the latency is printed.
 
 usage: endurance_peer.py ROOT POSE_WALL POSE_WALLD SENSOR ROS2_PEER [MINUTES [HZ]]        default: a third of one, 20
 The long run, of an hour: tests/live/endurance_peer.py . build/release/pose_wall build/release/pose_walld
 build/release/pose_wall_sensor build/release/tests/pose_wall_ros2_peer 60"""
 
+import base64
 import contextlib
 import json
 import os
@@ -94,6 +95,77 @@ class Page(threading.Thread):
                 tail = tail[-len(b"event: frame") + 1:]
 
 
+class Viewer(threading.Thread):
+    """A viewer of Foxglove that takes all channels and counts the results that it gets."""
+
+    def __init__(self, port):
+        super().__init__(daemon=True)
+        self.port, self.results, self.bytes = port, 0, 0
+
+    def run(self):
+        with contextlib.suppress(ConnectionError), socket.create_connection(("127.0.0.1", self.port)) as link:
+            key = base64.b64encode(os.urandom(16)).decode()
+            link.sendall(f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nUpgrade: websocket\r\n"
+                         f"Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n"
+                         "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n".encode())
+            stream = link.makefile("rb")
+            while stream.readline() not in (b"\r\n", b""):
+                pass
+            of_results = None
+            while True:
+                kind, message = self.message(stream)
+                if kind is None:
+                    return
+                self.bytes += len(message)
+                if kind == 2 and message[:1] == b"\x01":
+                    self.results += int.from_bytes(message[1:5], "little") == of_results
+                told = json.loads(message) if kind == 1 else {}
+                if told.get("op") == "advertise":
+                    ids = {channel["topic"]: channel["id"] for channel in told["channels"]}
+                    of_results = ids.get("/pose_wall/result", of_results)
+                    wanted = [{"id": number, "channelId": number} for number in ids.values()]
+                    self.say(link, json.dumps({"op": "subscribe", "subscriptions": wanted}).encode())
+
+    @staticmethod
+    def message(stream):
+        """(opcode, content) of the next whole message; (None, b"") at the end."""
+        kind, content = None, b""
+        while True:
+            head = stream.read(2)
+            if len(head) < 2:
+                return None, b""
+            length = head[1] & 0x7F
+            if length >= 126:
+                length = int.from_bytes(stream.read(2 if length == 126 else 8), "big")
+            kind = head[0] & 0x0F or kind
+            content += stream.read(length)
+            if head[0] & 0x80:
+                return kind, content
+
+    @staticmethod
+    def say(link, text):
+        """A client's frames are masked; a mask of zeros leaves the text."""
+        head = bytes([0x81, 0x80 | len(text)])
+        if len(text) > 125:
+            head = bytes([0x81, 0xFE]) + len(text).to_bytes(2, "big")
+        link.sendall(head + bytes(4) + text)
+
+
+class Scraper(threading.Thread):
+    """Asks for the metrics once a second."""
+
+    def __init__(self, port):
+        super().__init__(daemon=True)
+        self.port, self.scrapes = port, 0
+
+    def run(self):
+        while True:
+            with contextlib.suppress(OSError):
+                with urllib.request.urlopen(f"http://127.0.0.1:{self.port}/metrics", timeout=30) as answer:
+                    self.scrapes += answer.read().endswith(b"# EOF\n")
+            time.sleep(1.0)
+
+
 class Controller(threading.Thread):
     """Reads image 2 ten times a second, as a controller does."""
 
@@ -125,7 +197,7 @@ class Endurance(unittest.TestCase):
         place = tempfile.TemporaryDirectory()  # pylint: disable=consider-using-with
         self.addCleanup(place.cleanup)
         self.folder = pathlib.Path(place.name)
-        ports = {name: live_peer.free_port() for name in ("http", "modbus", "mqtt", "ros", "metadata")}
+        ports = {name: live_peer.free_port() for name in ("http", "modbus", "mqtt", "ros", "metadata", "foxglove")}
         udp = live_peer.free_port(socket.SOCK_DGRAM)
         domain = 100 + os.getpid() % 100
         environment = os.environ | {"ROS_MASTER_URI": f"http://127.0.0.1:{ports['ros']}", "ROS_IP": "127.0.0.1",
@@ -141,7 +213,8 @@ class Endurance(unittest.TestCase):
         self.assertTrue(live_peer.becomes_true(lambda: config.exists() and config.stat().st_size > 0))
         sets = {"udp_port": udp, "sensor_metadata": f"http://127.0.0.1:{ports['metadata']}", "ros1": 1, "ros2": 1,
                 "mqtt": f"127.0.0.1:{ports['mqtt']}", "recording": self.folder / "recordings", "recording_clouds": 1,
-                "recording_mb": ROOM_MB, "black_box": self.folder / "boxes", "black_box_mb": ROOM_MB}
+                "recording_mb": ROOM_MB, "foxglove": f"127.0.0.1:{ports['foxglove']}",
+                "black_box": self.folder / "boxes", "black_box_mb": ROOM_MB}
         self.daemon = self.start(POSE_WALLD, "--config", config, "--http", f"127.0.0.1:{ports['http']}", "--modbus",
                                  f"127.0.0.1:{ports['modbus']}",
                                  *(word for name, value in sets.items() for word in ("--set", f"{name}={value}")),
@@ -149,8 +222,9 @@ class Endurance(unittest.TestCase):
         self.http = ports["http"]
         self.assertTrue(self.daemon.says("runtime: measures", 90), self.daemon.log())
         self.page, self.controller = Page(self.http), Controller(ports["modbus"])
-        self.page.start()
-        self.controller.start()
+        self.viewer, self.scraper = Viewer(ports["foxglove"]), Scraper(self.http)
+        for taker in (self.page, self.controller, self.viewer, self.scraper):
+            taker.start()
         self.ros1 = self.start("rostopic", "echo", "-p", "/pose_wall/attitude", env=environment)
         self.ros2 = self.start(ROS2_PEER, domain, "results=1", "count=0", "points=0", stdin=subprocess.PIPE)
         self.mqtt = self.start("mosquitto_sub", "-h", "127.0.0.1", "-p", ports["mqtt"], "-t", "pose_wall/#")
@@ -195,7 +269,9 @@ class Endurance(unittest.TestCase):
         print(f"latency median {runtime['latency p50 ms']} ms, 99 % {runtime['latency p99 ms']}, worst "
               f"{runtime['latency worst ms']}; processor {share:.2f} s/s; memory {late[0]:.0f} MB after "
               f"{WARM_UP_S:.0f} s, {late[-1]:.0f} at the end, most {max(late):.0f}")
-        print(f"takers: page {self.page.frames}, Modbus {self.controller.images}, MQTT {len(self.mqtt.lines)}, "
+        parts = {name: sink for name, sink in parts.items() if name.startswith("sink")}
+        print(f"takers: page {self.page.frames}, metrics {self.scraper.scrapes}, Foxglove {self.viewer.results} "
+              f"({self.viewer.bytes / 1e6:.0f} MB), Modbus {self.controller.images}, MQTT {len(self.mqtt.lines)}, "
               f"ROS 1 {len(self.ros1.lines) - 1}, ROS 2 {ros2['attitudes']}")
         for name, sink in parts.items():
             print(f"{name}: {sink['results taken']} taken, {sink['results lost to slowness']} lost to slowness")
@@ -212,7 +288,7 @@ class Endurance(unittest.TestCase):
         self.assertEqual(runtime["frames pushed"], runtime["frames measured"] + sum(lost.values()))
         self.assertGreaterEqual(source["silences"], LOSSES - 1)
         # From the runtime to each sink, and to who takes from it.
-        self.assertEqual(len(parts), 6)
+        self.assertEqual(len(parts), 7)
         self.assertTrue(live_peer.becomes_true(self.all_told), self.parts())
         taken = {name.split()[1]: sink["results taken"] for name, sink in parts.items()}
         missed = MISSED_S * (RATE_HZ + 10.0)  # frames, and silences ten times a second
@@ -220,6 +296,9 @@ class Endurance(unittest.TestCase):
                                  ("ROS 1", len(self.ros1.lines), taken["ros1"]),
                                  ("ROS 2", ros2["attitudes"], runtime["frames measured"])):
             self.assertGreaterEqual(got, given - missed, name)
+        # A viewer that is slow gets fewer, always the newest; this one takes all at once.
+        self.assertGreaterEqual(self.viewer.results, 0.9 * taken["foxglove"] - missed, "Foxglove")
+        self.assertGreaterEqual(self.scraper.scrapes, 0.5 * looks[-1][0] - missed, "once a second and its own time")
         self.assertEqual(self.controller.failures, 0)
         self.assertGreaterEqual(self.controller.images, 5 * looks[-1][0] - missed, "it asks ten times a second")
         self.assertGreaterEqual(len(self.mqtt.lines), looks[-1][0] - MISSED_S, "one a second at least")

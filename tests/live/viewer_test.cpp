@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Proves: a slow viewer gets the newest messages and what it missed is counted; a large channel keeps no other from its
-// turn; who comes later gets what is kept for it. Every request gets its effect or a refusal in words. Pages of other
-// origins are known. The pose in the road is that of the planes, and a frame that measures nothing draws nothing.
+// Proves: a slow viewer gets the newest messages and what it missed is counted; a large channel keeps no small one
+// waiting; who comes later gets what is kept for it. Every request gets its effect or a refusal in words. Pages of
+// other origins are known. The pose in the road is that of the planes, and a frame that measures nothing draws nothing.
 // Does not prove: anything of sockets and readers of others: foxglove_peer.py, recorder_peer.py.
 
 #include <gtest/gtest.h>
@@ -62,15 +62,34 @@ TEST_F(ViewerTalkTest, TheNewestComesAndWhatWasMissedIsCounted) {
   EXPECT_EQ(counts_.sent, 1U);
 }
 
-TEST_F(ViewerTalkTest, ChannelsTakeTurns) {
+// On a slow line a cloud takes seconds: results that came meanwhile go first, all of them.
+TEST_F(ViewerTalkTest, WhatIsSmallGoesBeforeWhatIsLarge) {
+  const std::string cloud(1000, 'c');
   ask(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":1},{"id":2,"channelId":2}]})");
   std::string order;
   for (int i = 0; i < 3; ++i) {
-    board_.put(0, "big", 1);
-    board_.put(1, "b" + std::to_string(i), 1);
-    order += data() + " ";
+    board_.put(0, cloud, 1);
+    for (const char* const result : {"r", "s"}) board_.put(1, result + std::to_string(i), 1);
+    for (int k = 0; k < 3; ++k) order += data().substr(0, 4) + " ";
   }
-  EXPECT_EQ(order, "1:big 2:b0 1:big ");
+  EXPECT_EQ(order, "1:cc 2:r0 2:s0 2:r1 2:s1 1:cc 2:r2 2:s2 1:cc ");
+  EXPECT_EQ(counts_.skipped, 0U);
+}
+
+TEST_F(ViewerTalkTest, WhoSubscribesLaterMakesUpForNothing) {
+  ask(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":2}]})");
+  for (int i = 0; i < 5; ++i) {
+    board_.put(1, "result", 1);
+    EXPECT_EQ(data(), "1:result");
+  }
+  ask(R"({"op":"subscribe","subscriptions":[{"id":2,"channelId":1}]})");
+  std::string order;
+  for (int i = 0; i < 3; ++i) {
+    board_.put(0, "later ", 1);
+    board_.put(1, "result", 1);
+    for (int k = 0; k < 2; ++k) order += data() + " ";
+  }
+  EXPECT_EQ(order, "1:result 2:later  1:result 2:later  1:result 2:later  ");
 }
 
 TEST_F(ViewerTalkTest, AMapIsThereForThoseWhoComeLater) {

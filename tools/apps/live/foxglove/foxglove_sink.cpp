@@ -25,6 +25,8 @@ constexpr std::int64_t kHealthEvery_ns = 1'000'000'000;
 // How each channel is kept for viewers that are slower than it.
 std::vector<Keeping> keeping_of(std::size_t channels) {
   std::vector<Keeping> keeping(channels);
+  // Two seconds and a cloud's way over a slow line; each message is small.
+  for (const std::size_t channel : {kResultChannel, kPoseChannel}) keeping[channel].messages = 20;
   // Results and the planar part tell different transforms and entities, which do not replace each other.
   keeping[kTransformChannel].messages = 4;
   keeping[kSceneChannel].messages = 4;

@@ -87,21 +87,26 @@ std::optional<SocketMessage> ViewerTalk::next() {
     return text_message(Json({{"op", "status"}, {"level", 2}, {"message", std::exchange(refusal_, "")}})
                             .dump(-1, ' ', false, Json::error_handler_t::replace));
   }
-  // By turns, or a large cloud would keep the others from being sent.
-  for (std::size_t i = 0; i < subscriptions_.size(); ++i) {
-    Subscription& subscription = subscriptions_[(turn_ + i) % subscriptions_.size()];
-    const std::optional<ViewerBoard::Message> message = board_.behind(subscription.channel, subscription.seen);
-    if (!message) continue;
-    turn_ = (turn_ + i + 1) % subscriptions_.size();
-    counts_.skipped += message->number - subscription.seen - 1;
-    subscription.seen = message->number;
-    ++counts_.sent;
-    SocketMessage data{false, std::string(1, kMessageData), message->bytes};
-    append_little_endian(&data.head, subscription.id);
-    append_little_endian(&data.head, static_cast<std::uint64_t>(std::max<std::int64_t>(message->time_ns, 0)));
-    return data;
+  // Whoever had the fewest bytes: on a slow line large clouds take what small results leave, and not the other way
+  // round.
+  Subscription* poorest = nullptr;
+  std::optional<ViewerBoard::Message> message;
+  for (Subscription& subscription : subscriptions_) {
+    if (poorest != nullptr && subscription.bytes >= poorest->bytes) continue;
+    std::optional<ViewerBoard::Message> found = board_.behind(subscription.channel, subscription.seen);
+    if (!found) continue;
+    poorest = &subscription;
+    message = std::move(found);
   }
-  return std::nullopt;
+  if (poorest == nullptr) return std::nullopt;
+  counts_.skipped += message->number - poorest->seen - 1;
+  poorest->seen = message->number;
+  poorest->bytes += message->bytes->size();
+  ++counts_.sent;
+  SocketMessage data{false, std::string(1, kMessageData), message->bytes};
+  append_little_endian(&data.head, poorest->id);
+  append_little_endian(&data.head, static_cast<std::uint64_t>(std::max<std::int64_t>(message->time_ns, 0)));
+  return data;
 }
 
 void ViewerTalk::hear(std::string_view message, bool is_text) {
@@ -133,7 +138,10 @@ void ViewerTalk::subscribe(std::uint64_t id, std::uint64_t channel) {
     return refuse(fmt::format("subscription {}: {} are the most", id, kSubscriptionsMost));
   }
   const auto place = static_cast<std::size_t>(channel - 1);
-  subscriptions_.push_back({static_cast<std::uint32_t>(id), place, board_.enter(place)});
+  // It makes up for nothing that others had before it came.
+  std::uint64_t bytes = 0;
+  for (const Subscription& known : subscriptions_) bytes = std::max(bytes, known.bytes);
+  subscriptions_.push_back({static_cast<std::uint32_t>(id), place, board_.enter(place), bytes});
 }
 
 void ViewerTalk::unsubscribe(std::uint64_t id) {
@@ -142,7 +150,6 @@ void ViewerTalk::unsubscribe(std::uint64_t id) {
   if (found == subscriptions_.end()) return refuse(fmt::format("there is no subscription {}", id));
   board_.leave(found->channel);
   subscriptions_.erase(found);
-  turn_ = 0;
 }
 
 void ViewerTalk::refuse(const std::string& why) {

@@ -41,6 +41,7 @@ class ViewerTalk final : public SocketTalk {
     std::uint32_t id;
     std::size_t channel;
     std::uint64_t seen;
+    std::uint64_t bytes = 0;  // that it was sent, beside the others'
   };
   void subscribe(std::uint64_t id, std::uint64_t channel);
   void unsubscribe(std::uint64_t id);
@@ -53,7 +54,6 @@ class ViewerTalk final : public SocketTalk {
   std::deque<std::string> greetings_;
   std::string refusal_;  // the newest one; empty: none waits
   std::vector<Subscription> subscriptions_;
-  std::size_t turn_ = 0;  // of the subscriptions: the one that is looked at first
 };
 
 }  // namespace pose_wall::tools::live
