@@ -356,7 +356,7 @@ void Engine::conclude(const pose_wall_inputs* inputs, bool motion_taken_out, Fra
   found->reasons |= timing.reasons;
   found->measured = measure_quantities(found->floor, found->levelling, found->walls, settings_);
   doubt_repeats(timing, found);
-  widen_by_scan_motion(inputs, motion_taken_out, timing.dt_s, found);
+  widen_by_scan_motion(inputs, motion_taken_out, scan_step_of(memory_.temporal, timing, settings_), found);
   const Change change = change_since_last(inputs, timing, found);
   smooth_and_hold(found->measured, timing, found->stamp_ns, change, settings_, &memory_.temporal, &result->quantity);
   report_findings(*found, result);

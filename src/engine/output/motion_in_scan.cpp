@@ -75,6 +75,8 @@ class ByChange {
   }
 
   bool is_known(std::uint32_t quantity) const { return one_later_ && shows(quantity); }
+  // Whether the last scan's value stands beside this one's.
+  bool compares(std::uint32_t quantity) const { return later_ && shows(quantity); }
   double change_of(std::uint32_t quantity) const {
     return measured_.quantity[quantity].raw - last_.raw[quantity] - since_s_ * last_.taken_out[quantity];
   }
@@ -119,7 +121,7 @@ class ByChange {
 
   // At the mean rate between the frames, however far apart.
   double steady(std::uint32_t quantity, double seconds, double lever_m) const {
-    if (!later_ || !shows(quantity)) return 0.0;
+    if (!compares(quantity)) return 0.0;
     const double random = measured_.quantity[quantity].protection[POSE_WALL_PART_RANDOM];
     const bool by_ends = !is_distance(quantity) || shows(other_end_of(quantity));
     const double moved = by_ends
@@ -198,7 +200,8 @@ OwnChanges kept_of(const Measurements& measured, const ByChange& by_change, cons
 
 ScanInTime scan_in_time(const ScanTime& scan, double since_last_s, const Settings& settings) {
   if (scan.whole_s > 0.0) return {scan, since_last_s, true};
-  const double whole_s = since_last_s < settings.scan_max ? larger(0.0, since_last_s) : settings.scan_max;
+  const bool is_shorter = since_last_s > 0.0 && since_last_s < settings.scan_max;
+  const double whole_s = is_shorter ? since_last_s : settings.scan_max;
   return {{whole_s, 0.5 * whole_s}, since_last_s, false};
 }
 
@@ -304,7 +307,12 @@ void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling
   const auto shown = [&](std::uint32_t q, double seconds) {
     const double by_values = by_change.without_taking_out(q, seconds, lever_m(q));
     if (!is_told_) return by_values;
-    return larger(by_values, seconds * moves(q, *last) - by_odometry(q, seconds, 0.0, *last));
+    // Of two witnesses the odometry is left where no value stands beside this one: what it leaves open counts then.
+    const double moved = seconds * moves(q, *last);
+    if (!by_change.compares(q)) {
+      return moved + by_odometry(q, seconds, measured->quantity[q].protection[POSE_WALL_PART_RANDOM], *last);
+    }
+    return larger(by_values, moved - by_odometry(q, seconds, 0.0, *last));
   };
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     Measurement& m = measured->quantity[q];

@@ -43,7 +43,7 @@ struct ScanInTime {
 };
 
 // scan: by the times that freed it of motion; none: as long as the step from the last frame, up to
-// scan_max. Of a first frame and of a clock that went back it is unknown: 0.
+// scan_max; a first frame's, too.
 ScanInTime scan_in_time(const ScanTime& scan, double since_last_s, const Settings& settings);
 
 // The odometry's motion in base, for walls whose normals are known there. odometry: null for none.

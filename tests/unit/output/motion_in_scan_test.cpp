@@ -248,21 +248,41 @@ TEST(MotionInScan, AScanWithoutTimesTakesAsLongAsItsStep) {
   EXPECT_EQ(scan_in_time({}, 0.07, settings).scan.whole_s, 0.07);
   EXPECT_EQ(scan_in_time({}, 0.07, settings).scan.mean_s, 0.035);
   for (const double since_s : {0.3, 1e9}) EXPECT_EQ(scan_in_time({}, since_s, settings).scan.whole_s, 0.2) << since_s;
-  for (const double since_s : {0.0, -1.0}) EXPECT_EQ(scan_in_time({}, since_s, settings).scan.whole_s, 0.0) << since_s;
+  for (const double since_s : {0.0, -1.0}) EXPECT_EQ(scan_in_time({}, since_s, settings).scan.whole_s, 0.2) << since_s;
 }
 
 // As far as it tells it for sure, and not where its level allows that nothing turns.
 TEST(MotionInScan, WhatAnOdometryTellsIsLeftInAScanWithoutTimes) {
   for (const double level : {0.0, 0.1, 0.3, 2.0, kInfinite}) {
     Frames frames;
-    Measurements m = frames.measured;
+    Measurements before = frames.measured, m = frames.measured;
     const pose_wall_odometry turns = with_rates(0.3, level);
-    MotionInScan(&turns, frames.settings, kAxes)
-        .widen(false, scan_in_time({}, kScan_s, frames.settings), {}, frames.walls, &frames.own, &m);
+    for (Measurements* const measured : {&before, &m}) {
+      MotionInScan(&turns, frames.settings, kAxes)
+          .widen(false, scan_in_time({}, kScan_s, frames.settings), {}, frames.walls, &frames.own, measured);
+    }
     const double sure = std::max(0.0, 0.3 - level);
     EXPECT_NEAR(m.quantity[POSE_WALL_YAW].shown_motion, kActs * kScan_s * sure, 1e-6) << level;
     EXPECT_EQ(added(m, POSE_WALL_YAW), 0.0) << "of the level that jumps are judged by";
   }
+}
+
+// Nothing stands beside a first scan: what the odometry leaves open may all be in it.
+TEST(MotionInScan, OfAFirstScanWithoutTimesTheOdometryIsTheOnlyWitness) {
+  double last = 0.0;
+  for (const double level : {0.0, 0.1, 0.3, 2.0, kInfinite}) {
+    Frames frames;
+    Measurements m = frames.measured;
+    const pose_wall_odometry turns = with_rates(0.3, level);
+    MotionInScan(&turns, frames.settings, kAxes)
+        .widen(false, scan_in_time({}, 0.0, frames.settings), {}, frames.walls, &frames.own, &m);
+    const Measurement& yaw = m.quantity[POSE_WALL_YAW];
+    EXPECT_GE(yaw.shown_motion, kActs * frames.settings.scan_max * 0.3 - 1e-6) << "what it tells for sure, and more";
+    EXPECT_TRUE(level == 0.0 || yaw.shown_motion > last) << level;
+    EXPECT_EQ(added(m, POSE_WALL_YAW), 0.0) << "of the level that jumps are judged by";
+    last = yaw.shown_motion;
+  }
+  EXPECT_EQ(last, kInfinite);
 }
 
 // As the key scan_max: 0 says.
