@@ -37,9 +37,9 @@ STEP_S = 120  # far above what a step takes on a slow machine
 class Daemon:
     """With a road that goes round, its own folder, and what a page knows of it."""
 
-    def __init__(self, test, *more, http_place="127.0.0.1", scheme=http.client.HTTPConnection):
+    def __init__(self, test, *more, http_place="127.0.0.1", scheme=http.client.HTTPConnection, scene="nominal"):
         self.port, self.cookie, self.scheme = live_peer.free_port(), "", scheme
-        self.road = live_peer.simulated_road(POSE_WALL)
+        self.road = live_peer.simulated_road(POSE_WALL, scene=scene)
         self.words = live_peer.replay_words(POSE_WALLD, self.road, "--http", f"{http_place}:{self.port}", *more)
         self.program = live_peer.Program(*self.words)
         test.addCleanup(self.program.kill)
@@ -59,10 +59,11 @@ class Daemon:
 
 
 class Commissioned(Daemon):
-    def __init__(self, test, *more):
+    def __init__(self, test, *more, **options):
         self.home = tempfile.TemporaryDirectory()
         test.addCleanup(self.home.cleanup)
-        super().__init__(test, "--set", "commissioning=1", "--set", f"commissioned={self.home.name}", *more)
+        super().__init__(test, "--set", "commissioning=1", "--set", f"commissioned={self.home.name}", *more,
+                         **options)
         assert self.program.says("runtime: measures"), self.program.log()
 
     def code(self):
@@ -155,8 +156,11 @@ class Http(unittest.TestCase):
         state = daemon.step("record", {"seconds": RECORDED_S})
         self.assertEqual(state["error"], "")
         self.assertGreater(state["recorded"]["clouds"], RECORDED_S)
+        self.assertEqual(daemon.status("POST", "/commissioning/check", {"changes": {}}), 409, "not examined")
         state = daemon.step("examine", {"language": "zh"})
         self.assertRegex(state["examined"]["because"], "[\u4e00-\u9fff]", "in the page's language")
+        self.assertEqual(state["examined"]["grade"], "in_part", "three seconds are short")
+        self.assertEqual(set(state["to_confirm"]), set(ALL_CONFIRMED))
         for key, value in (("http", "0.0.0.0:80"), ("recording", "/etc"), ("no_such_key", "1"), ("planar", "off"),
                            ("wall_inlier_min", "many"), ("base_frame", "x\nhttp: 0.0.0.0:80"),
                            ("body_box_1", "1 0 0 1 0 1")):
@@ -164,6 +168,10 @@ class Http(unittest.TestCase):
                 state = daemon.step("check", {"changes": {key: value}})
                 self.assertIn(key, state["error"])
                 self.assertIsNone(state["checked"])
+        state = daemon.step("check", {"changes": {"forward_axis": "-X"}})
+        self.assertIn("ahead_otherwise", state["to_confirm"], "the recording shows +X, or the settings say so")
+        turned = {"by": "Li", "confirmed": ALL_CONFIRMED, "config_crc32": state["checked"]["config_crc32"]}
+        self.assertEqual(daemon.status("POST", "/commissioning/save", turned), 409)
         changes = {"wall_inlier_min": "800", "body_box_2": "1 1.5 -0.2 0.2 -0.3 0.3"}
         state = daemon.step("check", {"changes": changes})
         self.assertEqual(state["error"], "")
@@ -197,6 +205,7 @@ class Http(unittest.TestCase):
         # Saved settings are the ground of the next ones.
         self.assertEqual(daemon.open().status, 200)
         daemon.step("record", {"seconds": RECORDED_S})
+        daemon.step("examine")
         state = daemon.step("check", {"changes": {"body_box_2": ""}})
         self.assertEqual(state["error"], "")
         trial = (pathlib.Path(daemon.home.name) / "trial" / "settings.yaml").read_text(encoding="utf-8")
@@ -212,6 +221,7 @@ class Http(unittest.TestCase):
         daemon = Commissioned(self, "--set", "wall_inlier_min=700")
         self.assertEqual(daemon.open().status, 200)
         daemon.step("record", {"seconds": RECORDED_S})
+        daemon.step("examine")
         self.assertIn("--set", daemon.step("check", {"changes": {"wall_inlier_min": "800"}})["error"])
 
     def test_a_recording_without_clouds_says_so(self):
@@ -224,6 +234,27 @@ class Http(unittest.TestCase):
         self.assertNotEqual(state["error"], "")
         self.assertIsNone(state["recorded"])
         self.assertEqual(daemon.status("GET", "/state.json"), 200)
+
+    def test_a_sensor_that_is_silent_meanwhile_makes_no_recording(self):
+        daemon = Commissioned(self, "--speed", "0.05")  # a cloud in two seconds
+        self.assertEqual(daemon.open().status, 200)
+        state = daemon.step("record", {"seconds": 5})
+        self.assertIn("the sensor was silent", state["error"])
+        self.assertIsNone(state["recorded"])
+        self.assertEqual(daemon.status("POST", "/commissioning/examine", {}), 409)
+
+    def test_a_recording_of_no_use_is_saved_only_by_who_says_so(self):
+        daemon = Commissioned(self, scene="cavern")  # there is no road
+        self.assertEqual(daemon.open().status, 200)
+        daemon.step("record", {"seconds": RECORDED_S})
+        state = daemon.step("examine")
+        self.assertEqual(state["examined"]["grade"], "not")
+        state = daemon.step("check", {"changes": {}})
+        self.assertEqual(state["to_confirm"], [*ALL_CONFIRMED, "not_usable"])
+        good = {"by": "Li", "confirmed": ALL_CONFIRMED, "config_crc32": state["checked"]["config_crc32"]}
+        answer, told = daemon.ask("POST", "/commissioning/save", good)
+        self.assertEqual((answer.status, json.loads(told)["error"]), (409, "not all is confirmed: tick every box"))
+        self.assertEqual(daemon.step("save", {**good, "confirmed": {**ALL_CONFIRMED, "not_usable": True}})["error"], "")
 
     def test_rules_over_the_keys(self):
         for settings, needle in ((["commissioning=1", "http=127.0.0.1:1"], "commissioned"),
@@ -346,7 +377,8 @@ class InABrowser(unittest.TestCase):
         become(f"{panel}.textContent.includes('录制 30 秒')")
         browser.run(f"commission.ask('record', {{ seconds: {RECORDED_S} }})")  # half a minute less to wait
         become("commission.state.recorded", STEP_S)
-        click("检查")
+        self.assertFalse(browser.run("return Boolean(commission.canvas.isConnected)"), "nothing to draw yet")
+        click("分析")
         become("commission.state.examined", STEP_S)
         become(f"{panel}.querySelector('.use')")
         become("commission.scene && (commission.scene.fault || commission.scene.drawn > 0)")

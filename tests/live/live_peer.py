@@ -131,14 +131,15 @@ def lost_frames(of_program):
     return -1
 
 
-def simulated_road(pose_wall, frames=70, sensor="os1-64"):
+def simulated_road(pose_wall, frames=70, sensor="os1-64", scene="nominal"):
     """A folder with frames and the settings that fit them; made once a build. They go round: 64 that do are frozen."""
-    folder = pathlib.Path(pose_wall).parent / "live_roads" / f"{sensor}_{frames}"
+    name = f"{sensor}_{frames}" + ("" if scene == "nominal" else f"_{scene}")
+    folder = pathlib.Path(pose_wall).parent / "live_roads" / name
     if not (folder / "pose_wall.yaml").exists():
         folder.parent.mkdir(exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder.parent) as making:
             made = pathlib.Path(making) / "road"
-            subprocess.run([str(pose_wall), "sim", "--scene", "nominal", "--sensor", sensor, "--frames", str(frames),
+            subprocess.run([str(pose_wall), "sim", "--scene", scene, "--sensor", sensor, "--frames", str(frames),
                             "--output", str(made)], check=True, capture_output=True)
             with contextlib.suppress(OSError):  # another test was quicker
                 os.rename(made, folder)

@@ -244,7 +244,7 @@ TEST(LevelColumns, StandBehindAllOthersAndOldTablesAreStillRead) {
   const auto old_end = std::find(head.begin(), head.end(), "error") + 1;
   EXPECT_EQ(head.end() - old_end, 3 * POSE_WALL_QUANTITIES + 1);
   EXPECT_EQ(*old_end, "roll_raw_pl");
-  EXPECT_EQ(head.back(), "work");
+  EXPECT_EQ(head.back(), "alert_limit_distance");
   EXPECT_EQ(wide_head.size(), head.size() + POSE_WALL_PARTS * POSE_WALL_QUANTITIES);
   EXPECT_TRUE(std::equal(head.begin(), head.end(), wide_head.begin()));
   // The table as it was written before these columns were there.

@@ -141,12 +141,13 @@ TEST(ResultRows, AnInvalidValueHasNoNumberInCsvAndJson) {
   for (const char* name : {"d_lf", "d_lf_sigma", "d_lf_pl", "d_lf_cause", "d_lf_pl_random"}) EXPECT_EQ(cell(name), "");
   EXPECT_EQ(cell("d_lf_raw"), "2.4") << "what this frame measured stays";
   EXPECT_EQ(cell("d_lf_state"), "invalid");
-  EXPECT_TRUE(contains(result_json_line(outcome, {}), "\"value_m\":null")) << result_json_line(outcome, {});
+  EXPECT_TRUE(contains(result_json_line(outcome), "\"value_m\":null")) << result_json_line(outcome);
 }
 
 TEST(ClosingTable, ALevelBeyondTenAlertLimitsIsNoTolerance) {
-  RunSummary summary({1.0 * kRadPerDeg, 0.1});
+  RunSummary summary;
   FrameOutcome outcome;
+  outcome.limits = {1.0 * kRadPerDeg, 0.1};
   outcome.result = api::make_result();
   for (pose_wall_value& value : outcome.result->quantity) value = test::unmeasured_value();
   outcome.result->quantity[POSE_WALL_D_LF] =

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <string>
@@ -311,6 +313,28 @@ TEST(ReportVerb, ATableOfRunMakesAPageThatSaysSo) {
   }
   EXPECT_TRUE(column<std::uint8_t>(data, "point_label").empty());
   EXPECT_EQ(command({"report", "-q", "-o", page, table_file}).exit_status, 0) << "without --config, too";
+}
+
+// What was valid by wide limits must not stand beside narrow ones.
+TEST(ReportVerb, ATableBringsTheAlertLimitsOfItsRun) {
+  const Road road("3");
+  const std::string table_file = road.folder.file("o.csv"), page = road.folder.file("out.html");
+  ASSERT_EQ(command({"run", "-q", "-c", road.folder.file("road/pose_wall.yaml"), "-s", "alert_limit_distance=0.25",
+                     "-s", "alert_limit_angle_deg=2.5", "-o", table_file, road.folder.file("road/frames")})
+                .exit_status,
+            0);
+  ASSERT_EQ(command({"report", "-q", "-o", page, table_file}).exit_status, 0);
+  const nlohmann::json head = road.data().at("head");
+  EXPECT_NEAR(head.at("alert_deg").get<double>(), 2.5, 1e-7);
+  EXPECT_NEAR(head.at("alert_m").get<double>(), 0.25, 1e-9);
+  std::ifstream stream(table_file);
+  const std::string table{std::istreambuf_iterator<char>(stream), {}}, first = table.substr(0, table.find('\n') + 1);
+  std::string others = table.substr(first.size());
+  for (std::size_t at = others.find(",0.25"); at != std::string::npos; at = others.find(",0.25", at + 1))
+    others[at + 1] = '1';
+  const Ran mixed = command({"report", "-o", page, road.folder.write("m.csv", table + others)});
+  EXPECT_EQ(mixed.exit_status, 1);
+  EXPECT_TRUE(contains(mixed.errors, "its rows have different alert limits")) << mixed.errors;
 }
 
 TEST(ReportVerb, ATableThatItCannotShowIsToldWhatIsMissing) {

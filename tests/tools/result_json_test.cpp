@@ -50,6 +50,8 @@ std::string place_of(std::string column) {
   for (const std::string plane : {"floor", "left_wall", "right_wall"}) {
     if (takes(column, plane + "_")) return "/planes/" + plane + "/" + (column == "reason" ? "reasons" : column);
   }
+  if (column == "alert_limit_angle") return "/steer/0/limit_rad";
+  if (column == "alert_limit_distance") return "/steer/3/limit_m";
   if (column == "left_right_yaw_difference") return "/" + column + "_rad";
   if (column == "reason" || column == "frame_reason") return "/" + column + "s";
   if (column == "points_in") return "/points/in";
@@ -82,7 +84,7 @@ const json& at(const json& line, const std::string& place) {
          return parts;
        }()) {
     if (here->is_null()) return none;
-    here = &here->at(part);
+    here = here->is_array() ? &here->at(std::stoul(part)) : &here->at(part);
   }
   return *here;
 }
@@ -92,7 +94,7 @@ FrameOutcome outcome_of(FrameRunner& runner, const std::string& file) {
 }
 
 void expect_same(const FrameOutcome& outcome) {
-  const std::string text = result_json_line(outcome, {});
+  const std::string text = result_json_line(outcome);
   ASSERT_EQ(text.find('\n'), text.size() - 1) << "one line";
   const json line = json::parse(text);
   EXPECT_EQ(line.at("schema"), 1);
@@ -128,7 +130,7 @@ TEST(ResultJson, AFrameThatNobodyCanReadHasTheSameMembers) {
   // A byte that is no UTF-8, and what JSON must write otherwise.
   const FrameOutcome bad = outcome_of(runner, folder.write("b\xff\"\n.bin", "torn"));
   ASSERT_FALSE(bad.result);
-  const json line = json::parse(result_json_line(bad, {})), whole = json::parse(result_json_line(good, {}));
+  const json line = json::parse(result_json_line(bad)), whole = json::parse(result_json_line(good));
   EXPECT_EQ(line.at("status"), "unreadable");
   EXPECT_NE(line.at("error"), "");
   EXPECT_TRUE(line.at("values").is_null());
@@ -144,14 +146,21 @@ TEST(ResultJson, SaysWhatMaySteer) {
   for (pose_wall_value& value : outcome.result->quantity) value.state = POSE_WALL_VALID;
   outcome.result->quantity[POSE_WALL_D_LF].state = POSE_WALL_INVALID;
   outcome.result->quantity[POSE_WALL_D_LF].reasons = POSE_WALL_R_WALL_SHORT;
-  const json line = json::parse(result_json_line(outcome, {0.02, 0.1}));
+  outcome.limits = {0.01, 0.1};
+  const json line = json::parse(result_json_line(outcome));
   EXPECT_EQ(line.at("steer").size(), 7U);
   EXPECT_EQ(line.at("steer").at(3).at("cause"), "wall_short");
   EXPECT_EQ(line.at("steer").at(3).at("limit_m"), 0.1);
-  EXPECT_EQ(line.at("steer").at(0).at("limit_rad"), 0.02);
+  EXPECT_EQ(line.at("steer").at(0).at("limit_rad"), 0.01);
   EXPECT_EQ(
       line.at("steer_line").at("en").get<std::string>().rfind("may steer: roll, pitch, yaw, d_lb, d_rf, d_rb; ", 0),
       0U);
+  outcome.limits = {0.02, 3.0};
+  const std::string loose = json::parse(result_json_line(outcome)).at("steer_line").at("en");
+  EXPECT_EQ(
+      loose.rfind("may steer: roll (limit 1.146°), pitch (limit 1.146°), yaw (limit 1.146°), d_lb (limit 3.000 m),", 0),
+      0U)
+      << "whoever widened a limit is told of it: " << loose;
 }
 
 TEST(ResultJson, WhatIsNoNumberIsNull) {
@@ -160,7 +169,7 @@ TEST(ResultJson, WhatIsNoNumberIsNull) {
   outcome.result->quantity[POSE_WALL_YAW].state = POSE_WALL_DEGRADED;
   outcome.result->quantity[POSE_WALL_YAW].raw = std::numeric_limits<double>::quiet_NaN();
   outcome.result->quantity[POSE_WALL_YAW].protection_level = std::numeric_limits<double>::infinity();
-  const json yaw = json::parse(result_json_line(outcome, {})).at("values").at("yaw");
+  const json yaw = json::parse(result_json_line(outcome)).at("values").at("yaw");
   EXPECT_TRUE(yaw.at("raw_rad").is_null());
   EXPECT_TRUE(yaw.at("protection_level_rad").is_null());
   EXPECT_EQ(yaw.at("value_rad"), 0.0);

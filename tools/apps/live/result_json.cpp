@@ -31,7 +31,8 @@ std::string result_json(const LiveResult& result) {
   outcome.result = publication.result;
   api::Config config;
   *config.get() = result.config;
-  Json line = result_as_json(outcome, alert_limits_of(config));
+  outcome.limits = alert_limits_of(config);
+  Json line = result_as_json(outcome);
   line.erase("times_ms");
   line.erase("error");
   line["told_by"] = publication.cause == POSE_WALL_RUNTIME_FRAME ? "frame" : "silence";

@@ -111,20 +111,6 @@ std::string triple(const Vector3& v, int digits) {
   return fmt::format("({:+.{}f}, {:+.{}f}, {:+.{}f})", v[0] + 0.0, digits, v[1] + 0.0, digits, v[2] + 0.0, digits);
 }
 
-// Degrees in a key of radians are in range, too. Quarter turns are how sensors are mounted.
-void print_unit_doubts(const api::Config& config) {
-  constexpr double kTiltMost_rad = 0.8;  // 46 deg: no sensor is mounted askew by more. Judgement, 2026-11-26
-  constexpr double kQuarterTurn_rad = 90.0 * kRadPerDeg;
-  constexpr double kNearQuarter_rad = 0.05;  // 3 deg, as a mounting is off a quarter turn. Judgement, 2026-11-26
-  for (const char* key : {"extrinsic_roll", "extrinsic_pitch", "extrinsic_yaw"}) {
-    const double value = config.number(key);
-    const bool is_quarter = std::fabs(std::remainder(value, kQuarterTurn_rad)) < kNearQuarter_rad;
-    if (std::fabs(value) <= kTiltMost_rad || is_quarter) continue;
-    fmt::print("{}", say("warning: {} is in radians: {:g} rad are {:.1f} deg. For {:g} deg write {:.4f}\n", key, value,
-                         value * kDegPerRad, value, value / kDegPerRad));
-  }
-}
-
 void print_axes(const ResolvedFrames& frames) {
   fmt::print("{}", say("forward_axis {}: forward {}, left {}, up {} in base\n", frames.forward_axis,
                        triple(frames.forward_base, 0), triple(frames.left_base, 0), triple(frames.up_base, 0)));
@@ -234,7 +220,6 @@ int check_config(const CheckConfigOptions& options) {
   const LoadedConfig loaded = load_config(options.file, options.settings);
   tell_notes(loaded, false);
   const ResolvedFrames frames = resolve_frames(loaded.config);
-  print_unit_doubts(loaded.config);
   print_axes(frames);
   print_results(loaded, frames);
   print_stop_prospect(loaded);

@@ -27,6 +27,7 @@
 #include "io/csv/truth_csv.hpp"
 #include "io/inputs/frame_sequence.hpp"
 #include "io/language/language.hpp"
+#include "io/numbers/angles.hpp"
 #include "io/outputs/output_file.hpp"
 #include "io/terminal/interrupt.hpp"
 #include "io/terminal/progress_bar.hpp"
@@ -175,12 +176,36 @@ std::vector<std::filesystem::path> files_of_table(const ReportOptions& options) 
   return read;
 }
 
+// What is valid in a table is so by the limits of its run, whatever the settings of now say. Throws where its rows are
+// of runs with different ones.
+void take_limits(const std::vector<FrameOutcome>& outcomes, const std::string& input, api::Config* config) {
+  std::optional<AlertLimits> found;
+  for (const FrameOutcome& outcome : outcomes) {
+    const AlertLimits& limits = outcome.limits;
+    if (!(limits.angle_rad > 0.0 && limits.distance_m > 0.0)) continue;
+    if (found && (found->angle_rad != limits.angle_rad || found->distance_m != limits.distance_m)) {
+      throw std::runtime_error(say("{}: its rows have different alert limits: they are of several runs", input));
+    }
+    found = limits;
+  }
+  if (!found) {
+    fmt::print(stderr, "{}",
+               say("pose_wall report: {}: an older table, which does not tell its alert limits. Those of the settings "
+                   "stand in the page; give the settings of its run by --config\n",
+                   input));
+    return;
+  }
+  (void)config->set("alert_limit_angle_deg", fmt::format("{}", found->angle_rad * kDegPerRad).c_str());
+  (void)config->set("alert_limit_distance", fmt::format("{}", found->distance_m).c_str());
+}
+
 // For a table of `pose_wall run` instead of frames: what it tells, without a cloud.
 int report_results(const ReportOptions& options, const CsvTable& cells) {
   const std::string& input = options.frames.inputs.front();
-  const LoadedConfig loaded = options.frames.load();
+  LoadedConfig loaded = options.frames.load();
   const std::vector<FrameOutcome> outcomes = in_csv_file(input, [&] { return read_result_table(cells); });
   if (outcomes.empty()) throw std::runtime_error(say("{}: the table has no row", input));
+  take_limits(outcomes, input, &loaded.config);
   const std::vector<TruthRow> truth = options.truth.empty() ? std::vector<TruthRow>() : read_truth_csv(options.truth);
   OutputFile output(options.output, files_of_table(options));
   report::PageData data(loaded.config, outcomes.size(), options.points_max);

@@ -31,7 +31,6 @@
 #include "study/results/next_steps.hpp"
 #include "study/results/result_output.hpp"
 #include "study/results/run_summary.hpp"
-#include "study/truth/alert_limits.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -128,14 +127,12 @@ int run(const RunOptions& options) {
   if (has_no_input("run", inputs, options.output)) return kExitUnreadable;
   ResultOutput output(options.output, options.frames.files_read(inputs),
                       options.format == "json" ? ResultFormat::kJson : ResultFormat::kCsv,
-                      options.parts ? PartColumns::kAll : PartColumns::kNone, alert_limits_of(loaded.config));
+                      options.parts ? PartColumns::kAll : PartColumns::kNone);
   if (!options.frames.quiet) print_start(options, loaded, runner, inputs.frames());
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall run: {}\n", error);
 
   const auto started = std::chrono::steady_clock::now();
-  Closing closing{RunSummary(alert_limits_of(loaded.config)),
-                  NextSteps(loaded.config, options.frames.config_file, options.frames.shell_words()),
-                  {}};
+  Closing closing{RunSummary(), NextSteps(loaded.config, options.frames.config_file, options.frames.shell_words()), {}};
   const std::string fault = process_frames(options, inputs, runner, {output, annotated}, closing);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!fault.empty()) fmt::print(stderr, "pose_wall run: {}\n", fault);

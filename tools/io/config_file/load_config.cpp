@@ -103,6 +103,20 @@ class ConfigLoader {
     fault(fmt::format("{}: {}", keys, tr(broken.rule)));
   }
 
+  // Degrees in a key of radians are in range, too. Quarter turns are how sensors are mounted.
+  void doubt_units() {
+    constexpr double kTiltMost_rad = 0.8;  // 46 deg: no sensor is mounted askew by more. Judgement, 2026-11-26
+    constexpr double kQuarterTurn_rad = 90.0 * kRadPerDeg;
+    constexpr double kNearQuarter_rad = 0.05;  // 3 deg, as a mounting is off a quarter turn. Judgement, 2026-11-26
+    for (const char* key : {"extrinsic_roll", "extrinsic_pitch", "extrinsic_yaw"}) {
+      const double value = loaded_.config.number(key);
+      const bool is_quarter = std::fabs(std::remainder(value, kQuarterTurn_rad)) < kNearQuarter_rad;
+      if (std::fabs(value) <= kTiltMost_rad || is_quarter) continue;
+      note(say("warning: {} is in radians: {:g} rad are {:.1f} deg. For {:g} deg write {:.4f}", key, value,
+               value * kDegPerRad, value, value / kDegPerRad));
+    }
+  }
+
   LoadedConfig take() {
     if (!faults_.empty()) throw ConfigError(faults_);
     return std::move(loaded_);
@@ -262,6 +276,7 @@ LoadedConfig load_config(const std::string& files, const std::vector<std::string
   loader.apply_commissioned(settings);
   for (const std::string& setting : settings) loader.apply_setting(setting);
   loader.check_rules();
+  loader.doubt_units();
   LoadedConfig loaded = loader.take();
   loaded.asked_files = files;
   loaded.asked_settings = settings;

@@ -32,7 +32,7 @@ double processor_millis() {
 }  // namespace
 
 FrameRunner::FrameRunner(const api::Config& config, double rate_hz, const pose_wall_motion_settings& motion)
-    : stamps_(rate_hz) {
+    : limits_(alert_limits_of(config)), stamps_(rate_hz) {
   const std::int32_t status = engine_.open(config, motion);
   if (status != POSE_WALL_OK) throw ConfigError(say("the engine: {}", pose_wall_status_text(status)));
   engine_.engine().set_clock(steady_ns);
@@ -44,6 +44,7 @@ FrameOutcome FrameRunner::run(SourcedFrame sourced, const Notice& notice) {
   outcome.source = std::move(sourced.name);
   outcome.stamp_ns = stamps_.next(sourced.stamp_ns);
   outcome.load_ms = sourced.load_ms;
+  outcome.limits = limits_;
   if (!sourced.frame) {
     outcome.error = std::move(sourced.error);
     return outcome;

@@ -40,6 +40,7 @@ class FrameRunner {
 
  private:
   MovingEngine engine_;
+  const AlertLimits limits_;
   FrameStamps stamps_;
   std::uint64_t next_frame_ = 0;
 };

@@ -129,18 +129,31 @@ void add_parts(std::vector<Column>& columns, std::uint32_t q) {
 }
 
 // Those behind `error`, which once was the last.
-std::vector<Column> make_last_columns(PartColumns parts) {
+std::vector<Column> make_level_columns() {
   std::vector<Column> columns;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) add_level(columns, q);
   columns.push_back({"work", [](const pose_wall_result& r) { return std::to_string(r.work); }});
-  for (std::uint32_t q = 0; parts == PartColumns::kAll && q < POSE_WALL_QUANTITIES; ++q) add_parts(columns, q);
   return columns;
 }
 
-const std::vector<Column>& last_columns(PartColumns parts) {
-  static const std::vector<Column> few = make_last_columns(PartColumns::kNone);
-  static const std::vector<Column> all = make_last_columns(PartColumns::kAll);
-  return parts == PartColumns::kAll ? all : few;
+std::vector<Column> make_part_columns() {
+  std::vector<Column> columns;
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) add_parts(columns, q);
+  return columns;
+}
+
+const std::vector<Column>& level_columns() {
+  static const std::vector<Column> columns = make_level_columns();
+  return columns;
+}
+
+const std::vector<Column>& part_columns(PartColumns parts) {
+  static const std::vector<Column> none, all = make_part_columns();
+  return parts == PartColumns::kAll ? all : none;
+}
+
+std::string limit_cell(const FrameOutcome& outcome, double limit) {
+  return outcome.result && limit > 0.0 ? csv_number(limit) : "";
 }
 
 void add_cells(const FrameOutcome& outcome, const std::vector<Column>& columns, std::vector<std::string>* cells) {
@@ -183,7 +196,9 @@ std::vector<std::string> result_head(PartColumns parts) {
   std::vector<std::string> head = {"frame", "source", "stamp_ns", "confidence", "status", "reason", "total_ms"};
   for (const Column& column : result_columns()) head.push_back(column.name);
   head.insert(head.end(), {"load_ms", "processor_ms", "error"});
-  for (const Column& column : last_columns(parts)) head.push_back(column.name);
+  for (const Column& column : level_columns()) head.push_back(column.name);
+  head.insert(head.end(), {kLimitColumns[0], kLimitColumns[1]});
+  for (const Column& column : part_columns(parts)) head.push_back(column.name);
   return head;
 }
 
@@ -199,7 +214,10 @@ std::vector<std::string> result_cells(const FrameOutcome& outcome, PartColumns p
   add_cells(outcome, result_columns(), &cells);
   cells.insert(cells.end(), {outcome.result ? csv_number(outcome.load_ms) : "",
                              outcome.result ? csv_number(outcome.processor_ms) : "", outcome.error});
-  add_cells(outcome, last_columns(parts), &cells);
+  add_cells(outcome, level_columns(), &cells);
+  cells.push_back(limit_cell(outcome, outcome.limits.angle_rad));
+  cells.push_back(limit_cell(outcome, outcome.limits.distance_m));
+  add_cells(outcome, part_columns(parts), &cells);
   return cells;
 }
 

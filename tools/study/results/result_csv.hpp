@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pose_wall.h"
+#include "study/truth/alert_limits.hpp"
 
 namespace pose_wall::tools {
 
@@ -24,10 +25,14 @@ struct FrameOutcome {
   double load_ms = 0.0;
   double total_ms = 0.0;      // in the engine, elapsed
   double processor_ms = 0.0;  // what of it the thread was running: other programs do not count
+  AlertLimits limits;         // by which its values are valid; zeros: not known
 };
 
 // Whether each part of each protection level has a column of its own.
 enum class PartColumns { kNone, kAll };
+
+// The alert limits in force, of angles (rad) and distances (m): whoever reads the table alone knows what valid meant.
+inline constexpr const char* kLimitColumns[2] = {"alert_limit_angle", "alert_limit_distance"};
 
 // Columns keep their places: later versions and kAll add theirs behind the others.
 std::vector<std::string> result_head(PartColumns parts = PartColumns::kNone);

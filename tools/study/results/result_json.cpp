@@ -107,7 +107,7 @@ void add_result(Json& line, const pose_wall_result& r, const AlertLimits& limits
 
 }  // namespace
 
-Json result_as_json(const FrameOutcome& outcome, const AlertLimits& limits) {
+Json result_as_json(const FrameOutcome& outcome) {
   Json line = {{"schema", kResultJsonSchema},
                {"frame", outcome.frame},
                {"source", outcome.source},
@@ -120,13 +120,13 @@ Json result_as_json(const FrameOutcome& outcome, const AlertLimits& limits) {
         "points", "voxel_leaf_m", "work", "publication", "source_id", "config_crc32"}) {
     line[name] = nullptr;
   }
-  if (outcome.result) add_result(line, *outcome.result, limits);
+  if (outcome.result) add_result(line, *outcome.result, outcome.limits);
   line["times_ms"] = times_json(outcome);
   return line;
 }
 
-std::string result_json_line(const FrameOutcome& outcome, const AlertLimits& limits) {
-  return json_text(result_as_json(outcome, limits)) + '\n';
+std::string result_json_line(const FrameOutcome& outcome) {
+  return json_text(result_as_json(outcome)) + '\n';
 }
 
 }  // namespace pose_wall::tools

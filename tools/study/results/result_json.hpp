@@ -9,18 +9,16 @@
 
 #include "io/json/json_words.hpp"
 #include "study/results/result_csv.hpp"
-#include "study/truth/alert_limits.hpp"
 
 namespace pose_wall::tools {
 
 // Raised when a member moves or changes its meaning; new members do not raise it.
 constexpr int kResultJsonSchema = 1;
 
-// limits: the config's, for what may steer.
-Json result_as_json(const FrameOutcome& outcome, const AlertLimits& limits);
+Json result_as_json(const FrameOutcome& outcome);
 
 // On one line, ending with a line break. Every frame has the same members: what is not a number, and all of a frame
 // that could not be read, is null.
-std::string result_json_line(const FrameOutcome& outcome, const AlertLimits& limits);
+std::string result_json_line(const FrameOutcome& outcome);
 
 }  // namespace pose_wall::tools

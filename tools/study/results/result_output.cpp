@@ -9,15 +9,14 @@
 namespace pose_wall::tools {
 
 ResultOutput::ResultOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs,
-                           ResultFormat format, PartColumns parts, const AlertLimits& limits)
+                           ResultFormat format, PartColumns parts)
     : format_(format),
       parts_(parts),
-      limits_(limits),
       rows_(path, inputs, format == ResultFormat::kCsv ? csv_line(result_head(parts)) : "") {}
 
 bool ResultOutput::write(const FrameOutcome& outcome) {
   const bool is_json = format_ == ResultFormat::kJson;
-  return rows_.write(is_json ? result_json_line(outcome, limits_) : csv_line(result_cells(outcome, parts_)));
+  return rows_.write(is_json ? result_json_line(outcome) : csv_line(result_cells(outcome, parts_)));
 }
 
 }  // namespace pose_wall::tools

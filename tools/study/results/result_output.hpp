@@ -11,7 +11,6 @@
 
 #include "study/results/result_csv.hpp"
 #include "study/results/row_output.hpp"
-#include "study/truth/alert_limits.hpp"
 
 namespace pose_wall::tools {
 
@@ -19,10 +18,9 @@ enum class ResultFormat { kCsv, kJson };
 
 class ResultOutput {
  public:
-  // As RowOutput; the head is that of a CSV. limits: of JSON, which says what may steer.
+  // As RowOutput; the head is that of a CSV.
   ResultOutput(const std::string& path, const std::vector<std::filesystem::path>& inputs,
-               ResultFormat format = ResultFormat::kCsv, PartColumns parts = PartColumns::kNone,
-               const AlertLimits& limits = {});
+               ResultFormat format = ResultFormat::kCsv, PartColumns parts = PartColumns::kNone);
 
   // As RowOutput.
   bool write(const FrameOutcome& outcome);
@@ -33,7 +31,6 @@ class ResultOutput {
  private:
   ResultFormat format_;
   PartColumns parts_;  // of a CSV; JSON has them always
-  AlertLimits limits_;
   RowOutput rows_;
 };
 

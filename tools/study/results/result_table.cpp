@@ -31,6 +31,8 @@ class ResultTableReader {
     out.source = text("source");
     out.stamp_ns = whole<std::int64_t>("stamp_ns");
     out.total_ms = number("total_ms");
+    if (const double angle_rad = number(kLimitColumns[0]); angle_rad > 0.0) out.limits.angle_rad = angle_rad;
+    if (const double distance_m = number(kLimitColumns[1]); distance_m > 0.0) out.limits.distance_m = distance_m;
     if (text("status") == kUnreadRow) {
       out.error = text("error");
       if (out.error.empty()) out.error = kUnreadRow;

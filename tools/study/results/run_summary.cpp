@@ -44,6 +44,7 @@ void RunSummary::add(const FrameOutcome& outcome) {
     quantities_[q].positive_means = positive_means(*outcome.result, q);
     add(outcome.result->quantity[q], &quantities_[q]);
   }
+  limits_ = outcome.limits;
   steer_.add(steering_of(*outcome.result, limits_));
   const std::uint32_t reasons = all_reasons(*outcome.result);
   for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) reasons_[bit] += reasons >> bit & 1U;

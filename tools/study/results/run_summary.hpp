@@ -21,9 +21,6 @@ namespace pose_wall::tools {
 
 class RunSummary {
  public:
-  // `limits`: alert limits, by which a level is too large to be worth its digits. Without them all are shown.
-  explicit RunSummary(const AlertLimits& limits = {}) : limits_(limits) {}
-
   void add(const FrameOutcome& outcome);
 
   std::size_t frames() const { return frames_; }
@@ -53,7 +50,7 @@ class RunSummary {
   std::string times_text(double wall_s) const;
   std::string reasons_text() const;
 
-  AlertLimits limits_;
+  AlertLimits limits_;  // of the frames: by these a level is too large to be worth its digits
   std::size_t frames_ = 0;
   std::size_t unreadable_ = 0;
   std::array<Quantity, POSE_WALL_QUANTITIES> quantities_;

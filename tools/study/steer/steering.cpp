@@ -20,6 +20,7 @@ namespace {
 
 // A level beyond so many alert limits promises nothing: "± 20.862 m" would look like a tolerance.
 constexpr double kLimitsShown = 10.0;
+constexpr double kUsualMost = 1.0 + 1e-9;  // a limit went through a text and back
 
 // Short of what each says alone, and the column's name in English. Chinese names are those of the page.
 constexpr const char* kNames[POSE_WALL_QUANTITIES] = {translatable("roll"), translatable("pitch"), translatable("yaw"),
@@ -59,6 +60,14 @@ std::string levels_of(Language language, const std::vector<SteerValue>& alike) {
   if (!(first.limit > 0.0)) return say_in(language, translatable("level {}"), level);
   return say_in(language, translatable("level {}, limit {}"), level,
                 level_text(first.quantity, first.limit, first.limit));
+}
+
+// What may steer by a limit that somebody widened says so: "roll (limit 20.000°)".
+std::string may_name(Language language, const SteerValue& value) {
+  static const AlertLimits kUsual = alert_limits_of(api::Config());
+  const std::string name = name_of(language, value.quantity);
+  if (!(value.limit > kUsualMost * limit_of(value.quantity, kUsual))) return name;
+  return say_in(language, translatable("{} (limit {})"), name, level_text(value.quantity, value.limit, value.limit));
 }
 
 // "d_lf, d_lb (level 0.140 m, 0.203 m, limit 0.100 m: ...)": those that have one cause.
@@ -124,7 +133,7 @@ std::string steer_line(Language language, const Steering& steering) {
   Words may, may_not;
   std::array<bool, POSE_WALL_QUANTITIES> is_told{};
   for (const SteerValue& value : steering) {
-    if (value.may_steer()) may.push_back(name_of(language, value.quantity));
+    if (value.may_steer()) may.push_back(may_name(language, value));
     if (value.may_steer() || is_told[value.quantity]) continue;
     std::vector<SteerValue> alike;
     for (const SteerValue& other : steering) {

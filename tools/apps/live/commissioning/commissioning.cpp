@@ -36,8 +36,8 @@ constexpr double kRecordedLeast_s = 2.0, kRecordedMost_s = 120.0, kRecordedUsual
 // Two minutes of an OS0-128 with 2048 columns at 10 Hz, 24 bytes a point; so nothing of a recording is deleted.
 constexpr double kRoom_mb = 8000.0;
 constexpr std::int64_t kLook_ns = 100'000'000;  // a cloud of the usual sensors
-// What a person must have looked at before anything is saved: frames cannot show it.
-constexpr const char* kToConfirm[] = {"ahead", "mounting", "boxes"};
+// As of a source (udp_source.cpp): a sensor that was unplugged meanwhile, and no late cloud.
+constexpr std::int64_t kSilent_ns = 1'000'000'000;
 
 // The report is a page of its own, with its scripts in it: it may show, and reach nothing.
 constexpr const char* kReportPolicy =
@@ -94,7 +94,7 @@ class CommissioningDesk final : public Commissioning {
     const std::lock_guard<std::mutex> locked(recorder_lock_);
     if (!recorder_) return;
     recorder_->take(result);
-    ++clouds_;
+    note_cloud();
   }
 
   void stop() override {
@@ -184,8 +184,9 @@ class CommissioningDesk final : public Commissioning {
   // A page that only looks holds nobody else's place.
   WebAnswer state(const WebRequest& request) {
     if (!admits(request, false)) return json_answer(200, {{"schema", 1}, {"open", false}});
-    Json told = {{"schema", 1}, {"open", true}, {"mounting", steps_.mounting()}, {"to_confirm", kToConfirm}};
+    Json told = {{"schema", 1}, {"open", true}, {"mounting", steps_.mounting()}};
     const std::lock_guard<std::mutex> locked(lock_);
+    told["to_confirm"] = to_confirm();
     told["busy"] = busy_;
     told["busy_s"] = busy_.empty() ? 0.0 : static_cast<double>(monotonic_ns() - busy_since_ns_) * 1e-9;
     told["error"] = error_;
@@ -204,7 +205,7 @@ class CommissioningDesk final : public Commissioning {
     const Json asked = Json::parse(request.body, nullptr, false);
     if (!asked.is_object()) return refusal(400, "a JSON object is expected");
     const std::lock_guard<std::mutex> locked(lock_);
-    if (!busy_.empty()) return refusal(409, fmt::format("it is still at work: {}", busy_));
+    if (!busy_.empty()) return refusal(409, "it is still at work");
     try {
       job_ = (this->*job)(asked);
     } catch (const Json::exception&) {
@@ -232,6 +233,18 @@ class CommissioningDesk final : public Commissioning {
 
   // ------------------------------------------------ the steps; with lock_ held
 
+  // What a person must have looked at before anything is saved: what frames cannot show, and what they contradict.
+  std::vector<std::string> to_confirm() const {
+    std::vector<std::string> all = {"ahead", "mounting", "boxes"};
+    if (examined_.is_null()) return all;
+    if (examined_.value("grade", "") == "not") all.emplace_back("not_usable");
+    const Json road = examined_.value("road", Json::object());
+    const bool is_otherwise = road.value("ahead_known", false) && !checked_.is_null() &&
+                              checked_.at("forward_axis") != road.at("forward_axis");
+    if (is_otherwise) all.emplace_back("ahead_otherwise");
+    return all;
+  }
+
   Job to_record(const Json& asked) {
     const double seconds = asked.value("seconds", kRecordedUsually_s);
     if (!(seconds >= kRecordedLeast_s && seconds <= kRecordedMost_s)) {
@@ -248,7 +261,7 @@ class CommissioningDesk final : public Commissioning {
   }
 
   Job to_check(const Json& asked) {
-    if (recorded_.is_null()) throw std::runtime_error("nothing was recorded yet");
+    if (examined_.is_null()) throw std::runtime_error("the recording was not examined yet");
     const Changes changes = asked.at("changes").get<Changes>();
     checked_ = saved_ = nullptr;
     return
@@ -259,16 +272,15 @@ class CommissioningDesk final : public Commissioning {
     if (checked_.is_null()) throw std::runtime_error("nothing was checked yet");
     const auto by = asked.at("by").get<std::string>();
     if (by.empty()) throw std::runtime_error("by: the name of who commissions is missing");
-    for (const char* one : kToConfirm) {
-      if (!asked.at("confirmed").value(one, false))
-        throw std::runtime_error(fmt::format("'{}' was not confirmed", one));
+    for (const std::string& one : to_confirm()) {
+      if (!asked.at("confirmed").value(one, false)) throw std::runtime_error("not all is confirmed: tick every box");
     }
     if (asked.at("config_crc32") != checked_.at("config_crc32")) {
       throw std::runtime_error("the page shows other settings than those that were checked");
     }
     const Json who = {{"by", by}, {"confirmed", asked.at("confirmed")}};
-    return [this, who, examined = examined_, checked = checked_] {
-      const Json evidence = steps_.save(who, examined, checked, ending_);
+    return [this, who, language = language_of(asked), examined = examined_, checked = checked_] {
+      const Json evidence = steps_.save(who, examined, checked, language, ending_);
       log_anyway(Grade::kWarning, kPart, "settings were saved; they count from the next start on");
       keep(&saved_, {{"config_crc32", checked.at("config_crc32")}, {"evidence", evidence}});
     };
@@ -310,6 +322,14 @@ class CommissioningDesk final : public Commissioning {
     *where = std::move(what);
   }
 
+  // With recorder_lock_ held.
+  void note_cloud() {
+    const std::int64_t now_ns = monotonic_ns();
+    longest_silence_ns_ = std::max(longest_silence_ns_, now_ns - last_cloud_ns_);
+    last_cloud_ns_ = now_ns;
+    ++clouds_;
+  }
+
   void record(double seconds) {
     steps_.forget_recording();
     std::unique_ptr<Sink> recorder = make_recorder(loaded_, board_);
@@ -318,6 +338,8 @@ class CommissioningDesk final : public Commissioning {
       const std::lock_guard<std::mutex> locked(recorder_lock_);
       recorder_ = recorder.get();
       clouds_ = 0;
+      longest_silence_ns_ = 0;
+      last_cloud_ns_ = monotonic_ns();
     }
     records_ = true;
     const std::int64_t until_ns = monotonic_ns() + static_cast<std::int64_t>(seconds * 1e9);
@@ -326,6 +348,7 @@ class CommissioningDesk final : public Commissioning {
     {
       const std::lock_guard<std::mutex> locked(recorder_lock_);
       recorder_ = nullptr;
+      longest_silence_ns_ = std::max(longest_silence_ns_, monotonic_ns() - last_cloud_ns_);
     }
     recorder->stop();
     const PartHealth health = recorder->health();
@@ -336,6 +359,10 @@ class CommissioningDesk final : public Commissioning {
       throw std::runtime_error(is_whole ? health.summary : "the disk did not keep up: record again");
     }
     if (clouds_ == 0) throw std::runtime_error("no cloud came while it was recorded: look at the source");
+    if (longest_silence_ns_ > kSilent_ns && !ending_) {
+      steps_.forget_recording();
+      throw std::runtime_error("the sensor was silent while it was recorded: look at its cable, and record again");
+    }
     keep(&recorded_, {{"seconds", seconds}, {"clouds", clouds_.load()}});
   }
 
@@ -356,6 +383,7 @@ class CommissioningDesk final : public Commissioning {
 
   std::mutex recorder_lock_;
   Sink* recorder_ = nullptr;  // while it records
+  std::int64_t last_cloud_ns_ = 0, longest_silence_ns_ = 0;
   std::atomic<std::uint64_t> clouds_{0};
   std::atomic<bool> records_{false}, ending_{false};
   std::thread thread_;

@@ -189,10 +189,13 @@ Json CommissioningSteps::check(const Changes& changes, const std::string& langua
   const ErrandOutcome report =
       run_errand(joined(joined({"report", "--quiet", "-o", report_file()}, words), recordings()), given_up);
   require_done(report, "report");
-  return {{"changes", changes}, {"config_crc32", crc_of(trial)}, {"told", lines_of(run.errors)}};
+  return {{"changes", changes},
+          {"config_crc32", crc_of(trial)},
+          {"forward_axis", config_text(*trial.config.get(), "forward_axis")},
+          {"told", lines_of(run.errors)}};
 }
 
-Json CommissioningSteps::save(const Json& who, const Json& examined, const Json& checked,
+Json CommissioningSteps::save(const Json& who, const Json& examined, const Json& checked, const std::string& language,
                               const std::atomic<bool>& given_up) const {
   const fs::path trial = folder_ / "trial", evidence = folder_ / "evidence";
   const std::string settings = read_whole_file(commissioned_file(trial));
@@ -212,7 +215,7 @@ Json CommissioningSteps::save(const Json& who, const Json& examined, const Json&
       Json({{"schema", 1}, {"at", utc_text(std::time(nullptr))}, {"who", who}, {"checked", checked}}).dump(2) + "\n");
   for (const char* file : {"results.csv", "report.html"}) put(trial / file, evidence / file);
   for (const std::string& file : recordings()) put(file, evidence / fs::path(file).filename());
-  std::vector<std::string> words = {"evidence", evidence, "--force", "-o", evidence_file()};
+  std::vector<std::string> words = {"evidence", evidence, "--force", "--language", language, "-o", evidence_file()};
   const fs::path key = folder_ / "site.pem";
   if (fs::exists(key)) words = joined(std::move(words), {"--key", key});
   const ErrandOutcome outcome = run_errand(words, given_up);

@@ -48,11 +48,12 @@ class CommissioningSteps {
   //
   // What `doctor --json` says of the recording.
   Json examine(const std::string& language, const std::atomic<bool>& given_up) const;
-  // The recording measured with these changes: `config_crc32`, and what `run` told, line by line.
+  // The recording measured with these changes: `config_crc32`, `forward_axis`, and what `run` told, line by line.
   Json check(const Changes& changes, const std::string& language, const std::atomic<bool>& given_up) const;
   // What was checked last stands over the settings file from the next start on. who: what the evidence tells of the
   // person; examined, checked: as above. Returns what `evidence` said, as lines.
-  Json save(const Json& who, const Json& examined, const Json& checked, const std::atomic<bool>& given_up) const;
+  Json save(const Json& who, const Json& examined, const Json& checked, const std::string& language,
+            const std::atomic<bool>& given_up) const;
 
  private:
   std::vector<std::string> words_with(const std::string& settings_folder) const;

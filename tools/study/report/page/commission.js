@@ -3,6 +3,7 @@
 // there is no such panel.
 
 const MOUNTING = ['extrinsic_x', 'extrinsic_y', 'extrinsic_z', 'extrinsic_roll', 'extrinsic_pitch', 'extrinsic_yaw'], BOXES_MOST = 4;
+const OF_THE_DRAFT = ['ahead', 'mounting', 'boxes'];  // what is confirmed where it is drawn; the rest where it is saved
 const kDegPerRad = 180 / Math.PI;
 
 class CommissionPanel {
@@ -33,7 +34,8 @@ class CommissionPanel {
     const before = this.state;
     this.state = state;
     if (state.open && !this.draft) this.draft = this.draft_of(state.mounting);
-    if (state.open && state.examined && JSON.stringify(state.examined.changes) !== JSON.stringify(before && before.examined && before.examined.changes)) this.propose(state.examined.changes);
+    if (JSON.stringify(state.recorded) !== JSON.stringify(before && before.recorded)) this.confirmed = {};
+    if (state.open && state.examined && state.examined.grade !== 'not' && JSON.stringify(state.examined.changes) !== JSON.stringify(before && before.examined && before.examined.changes)) this.propose(state.examined.changes);
     this.show();
   }
 
@@ -88,7 +90,7 @@ class CommissionPanel {
     if (this.open_error || s.error) parts.push(element('p', this.error_text(this.open_error || s.error), 'commission-error'));
     parts.push(...(s.open ? this.steps() : [this.code()]));
     this.panel.replaceChildren(...parts);
-    if (s.open && s.recorded) this.show_space();
+    if (s.open && s.examined) this.show_space();
   }
 
   error_text(text) { return (words().commission_errors || {})[text] || String(text); }
@@ -100,13 +102,15 @@ class CommissionPanel {
     const go = button(w.commission_open, () => {});
     go.type = 'submit';
     form.append(element('span', w.commission_code), input, go);
-    form.addEventListener('submit', (event) => { event.preventDefault(); this.ask('open', { code: input.value }); });
+    input.value = this.typed || '';  // a wrong letter does not cost the other nine
+    input.addEventListener('input', () => { this.typed = input.value; });
+    form.addEventListener('submit', (event) => { event.preventDefault(); this.ask('open', { code: input.value.normalize('NFKC') }); });
     return form;
   }
 
   steps() {
     const s = this.state, w = words();
-    const bodies = [this.record(), s.recorded && this.examine(), s.recorded && this.draw(), s.recorded && this.check(), s.checked && this.save()];
+    const bodies = [this.record(), s.recorded && this.examine(), s.examined && this.draw(), s.examined && this.check(), s.checked && this.save()];
     return bodies.map((body, k) => {
       const step = element('div', undefined, 'commission-step');
       step.append(element('h3', w.commission_steps[k]), ...(body || []));
@@ -169,15 +173,20 @@ class CommissionPanel {
       mounting.append(number_field(`${key.slice(10)}`, unit, this.draft.mounting[k] * factor, k < 3 ? 3 : 2, (v) => { this.draft.mounting[k] = v / factor; this.confirmed.mounting = false; this.note_change(); }));
     });
     this.space_note = element('p', w.commission_space_help, 'faint');
-    const confirmations = element('p', undefined, 'commission-confirm');
-    for (const name of this.state.to_confirm) {
+    const drawn = this.confirmations(this.state.to_confirm.filter((name) => OF_THE_DRAFT.includes(name)));
+    return [this.canvas, this.space_note, axes, mounting, ...this.draft.boxes.map((_, k) => this.box_row(k)), this.add_row(), drawn];
+  }
+
+  confirmations(names) {
+    const all = element('p', undefined, 'commission-confirm');
+    for (const name of names) {
       const label = element('label');
       const box = check_box(this.confirmed[name], (is_so) => { this.confirmed[name] = is_so; });
       box.dataset.confirms = name;
-      label.append(box, ` ${w.commission_confirm[name]}`);
-      confirmations.append(label);
+      label.append(box, ` ${words().commission_confirm[name]}`);
+      all.append(label);
     }
-    return [this.canvas, this.space_note, axes, mounting, ...this.draft.boxes.map((_, k) => this.box_row(k)), this.add_row(), confirmations];
+    return all;
   }
 
   box_row(k) {
@@ -213,7 +222,8 @@ class CommissionPanel {
     by.addEventListener('input', () => { this.by = by.value; });
     row.append(element('span', w.commission_by), by, this.action('save', w.commission_save, () => ({
       by: by.value, confirmed: this.confirmed, config_crc32: this.is_checked() ? s.checked.config_crc32 : null })));
-    const out = [element('p', w.commission_crc(crc_text(s.checked.config_crc32))), element('p', w.commission_save_help), row];
+    const contradicted = this.confirmations(s.to_confirm.filter((name) => !OF_THE_DRAFT.includes(name)));
+    const out = [element('p', w.commission_crc(crc_text(s.checked.config_crc32))), element('p', w.commission_save_help), contradicted, row];
     if (!s.saved) return out;
     const done = element('p', undefined, 'commission-row');
     done.append(element('b', w.commission_saved), link(w.commission_evidence, '/commissioning/evidence.zip'), this.action('restart', w.commission_restart));
