@@ -307,8 +307,9 @@ int localise_scans(LocaliseOptions options) {
   LocaliseWork work;
   follow_scans(options, *source, PlaceRecorder(options, truth ? &*truth : nullptr, &localiser, &work), &work);
   if (work.way.rows.empty()) {
-    throw std::runtime_error(InterruptWatch::is_interrupted() ? tr("interrupted before the first scan")
-                                                              : tr("no scan could be read; nothing is written"));
+    throw std::runtime_error(InterruptWatch::is_interrupted()
+                                 ? tr("interrupted before the first scan")
+                                 : tr("no scan could be made of these frames, as told above; nothing is written"));
   }
   if (work.way.odometry.size() != work.way.rows.size()) work.way.odometry.clear();
   work.way.candidates = localiser.candidates();

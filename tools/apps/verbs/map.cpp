@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -61,13 +62,18 @@ pose_wall_planar_slam_settings settings_for(pose_wall_planar_slam_settings setti
 }
 
 // Ctrl-C ends it after the scan at work.
+// Forty lines of one reason say no more than three.
+constexpr std::size_t kToldAlike = 3;
+
 void add_scans(const MapOptions& options, ScanSource& source, MapWork* work) {
   ProgressBar bar(source.scans(), !options.frames.quiet && is_terminal(2), translatable("scans"));
+  std::map<std::string, std::size_t> refused;  // scans, by the reason
   while (!InterruptWatch::is_interrupted()) {
     std::optional<SourcedScan> scan = source.next();
     if (!scan) break;
     const auto refuse = [&](const std::string& why) {
       ++work->unreadable;
+      if (++refused[why] > kToldAlike) return;
       bar.print_above(fmt::format("pose_wall map: {}: {}", scan->name, why));
     };
     if (!scan->error.empty()) {
@@ -82,6 +88,9 @@ void add_scans(const MapOptions& options, ScanSource& source, MapWork* work) {
     }
     const pose_wall_planar_slam_result& last = work->trail.last();
     bar.advance(say("{} keyframes, {} closures", last.keyframes, last.closures));
+  }
+  for (const auto& [why, scans] : refused) {
+    if (scans > kToldAlike) bar.print_above(say("pose_wall map: {} more: {}", scans - kToldAlike, why));
   }
 }
 
@@ -224,8 +233,9 @@ int map_scans(MapOptions options) {
   MapWork work{ScanTrail(settings_for(settings, source->scans()))};
   add_scans(options, *source, &work);
   if (work.trail.scans().empty()) {
-    throw std::runtime_error(InterruptWatch::is_interrupted() ? tr("interrupted before the first scan")
-                                                              : tr("no scan could be read; nothing is written"));
+    throw std::runtime_error(InterruptWatch::is_interrupted()
+                                 ? tr("interrupted before the first scan")
+                                 : tr("no scan could be made of these frames, as told above; nothing is written"));
   }
   work.trail.settle();
   const BuiltMap built = build_map(work.trail.kept_scans(), work.trail.kept_poses(), options.cell_m);

@@ -36,7 +36,8 @@ constexpr CauseWords by_part(const char* words, std::uint32_t part) {
 // By cause. Of several gates with one reason, the one whose help fits them all.
 constexpr CauseWords kWords[] = {
     {translatable("too few points are left after the filters"),
-     translatable("clean the sensor's window; check range_min, range_max and the body boxes")},
+     translatable(
+         "clean the sensor's window; check range_min, range_max, the body boxes, and that lengths are in metres")},
     by_gate(translatable("there are more points than fit"), POSE_WALL_TRACE_VOXELS_FIT),
     by_gate(translatable("the stamps stand still"), POSE_WALL_TRACE_STAMP_STILL),
     by_gate(translatable("the stamp went back"), POSE_WALL_TRACE_STAMP_BACK),
@@ -74,7 +75,8 @@ constexpr CauseWords kWords[] = {
     by_part(translatable("another surface may be the floor or the wall"), POSE_WALL_PART_RIVAL),
     by_part(translatable("the wall is unseen beside the machine"), POSE_WALL_PART_EXTRAPOLATION),
     by_part(translatable("the value lags behind this frame"), POSE_WALL_PART_LAG),
-    by_part(translatable("the motion since or within the scan is not known"), POSE_WALL_PART_AGE),
+    {translatable("the motion since or within the scan is not known"),
+     translatable("a first frame knows none; later ones need the times of their points, and no gaps between frames")},
 };
 static_assert(std::size(kWords) == kSteerCauses, "each cause has its words");
 
