@@ -307,10 +307,7 @@ class Access(unittest.TestCase):
     def test_https_with_a_certificate_of_its_own(self):
         with tempfile.TemporaryDirectory() as folder:
             pem = pathlib.Path(folder, "page.pem")
-            subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2",
-                            "-subj", "/CN=localhost", "-addext", "subjectAltName=IP:127.0.0.1",
-                            "-keyout", f"{folder}/key", "-out", f"{folder}/cert"], check=True, capture_output=True)
-            pem.write_bytes(pathlib.Path(folder, "cert").read_bytes() + pathlib.Path(folder, "key").read_bytes())
+            live_peer.self_signed_page(pem, pathlib.Path(folder, "cert"))
             trust = ssl.create_default_context(cafile=f"{folder}/cert")
             daemon = Daemon(self, "--set", f"http_certificate={pem}", scheme=lambda host, port, timeout:
                             http.client.HTTPSConnection(host, port, timeout=timeout, context=trust))

@@ -146,5 +146,14 @@ def simulated_road(pose_wall, frames=70, sensor="os1-64", scene="nominal"):
     return folder
 
 
+def self_signed_page(pem, certificate):
+    """Writes a certificate for 127.0.0.1, and for the daemon's http_certificate the same with its key."""
+    key = pem.with_suffix(".key")
+    subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=localhost",
+                    "-addext", "subjectAltName=IP:127.0.0.1", "-keyout", str(key), "-out", str(certificate)],
+                   check=True, capture_output=True)
+    pem.write_bytes(certificate.read_bytes() + key.read_bytes())
+
+
 def replay_words(pose_walld, road, *more):
     return [pose_walld, "--config", road / "pose_wall.yaml", "--replay", road / "frames", "--repeat", *more]

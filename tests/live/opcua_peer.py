@@ -53,7 +53,7 @@ OF_VALUE = ("Value", "ProtectionLevel", "Sigma")
 # Of OPC 10000-6 A.2; the upper two bits are the severity.
 GOOD, BAD, NO_COMMUNICATION, COMMUNICATION_ERROR = 0, 0x80000000, 0x80310000, 0x80050000
 NOT_CONNECTED, SENSOR_FAILURE, OUT_OF_SERVICE, NOT_WRITABLE = 0x808A0000, 0x808C0000, 0x808D0000, 0x803B0000
-LAST_USABLE, NOT_ACCURATE = 0x40900000, 0x40930000
+LAST_USABLE, NOT_ACCURATE, ACCESS_DENIED = 0x40900000, 0x40930000, 0x801F0000
 # Types of the standard's nodes (OPC 10000-5, 10000-8): AnalogUnitType, MultiStateDiscreteType, BaseDataVariableType.
 ANALOG, MULTI_STATE, PLAIN = 17497, 2376, 63
 UNECE = {"rad": "C81", "m": "MTR", "m/s": "MTS", "s": "SEC"}
@@ -311,6 +311,27 @@ class Opcua(unittest.TestCase):
             self.assertEqual(client.ask("write", node=f"PoseWall.{name}", value=1.0), [NOT_WRITABLE], name)
         self.assertEqual(client.ask("write", node="PoseWall.Yaw.Value.EngineeringUnits", value=1.0), [NOT_WRITABLE])
         self.assertEqual(client.read("Yaw.Value")[0]["value"], before)
+
+    # A page that is shut.
+
+    def test_a_page_with_https_and_a_login_is_read_by_who_may(self):
+        folder = self.place / "shut"
+        folder.mkdir()
+        live_peer.self_signed_page(folder / "page.pem", folder / "cert.pem")
+        hashed = subprocess.run(["openssl", "passwd", "-6", "tief"], check=True, capture_output=True, text=True).stdout
+        (folder / "logins").write_text(f"plant:{hashed}", encoding="utf-8")
+        (folder / "right").write_text("plant:tief\n", encoding="utf-8")
+        (folder / "wrong").write_text("plant:flach\n", encoding="utf-8")
+        self.daemon("--set", f"http_certificate={folder / 'page.pem'}", "--set", f"http_login={folder / 'logins'}")
+        page = f"https://127.0.0.1:{self.behind}"
+        for words, status in ((("--daemon-ca", folder / "cert.pem", "--daemon-login", folder / "right"), GOOD),
+                              (("--daemon-ca", folder / "cert.pem", "--daemon-login", folder / "wrong"), ACCESS_DENIED),
+                              (("--daemon-login", folder / "right"), NO_COMMUNICATION)):
+            port = live_peer.free_port()
+            gateway = self.start_gateway("--port", port, "--daemon", page, *words)
+            self.addCleanup(gateway.kill)
+            self.becomes(self.client(port), status, patience_s=2 * live_peer.PATIENCE_S)
+            gateway.kill()
 
     # What a daemon measures.
 

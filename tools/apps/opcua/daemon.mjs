@@ -4,6 +4,7 @@
 // What pose_walld says at its addresses of HTTP, asked for again and again. A document counts for a limited time, and
 // only if all of it is as tools/apps/live/README.md has it; until then, and after, there is a status code instead.
 import http from 'node:http';
+import https from 'node:https';
 
 export const QUANTITIES = ['roll', 'pitch', 'yaw', 'd_lf', 'd_lb', 'd_rf', 'd_rb'];
 export const STATES = ['invalid', 'held', 'degraded', 'valid'];  // in the order of pose_wall.h and State.msg
@@ -59,11 +60,16 @@ export function healthIsSound(x) {
 // Stamps have more digits than a number of JavaScript: they stay text.
 const parsed = (text) => JSON.parse(text.replace(/"(header_stamp_ns|stamp_ns)":\s*(-?\d+)/g, '"$1":"$2"'));
 
-/** One address: `value` is its newest document, `fault` the name of a status code instead of it. */
+/**
+ * One address: `value` is its newest document, `fault` the name of a status code instead of it. `ca`: the certificate of a
+ * page with HTTPS; `login`: NAME:PASSWORD of one that asks for it.
+ */
 export class Document {
-  constructor({ url, everyMs, staleMs, isSound, counter, answers = [200], log }) {
+  constructor({ url, everyMs, staleMs, isSound, counter, answers = [200], log, ca, login }) {
     Object.assign(this, { url, everyMs, staleMs, isSound, counter, answers, log });
-    this.agent = new http.Agent({ keepAlive: true, maxSockets: 1 });
+    this.http = url.protocol === 'https:' ? https : http;
+    this.agent = new this.http.Agent({ keepAlive: true, maxSockets: 1, ca });
+    this.headers = login ? { authorization: `Basic ${Buffer.from(login).toString('base64')}` } : {};
     this.value = null;
     this.fault = 'BadNoCommunication';
     this.newAt = -Infinity;
@@ -91,7 +97,7 @@ export class Document {
     const askedMs = performance.now();
     let text = '', bytes = 0;
     const done = (act) => { if (this.isAsking) { this.isAsking = false; clearTimeout(late); act(); } };
-    const request = http.get(this.url, { agent: this.agent }, (answer) => {
+    const request = this.http.get(this.url, { agent: this.agent, headers: this.headers }, (answer) => {
       answer.setEncoding('utf8');
       answer.on('data', (part) => {
         text += part;
@@ -107,8 +113,8 @@ export class Document {
 
   take(code, text, askedMs) {
     if (!this.answers.includes(code)) {
-      // It answers, and says that it has none of it: the key `planar` is off, or no result is newer than a second.
-      this.fault = code === 404 ? 'BadNotConnected' : 'BadOutOfService';
+      // It answers, and says that it has none of it: the key `planar` is off, or no result counts. Or it wants a login.
+      this.fault = { 401: 'BadUserAccessDenied', 404: 'BadNotConnected' }[code] ?? 'BadOutOfService';
       return this.tell(`answers ${code}`);
     }
     let value;

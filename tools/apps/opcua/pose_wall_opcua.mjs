@@ -24,6 +24,8 @@ Look at Objects/PoseWall. A value is Good only if it may steer. Degraded and hel
 Bad, and so is everything within a second when the daemon is silent. A controller must look at the status code.
 
   --daemon URL           the page of pose_walld                                (http://127.0.0.1:8080)
+  --daemon-ca FILE       with https: the certificate that the page shows, or that of who signed it (PEM)
+  --daemon-login FILE    where the page asks for a login (http_login): NAME:PASSWORD, the first line of FILE
   --host ADDRESS         where to listen: an address of this machine           (127.0.0.1)
   --port PORT            TCP port                                              (4840)
   --folder FOLDER        own certificate, and those of clients                 (./pose_wall_opcua)
@@ -39,7 +41,7 @@ the first time is refused, and its certificate lies in FOLDER/rejected. Look at 
 Exit status: 0 stopped by SIGTERM or SIGINT, 1 cannot listen, 2 wrong options.`;
 
 const OPTIONS = { daemon: { type: 'string', default: 'http://127.0.0.1:8080' }, host: { type: 'string', default: '127.0.0.1' },
-  port: { type: 'string', default: '4840' }, folder: { type: 'string', default: './pose_wall_opcua' },
+  'daemon-ca': { type: 'string' }, 'daemon-login': { type: 'string' }, port: { type: 'string', default: '4840' }, folder: { type: 'string', default: './pose_wall_opcua' },
   user: { type: 'string' }, 'password-file': { type: 'string' }, 'stale-ms': { type: 'string', default: '1000' },
   'allow-none': { type: 'boolean', default: false }, help: { type: 'boolean' }, version: { type: 'boolean' } };
 const STOP_STALE_MS = 500;  // "No message for half a second is a stop": tools/apps/live/README.md
@@ -51,6 +53,16 @@ const log = (words) => console.error(`pose_wall_opcua: ${words}`);
 const fail = (status, words) => { log(words); process.exit(status); };
 const isLoopback = (host) => host === '::1' || /^127\./.test(host);
 
+function content(given, option) {
+  try { return readFileSync(given[option], 'utf8'); } catch (error) { return fail(2, `--${option}: ${error.message}`); }
+}
+
+function firstLine(given, option) {
+  const [line] = content(given, option).split('\n');
+  if (!line) fail(2, `--${option}: ${given[option]} begins with an empty line`);
+  return line;
+}
+
 function options() {
   let given;
   try { given = parseArgs({ options: OPTIONS }).values; } catch (error) { fail(2, `${error.message}; see --help`); }
@@ -61,18 +73,17 @@ function options() {
   if (!(Number.isInteger(port) && port > 0 && port < 65536)) fail(2, `--port: ${given.port} is no port`);
   if (!isIP(given.host)) fail(2, `--host: ${given.host} is no address of IP`);
   if (!(staleMs >= 300 && staleMs <= 1000)) fail(2, `--stale-ms: ${given['stale-ms']} is not within 300 to 1000`);
-  if (!daemon || !given.daemon.startsWith('http://')) fail(2, `--daemon: ${given.daemon} is no address of HTTP`);
+  if (!daemon || !/^https?:\/\//.test(given.daemon)) fail(2, `--daemon: ${given.daemon} is no address of HTTP`);
+  if (given['daemon-ca'] && !given.daemon.startsWith('https://')) fail(2, '--daemon-ca: --daemon has no https');
   if (!given.user !== !given['password-file']) fail(2, '--user and --password-file go together');
-  let password;
-  if (given.user) {
-    try { [password] = readFileSync(given['password-file'], 'utf8').split('\n'); } catch (error) { fail(2, error.message); }
-    if (!password) fail(2, `--password-file: ${given['password-file']} begins with an empty line`);
-  }
-  return { ...given, port, staleMs, password, version: about.version };
+  const login = given['daemon-login'] && firstLine(given, 'daemon-login');
+  if (login && !/^[^:]+:./.test(login)) fail(2, `--daemon-login: ${given['daemon-login']} has no NAME:PASSWORD`);
+  return { ...given, port, staleMs, login, ca: given['daemon-ca'] && content(given, 'daemon-ca'),
+    password: given.user && firstLine(given, 'password-file'), version: about.version };
 }
 
-function documents({ daemon, staleMs }) {
-  const document = (path, more) => new Document({ url: new URL(path, daemon), log, ...more });
+function documents({ daemon, staleMs, ca, login }) {
+  const document = (path, more) => new Document({ url: new URL(path, daemon), log, ca, login, ...more });
   return {
     state: document('/state.json', { everyMs: EVERY_MS, staleMs, isSound: stateIsSound, counter: (x) => x.publication }),
     planar: document('/planar.json', { everyMs: EVERY_MS, staleMs: Math.min(staleMs, STOP_STALE_MS),
