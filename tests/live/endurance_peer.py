@@ -100,11 +100,11 @@ class Viewer(threading.Thread):
 
     def __init__(self, port):
         super().__init__(daemon=True)
-        self.port, self.results, self.bytes = port, 0, 0
+        self.port, self.results, self.bytes, self.link = port, 0, 0, None
 
     def run(self):
         with contextlib.suppress(ConnectionError), socket.create_connection(("127.0.0.1", self.port)) as link:
-            key = base64.b64encode(os.urandom(16)).decode()
+            key, self.link = base64.b64encode(os.urandom(16)).decode(), link
             link.sendall(f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nUpgrade: websocket\r\n"
                          f"Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n"
                          "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n".encode())
@@ -126,9 +126,9 @@ class Viewer(threading.Thread):
                     wanted = [{"id": number, "channelId": number} for number in ids.values()]
                     self.say(link, json.dumps({"op": "subscribe", "subscriptions": wanted}).encode())
 
-    @staticmethod
-    def message(stream):
-        """(opcode, content) of the next whole message; (None, b"") at the end."""
+    def message(self, stream):
+        """(opcode, content) of the next whole message; (None, b"") at the end. A ping comes between pieces, too, and
+        is answered."""
         kind, content = None, b""
         while True:
             head = stream.read(2)
@@ -137,17 +137,20 @@ class Viewer(threading.Thread):
             length = head[1] & 0x7F
             if length >= 126:
                 length = int.from_bytes(stream.read(2 if length == 126 else 8), "big")
+            if head[0] & 0x0F == 9:
+                self.say(self.link, stream.read(length), kind=10)
+                continue
             kind = head[0] & 0x0F or kind
             content += stream.read(length)
             if head[0] & 0x80:
                 return kind, content
 
     @staticmethod
-    def say(link, text):
+    def say(link, text, kind=1):
         """A client's frames are masked; a mask of zeros leaves the text."""
-        head = bytes([0x81, 0x80 | len(text)])
+        head = bytes([0x80 | kind, 0x80 | len(text)])
         if len(text) > 125:
-            head = bytes([0x81, 0xFE]) + len(text).to_bytes(2, "big")
+            head = bytes([0x80 | kind, 0xFE]) + len(text).to_bytes(2, "big")
         link.sendall(head + bytes(4) + text)
 
 

@@ -30,7 +30,8 @@ import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 NAMES = ("foxglove.websocket.v1", "foxglove.sdk.v1")
 # So many messages of each channel; the place comes where the machine is in a map.
 WANTED = {"/pose_wall/result": 20, "/pose_wall/health": 2, "/pose_wall/pose": 10, "/pose_wall/transforms": 20,
-          "/pose_wall/scene": 20, "/pose_wall/log": 2, "/pose_wall/points": 10, "/pose_wall/stop_state": 20, "/map": 1}
+          "/pose_wall/scene": 20, "/pose_wall/log": 2, "/pose_wall/points": 10, "/pose_wall/stop_state": 20, "/map": 1,
+          "/pose_wall/stop_scene": 20, "/pose_wall/place_transform": 1}
 
 
 def words(port, *more):

@@ -22,12 +22,12 @@ constexpr std::int64_t kHour_ns = 3'600'000'000'000;
 constexpr std::int64_t kNow_ns = 1'800'000'000'000'000'000;  // some day of 2027
 
 double ahead_ms_of(const ClockAhead& ahead) {
-  return ahead.ahead_ms().value_or(-1e9);
+  return 1e-6 * static_cast<double>(ahead.ahead_ns().value_or(-1));
 }
 
 TEST(ClockAhead, IsThatOfThePacketThatWasFastest) {
   ClockAhead ahead;
-  EXPECT_FALSE(ahead.ahead_ms());
+  EXPECT_FALSE(ahead.ahead_ns());
   for (const std::int64_t late_us : {900, 30'000, 400, 5'000}) {
     ahead.hear({kNow_ns + 20'000'000}, kNow_ns + 1000 * late_us);
   }
@@ -90,6 +90,19 @@ TEST(SensorWatch, ALivoxTellsItsClockAndThatItLostIt) {
   hear(&watch, livox(0, 6'000'000'000));
   EXPECT_EQ(told_by(watch).grade, Grade::kWarning);
   EXPECT_EQ(told_by(watch).summary, "receives; the sensor's clock is no longer synchronised: is its time server gone?");
+}
+
+TEST(SensorWatch, KnowsWhenAClockThatWasNeverSetBegan) {
+  SensorWatch watch;
+  EXPECT_FALSE(watch.started_ns());
+  const std::int64_t before_ns = wall_ns();
+  hear(&watch, livox(0, 5'000'000'000));
+  const std::int64_t started_ns = watch.started_ns().value_or(0);
+  EXPECT_GE(started_ns, before_ns - 5'000'000'000);
+  EXPECT_LE(started_ns, wall_ns() - 5'000'000'000);
+  SensorWatch dated;
+  hear(&dated, livox(1, wall_ns() + kHour_ns));
+  EXPECT_EQ(dated.started_ns().value_or(-1), 0) << "its own date counts, right or wrong";
 }
 
 TEST(SensorWatch, AnAlertIsAWarningAndTheLastWordOfASensorThatFellSilent) {

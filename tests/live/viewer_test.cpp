@@ -217,6 +217,10 @@ TEST(LiveMessages, WallsAreDrawnWhereTheyStand) {
   ASSERT_EQ(scene["entities"].size(), 1U);
   const Json road = scene["entities"][0];
   ASSERT_EQ(road["triangles"].size(), 3U) << "floor and walls";
+  for (const Json& point : road["triangles"][0]["points"]) {
+    const double left_m = -std::sin(-0.1) * point["x"].get<double>() + std::cos(-0.1) * point["y"].get<double>();
+    EXPECT_TRUE(std::abs(left_m - 2.6) < 1e-3 || std::abs(left_m + 3.4) < 1e-3) << "the floor ends at the walls";
+  }
   for (const std::size_t wall : {1U, 2U}) {
     const double side = wall == 1 ? 1.0 : -1.0, distance_m = wall == 1 ? 2.6 : 3.4;
     const Json points = road["triangles"][wall]["points"];

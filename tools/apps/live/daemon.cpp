@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <sstream>
 #include <stdexcept>
@@ -26,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kLook = std::chrono::milliseconds(50);
 // As a worker's (live_runtime.cpp): the loop writes the log, and who reads that may be slow.
 constexpr std::int64_t kLoopHangs_ns = 10'000'000'000;
-// A recording waits so long for a disk, and no longer: a stop within a second must not wait for it.
+// A replay that waits for a disk looks so often whether it is to stop: a stop within a second must not wait for that.
 constexpr auto kDiskStall = std::chrono::milliseconds(500);
 
 void log_lines(const std::string& part, const std::string& text, Grade grade = Grade::kGood) {
@@ -50,9 +51,10 @@ class Daemon::Taker final : public FrameTaker {
   explicit Taker(Daemon& daemon) : daemon_(daemon) {}
   void take(LiveFrame frame) override { daemon_.runtime_.take(std::move(frame)); }
   void set_extrinsic(const std::optional<Extrinsic>& extrinsic) override { daemon_.runtime_.set_extrinsic(extrinsic); }
-  void wait_idle() override {
-    daemon_.runtime_.wait_idle();
-    for (const auto& sink : daemon_.sinks_) sink->wait_for_room(kDiskStall);
+  void wait_idle() override { daemon_.runtime_.wait_idle(); }
+  bool wait_for_room() override {
+    return std::all_of(daemon_.sinks_.begin(), daemon_.sinks_.end(),
+                       [](const auto& sink) { return sink->wait_for_room(kDiskStall); });
   }
 
  private:

@@ -62,10 +62,10 @@ void SinkThread::run() {
   }
 }
 
-void SinkThread::wait_for_room(std::chrono::milliseconds at_most) {
-  if (sink_->backlog() == 1) return;  // it wants the newest alone
+bool SinkThread::wait_for_room(std::chrono::milliseconds at_most) {
+  if (sink_->backlog() == 1) return true;  // it wants the newest alone
   std::unique_lock<std::mutex> locked(lock_);
-  taken_one_.wait_for(locked, at_most, [this] { return ending_ || waiting_.size() < sink_->backlog(); });
+  return taken_one_.wait_for(locked, at_most, [this] { return ending_ || waiting_.size() < sink_->backlog(); });
 }
 
 void SinkThread::stop() {

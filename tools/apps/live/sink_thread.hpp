@@ -32,7 +32,7 @@ class SinkThread {
   void post(const std::shared_ptr<const StopNews>& news) { put(&stop_news_, news); }
   void post(const std::shared_ptr<const RoadwayNews>& news) { put(&roadway_news_, news); }
   // Waits until the next result would cost none that the sink was to keep, or the time is up.
-  void wait_for_room(std::chrono::milliseconds at_most);
+  bool wait_for_room(std::chrono::milliseconds at_most);
   // Takes what waits, then ends the thread and the sink. May be called twice.
   void stop();
 

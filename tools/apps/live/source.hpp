@@ -28,6 +28,8 @@ class FrameTaker {
 
   // For a recording: waits until the frames taken so far are worked, so that none is dropped.
   virtual void wait_idle() = 0;
+  // Waits a moment for those who keep the results. False: they have no room yet.
+  virtual bool wait_for_room() { return true; }
 };
 
 class Source {

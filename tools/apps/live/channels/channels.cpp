@@ -66,7 +66,10 @@ std::vector<McapChannel> live_channels(const LoadedConfig& loaded) {
   if (!loaded.planar.is_on()) return channels;
   const std::vector<McapChannel> planar = {of_ros("/pose_wall/stop_state", kStopType),
                                            of_ros("/pose_wall/place", kCovariantPoseType),
-                                           of_ros("/map", kOccupancyGridType)};
+                                           of_ros("/map", kOccupancyGridType),
+                                           // Viewers that seek take the newest message of each topic: one kind in each.
+                                           well_known("/pose_wall/stop_scene", WellKnown::kSceneUpdate),
+                                           well_known("/pose_wall/place_transform", WellKnown::kFrameTransforms)};
   std::copy(planar.begin(), planar.end(), std::back_inserter(channels));
   return channels;
 }

@@ -20,13 +20,15 @@ enum ChannelNumber : std::uint16_t {
   kHealthChannel,     // pose_wall.Health
   kCloudChannel,      // the raw cloud, as ROS 2 has it
   kPoseChannel,       // base in the road
-  kTransformChannel,  // base to lidar, levelled frame and road; map to base
-  kSceneChannel,      // floor, walls, distances; machine and stop
+  kTransformChannel,  // base to lidar, levelled frame and road
+  kSceneChannel,      // floor, walls, distances
   kLogChannel,        // parts that fare otherwise than they did
   kPointsChannel,     // labelled points
   kStopChannel,
   kPlaceChannel,  // base on the map
   kMapChannel,
+  kStopSceneChannel,       // machine and stop
+  kPlaceTransformChannel,  // map to base
   kChannels
 };
 

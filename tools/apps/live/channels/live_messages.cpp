@@ -51,11 +51,11 @@ void LiveMessages::tell(const LiveResult& result, ChannelOut* out) const {
 
 void LiveMessages::tell(const StopNews& news, ChannelOut* out) const {
   if (out->wants(kStopChannel)) out->put(kStopChannel, planar_.stop_state(news));
-  if (out->wants(kSceneChannel)) out->put(kSceneChannel, scene_.scene(news));
+  if (out->wants(kStopSceneChannel)) out->put(kStopSceneChannel, scene_.scene(news));
 }
 
 void LiveMessages::tell(const RoadwayNews& news, ChannelOut* out) {
-  if (out->wants(kTransformChannel)) put_some(out, kTransformChannel, scene_.transforms(news));
+  if (out->wants(kPlaceTransformChannel)) put_some(out, kPlaceTransformChannel, scene_.transforms(news));
   if (news.pose && out->wants(kPlaceChannel)) out->put(kPlaceChannel, planar_.pose(news));
   if (!out->wants(kMapChannel)) {
     map_told_ = 0;

@@ -80,7 +80,8 @@ Json transform(std::int64_t stamp_ns, const std::string& parent, const std::stri
 }
 
 // A newer entity of an id takes the place of the older one: what is empty is gone. Results, and the stop's answers,
-// come ten times a second also in silence: what is a second old was left by a daemon that hangs or cannot be reached.
+// come ten times a second also in silence. A viewer's clock goes on by messages alone: of a daemon that has gone the
+// last picture stays, whatever the lifetime.
 constexpr int kLifetime_s = 1;
 
 Json entity(std::int64_t stamp_ns, const std::string& frame, const char* id) {
@@ -138,6 +139,19 @@ void add_text(Json* to, const Vector3d& where, const std::string& text, Colour c
                             {"text", text}});
 }
 
+// A reason of one line lies across the whole picture.
+std::string in_lines(std::string text) {
+  constexpr std::size_t kLetters = 40;  // 5 m by kTextHeight_m, as a road is wide
+  std::size_t began = 0;
+  for (std::size_t at = text.find(' '); at != std::string::npos; at = text.find(' ', at + 1)) {
+    const std::size_t next = std::min(text.find(' ', at + 1), text.size());
+    if (next - began <= kLetters) continue;
+    text[at] = '\n';
+    began = at + 1;
+  }
+  return text;
+}
+
 Colour colour_of(std::uint32_t state) {
   return state == POSE_WALL_VALID ? kGreen : state == POSE_WALL_DEGRADED ? kAmber : kGrey;
 }
@@ -192,10 +206,18 @@ void add_floor(Json* to, const Sight& sight) {
   const Vector3d up = vector(floor.normal), side = up.cross(vector(sight.frames.forward_base)).normalized();
   const Vector3d ahead = side.cross(up), foot = -floor.d_m * up;
   const double reach_m = floor.extent_max_m;
-  add_quad(to,
-           {foot + reach_m * (ahead + side), foot + reach_m * (ahead - side), foot - reach_m * (ahead + side),
-            foot - reach_m * (ahead - side)},
-           colour_of(std::min(sight.state(POSE_WALL_ROLL), sight.state(POSE_WALL_PITCH))));
+  const Colour colour = colour_of(std::min(sight.state(POSE_WALL_ROLL), sight.state(POSE_WALL_PITCH)));
+  const std::optional<Isometry3d> road = sight.road_in_base();
+  if (!road) {
+    return add_quad(to,
+                    {foot + reach_m * (ahead + side), foot + reach_m * (ahead - side), foot - reach_m * (ahead + side),
+                     foot - reach_m * (ahead - side)},
+                    colour);
+  }
+  const double half_m = 0.5 * (sight.r.left.d_m + sight.r.right.d_m);
+  const auto corner = [&](double along_m, double left_m) -> Vector3d { return *road * Vector3d(along_m, left_m, 0.0); };
+  add_quad(to, {corner(reach_m, half_m), corner(reach_m, -half_m), corner(-reach_m, -half_m), corner(-reach_m, half_m)},
+           colour);
 }
 
 // Heights are above the floor.
@@ -338,7 +360,8 @@ std::string SceneWriter::scene(const StopNews& news) const {
   }
   add_way(&machine, planar_, stop, colour, ahead_base_);
   const std::string why = line_.text(Language::kEnglish, stop, news.cause_for_s());
-  const std::string text = std::string(pose_wall_planar_stop_state_name(stop.state)) + (why.empty() ? "" : ": " + why);
+  const std::string text =
+      std::string(pose_wall_planar_stop_state_name(stop.state)) + (why.empty() ? "" : ":\n" + in_lines(why));
   add_text(&machine, middle + Vector3d(0.0, 0.0, 0.5 * planar_.height_m + kTextHeight_m), text, colour);
   return scene_json(Json::array({machine}));
 }
@@ -347,7 +370,8 @@ std::string SceneWriter::transforms(const RoadwayNews& news) const {
   if (!news.pose) return "";
   Isometry3d base = Isometry3d::Identity();
   base.linear() = Eigen::AngleAxisd(news.pose->yaw_rad, Vector3d::UnitZ()).toRotationMatrix();
-  base.translation() = Vector3d(news.pose->x_m, news.pose->y_m, 0.0);
+  // The map lies on the floor.
+  base.translation() = Vector3d(news.pose->x_m, news.pose->y_m, -planar_.stop.floor_z_m);
   return json_text({{"transforms", Json::array({transform(news.header_stamp_ns, map_frame_, base_frame_, base)})}});
 }
 

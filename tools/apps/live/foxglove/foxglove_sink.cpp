@@ -27,9 +27,6 @@ std::vector<Keeping> keeping_of(std::size_t channels) {
   std::vector<Keeping> keeping(channels);
   // Two seconds and a cloud's way over a slow line; each message is small.
   for (const std::size_t channel : {kResultChannel, kPoseChannel}) keeping[channel].messages = 20;
-  // Results and the planar part tell different transforms and entities, which do not replace each other.
-  keeping[kTransformChannel].messages = 4;
-  keeping[kSceneChannel].messages = 4;
   // Who comes later reads what happened: all parts tell of themselves some times.
   keeping[kLogChannel] = {64, true};
   if (channels > kMapChannel) keeping[kMapChannel] = {1, true};

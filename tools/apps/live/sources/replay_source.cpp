@@ -130,6 +130,8 @@ class ReplaySource final : public Source {
     if (plan_.step) return wait_for_line();
     if (plan_.speed == 0.0) {
       taker.wait_idle();
+      while (!ending_ && !taker.wait_for_room()) {
+      }
       return !ending_;
     }
     const double wait_s = std::min(std::max(static_cast<double>(ahead_ns) * 1e-9, 0.0), kGapMost_s) / plan_.speed;

@@ -35,9 +35,9 @@ void ClockAhead::hear(const ClockReading& clock, std::int64_t wall_ns) {
   ahead_ns_ = std::max(ahead_ns_, ahead_ns);
 }
 
-std::optional<double> ClockAhead::ahead_ms() const {
+std::optional<std::int64_t> ClockAhead::ahead_ns() const {
   const std::int64_t ahead_ns = std::max(ahead_ns_, ahead_before_ns_);
-  return ahead_ns == kNone ? std::nullopt : std::optional<double>(1e-6 * static_cast<double>(ahead_ns));
+  return ahead_ns == kNone ? std::nullopt : std::optional<std::int64_t>(ahead_ns);
 }
 
 void SensorWatch::hear(const Datagram& datagram, const std::string& metadata) {
@@ -49,6 +49,13 @@ void SensorWatch::hear(const Datagram& datagram, const std::string& metadata) {
   state_ = state;
   if (state.clock) ahead_.hear(*state.clock, wall_ns());
   was_synchronised_ = was_synchronised_ || state.is_synchronised.value_or(false);
+}
+
+std::optional<std::int64_t> SensorWatch::started_ns() const {
+  const std::lock_guard<std::mutex> locked(lock_);
+  const std::optional<std::int64_t> ahead_ns = ahead_.ahead_ns();
+  if (!ahead_ns) return std::nullopt;
+  return ahead_.is_of_a_date() ? 0 : -*ahead_ns;
 }
 
 void SensorWatch::begin_anew() {
@@ -71,9 +78,9 @@ void SensorWatch::tell(PartHealth* health) const {
   }
   if (state_.alert) health->add("sensor alerts", std::uint64_t{state_.alert->empty() ? 0U : 1U});
   if (state_.is_synchronised) health->add("sensor synchronised", *state_.is_synchronised ? "yes" : "no");
-  if (const std::optional<double> ahead_ms = ahead_.ahead_ms()) {
+  if (const std::optional<std::int64_t> ahead_ns = ahead_.ahead_ns()) {
     if (ahead_.is_of_a_date()) {
-      health->add("sensor clock ahead ms", fmt::format("{:.1f}", *ahead_ms));
+      health->add("sensor clock ahead ms", fmt::format("{:.1f}", 1e-6 * static_cast<double>(*ahead_ns)));
     } else {
       health->add("sensor clock", "since_start");
     }

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "apps/live/health.hpp"
@@ -27,7 +28,7 @@ class ClockAhead {
   // Whether it counts from a date, and not since the sensor's start.
   bool is_of_a_date() const { return is_of_a_date_; }
   // Nothing before the first packet.
-  std::optional<double> ahead_ms() const;
+  std::optional<std::int64_t> ahead_ns() const;
 
  private:
   static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
@@ -41,6 +42,9 @@ class SensorWatch {
   // Of each data packet of the sensor that is read, in one thread. `metadata`: that of an Ouster, or "".
   void hear(const Datagram& datagram, const std::string& metadata);
   bool knows_sensor() const { return words_ != nullptr; }
+  // When the sensor's clock began to count, by the clock of this machine that people set. 0 where it counts from a
+  // date, nothing before the first packet that tells.
+  std::optional<std::int64_t> started_ns() const;
   // After the sensor was silent: another one may stand there.
   void begin_anew();
 

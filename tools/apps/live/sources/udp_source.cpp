@@ -271,6 +271,7 @@ class UdpSource final : public Source {
     are_two_ = false;
     assembler_.reset();
     watch_.begin_anew();
+    started_ns_.reset();
     metadata_.ask_again();
     is_first_turn_ = true;
     const std::lock_guard<std::mutex> locked(words_lock_);
@@ -287,7 +288,14 @@ class UdpSource final : public Source {
     frame.stamp_ns = scan.stamp_ns;
     frame.frame.cloud.stamp_ns = scan.stamp_ns;
     // Times of arrival are of the clock that nobody sets, for ages go by it; headers are of the one that people set.
-    if (assembler_->stamps_are_of_arrival()) frame.stamp_ns += wall_ns() - monotonic_ns();
+    // A sensor's clock that was never set counts from its start: headers from 1970 fit nothing, and go back at each
+    // start.
+    if (assembler_->stamps_are_of_arrival()) {
+      frame.stamp_ns += wall_ns() - monotonic_ns();
+    } else {
+      if (!started_ns_) started_ns_ = watch_.started_ns();
+      frame.stamp_ns += started_ns_.value_or(0);
+    }
     ++frames_;
     taker.take(std::move(frame));
   }
@@ -298,9 +306,10 @@ class UdpSource final : public Source {
   std::unique_ptr<UdpReceiver> device_;  // of sensors that describe themselves by a port of its own
   std::unique_ptr<OneSender> assembler_;
   SensorWatch watch_;
-  bool are_two_ = false;                 // another one was heard between packets of the one that is read
-  std::string wanted_;                   // of two that were heard the one that was read; "": any
-  std::optional<std::uint32_t> sender_;  // as the settings name it
+  std::optional<std::int64_t> started_ns_;  // of the sensor's clock; once a start, so that steps stay the sensor's
+  bool are_two_ = false;                    // another one was heard between packets of the one that is read
+  std::string wanted_;                      // of two that were heard the one that was read; "": any
+  std::optional<std::uint32_t> sender_;     // as the settings name it
   bool is_first_turn_ = true;
   std::uint64_t packets_of_use_ = 0;  // since it began anew
   std::int64_t whole_turn_ns_ = 0;    // when the last one came
