@@ -47,6 +47,8 @@ Object.assign(WORDS.zh, {
     'this page is not open for commissioning: give the code that the log shows': '本页未进入调试：请输入日志中的代码',
     'nothing was recorded yet': '尚未录制', 'nothing was checked yet': '尚未试算', 'the page shows other settings than those that were checked': '页面上的设置与试算的不同',
     'no cloud came while it was recorded: look at the source': '录制期间没有点云：请检查输入', 'by: the name of who commissions is missing': '缺少调试人姓名',
+    "'ahead' was not confirmed": '尚未确认前方', "'mounting' was not confirmed": '尚未确认传感器的位置', "'boxes' was not confirmed": '尚未确认机身框',
+    'the disk did not keep up: record again': '磁盘写入跟不上：请重新录制',
     'the settings have changed since they were checked: check again': '试算之后设置已变：请重新试算',
   },
 });
