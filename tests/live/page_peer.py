@@ -380,9 +380,10 @@ return said;""")
         browser = self.browser()
         grey = lambda: browser.run("return Array.from(document.querySelectorAll('.current'), (x) => "
                                    "getComputedStyle(x).filter)")
-        self.assertEqual(set(grey()), {"none"})
-        browser.run("document.getElementById('pause').click(); show_link()")
-        self.assertEqual(set(grey()), {"grayscale(1)"})
+        self.assertTrue(live_peer.becomes_true(lambda: set(grey()) == {"none"}), "it is live")
+        browser.run("document.getElementById('pause').click()")
+        self.assertTrue(live_peer.becomes_true(lambda: set(grey()) == {"grayscale(1)"} and browser.run(
+            "return document.body.className") == "paused"))
         self.assertGreaterEqual(len(grey()), 7)
         self.assertEqual(browser.run("return getComputedStyle(document.getElementById('steer')).filter"), "none")
         # A result of silence as it comes when the sensor goes away.
@@ -557,7 +558,9 @@ return Array.from(document.querySelectorAll('main table')).filter((table) => {
         tops = browser.run("return ['steer', 'stop-line'].map((id) => "
                            "document.getElementById(id).getBoundingClientRect().top)")
         self.assertEqual(tops[0], tops[1], "the stop stands beside what may steer")
-        self.assertRegex(self.text(browser, "stop-line"), r"^Obstacle stop: STOP\. [A-Z].* s\. [A-Z].*\.$")
+        # On a busy machine an answer may be late, which the line says, too.
+        stands = lambda: re.search(r"^Obstacle stop: STOP\. [A-Z].* s\. [A-Z].*\.$", self.text(browser, "stop-line"))
+        self.assertTrue(live_peer.becomes_true(stands), self.text(browser, "stop-line"))
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
         self.addCleanup(connection.close)
         connection.request("GET", "/map.png")
@@ -569,6 +572,10 @@ return Array.from(document.querySelectorAll('main table')).filter((table) => {
                                  ".getImageData(3, 3, 1, 1).data)")
             self.assertEqual(ground, unknown + [255], "beside the map all is unknown")
         browser.run("document.documentElement.dataset.theme = 'light'")
+        with tempfile.TemporaryDirectory() as folder:
+            browser.cdp("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            browser.run("document.getElementById('roadway-png').click()")
+            self.assertTrue(live_peer.becomes_true(lambda: list(pathlib.Path(folder).glob("*_roadway.png"))))
         browser.run("document.getElementById('roadway-zoom').click()")
         self.assertEqual(self.text(browser, "roadway-zoom"), "Whole map")
         browser.run("page.paused = true; roadway.place_heard_ms -= 1e5; roadway.show_place()")

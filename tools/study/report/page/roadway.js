@@ -12,6 +12,7 @@ class RoadwayView {
     this.stop_heard_ms = this.place_heard_ms = -Infinity;
     this.is_near = false;
     for (const id of ['roadway-panel', 'stop-line']) document.getElementById(id).hidden = false;
+    document.getElementById('roadway-png').onclick = () => { if (recording) save_picture('roadway', [document.getElementById('roadway')]); };
     document.getElementById('roadway-zoom').onclick = () => { this.is_near = !this.is_near; this.show(); };
   }
 
