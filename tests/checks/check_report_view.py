@@ -18,6 +18,7 @@ import time
 from check_report_page import INK, Browser, Checks, check_chinese, check_quiet
 
 TEXT = "document.getElementById('%s').textContent"
+QUANTITIES = ("roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb")
 # A canvas as a number that changes with what is drawn.
 INK_OF_VIEW = """
 const scene = viewer.space.scene;
@@ -109,6 +110,56 @@ def check_time_line(browser, checks):
     checks.hold("a click into it goes there", abs(run("return page.frame") - middle) <= 1)
 
 
+def check_without_stamps(browser, checks):
+    """A recording without stamps begins at 0, for its reader as for `explain --stamp`."""
+    said = browser.run("const kept = recording.stamp_s.slice(); recording.stamp_s = kept.map((_, f) => f / 10);"
+                       "show_frame(3);"
+                       "const said = [document.getElementById('frame-name').textContent, file_name('top', 'png'),"
+                       " csv_text(3, 3).split('\\n')[1].slice(0, 11), moment_text(recording, 0, 1),"
+                       " clock_ticks(recording, 0, 30, 4)[0]];"
+                       "recording.stamp_s = kept; show_frame(0); return said;")
+    checks.hold(f"its page, pictures and numbers count from frame 0: {said}", " · 0.3 s · " in said[0] and
+                "_0.3-s_top" in said[1] and said[2] == "3,0.300000," and said[3] == "0.0 s" and said[4] == [10, "1 s"])
+
+
+CONTRASTS = """
+const part = (x) => (x <= 0.03928 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
+const light = (name) => colour(name).match(/[0-9a-f]{2}/g).map((x) => part(parseInt(x, 16) / 255))
+  .reduce((sum, x, k) => sum + x * [0.2126, 0.7152, 0.0722][k], 0);
+const names = ['ink', 'faint', 'valid', 'degraded', 'held', 'invalid', 'unreadable', 'not-valid'];
+return names.map((name) => {
+  const [least, most] = [light(name), light('panel')].sort((a, b) => a - b);
+  return [(most + 0.05) / (least + 0.05), name];
+}).sort((a, b) => a[0] - b[0])[0];
+"""
+
+
+def check_themes(browser, checks):
+    run, theme = browser.run, "document.documentElement.dataset.theme"
+    scheme = lambda name: browser.cdp("Emulation.setEmulatedMedia", media="",
+                                      features=[{"name": "prefers-color-scheme", "value": name}])
+    for name in ("dark", "light"):
+        scheme(name)
+        checks.become(f"the page follows the system to {name}", lambda: run(f"return {theme}") == name)
+        least, what = run(CONTRASTS)
+        checks.hold(f"words can be read, {name}: {what} {least:.2f}", least >= 4.5)
+        checks.hold("so can what the browser draws", run(
+            "return getComputedStyle(document.documentElement).colorScheme") == name)
+    scheme("dark")
+    checks.become("and back", lambda: run(f"return {theme}") == "dark")
+    screen = run(INK % "top")
+    run("window.dispatchEvent(new Event('beforeprint'))")
+    checks.hold("paper is light, pictures as well", run(f"return {theme}") == "light" and run(INK % "top") != screen)
+    run("window.dispatchEvent(new Event('afterprint'))")
+    checks.hold("the screen is dark again", run(f"return {theme}") == "dark" and run(INK % "top") == screen)
+    browser.cdp("Emulation.setEmulatedMedia", media="print", features=[])
+    seen = run("return ['frame-name', 'slider', 'space-panel', 'top'].map((id) => "
+               "document.getElementById(id).offsetHeight > 0)")
+    checks.hold(f"the number of the frame is printed, slider and 3D view are not {seen}",
+                seen == [True, False, False, True])
+    browser.cdp("Emulation.setEmulatedMedia", media="", features=[])
+
+
 def take_second(browser, text):
     browser.run(f"compare.take(new File([{json.dumps(text)}], 'second.csv'))")
 
@@ -145,6 +196,34 @@ def check_second_run(browser, checks, table):
                 numbers[missing - 3]["d_lf_second_m"] == "")
     run("document.getElementById('compare-end').click()")
     checks.hold("both, the difference and one alone are three pictures", len({both, apart, run(ink)}) == 3)
+    check_doubts(browser, checks, rows)
+
+
+def check_doubts(browser, checks, rows):
+    """What is not valid in the second run looks so, and another recording is no second run of this one."""
+    run, ink, doubt = browser.run, INK % "chart-d_lf", f"return {TEXT % 'compare-doubt'}"
+
+    def take(**changed):
+        out = io.StringIO()
+        writer = csv.DictWriter(out, rows[0].keys())
+        writer.writeheader()
+        writer.writerows({**row, **{key: change(row) for key, change in changed.items()}} for row in rows)
+        run("compare.end()")
+        take_second(browser, out.getvalue())
+        checks.become("it is taken", lambda: run("return Boolean(recording.other)"))
+        return run(doubt), run(ink)
+
+    said, valid = take(d_lf_state=lambda row: "valid")
+    checks.hold(f"a run of the same recording is not doubted {said}", said == "")
+    _, held = take(d_lf_state=lambda row: "degraded")
+    checks.hold("what is not valid in it is not drawn as if it were", held != valid)
+    said, _ = take(source=lambda row: "elsewhere/" + row["source"].rsplit("/", 1)[-1])
+    checks.hold(f"one of another recording is: {said}", "another recording" in said and "elsewhere/" in said)
+    said, _ = take(source=lambda row: "./" + row["source"].split("/", 2)[-1])
+    checks.hold("a folder that is named otherwise is the same", said == "")
+    said, _ = take(**{f"{name}_state": (lambda row: "invalid") for name in QUANTITIES})
+    checks.hold(f"so is one without a frame in common that counts: {said}", "nothing to compare" in said)
+    run("compare.end()")
 
 
 def check_files(browser, checks, table):
@@ -193,6 +272,8 @@ def main():
         browser.open(page.as_uri())
         check_three(browser, checks, has_three)
         check_time_line(browser, checks)
+        check_without_stamps(browser, checks)
+        check_themes(browser, checks)
         check_second_run(browser, checks, table)
         check_files(browser, checks, table)
         take_second(browser, table)

@@ -392,6 +392,22 @@ class InABrowser(unittest.TestCase):
         picture("checked")
         click("保存")
         become(f"{panel}.textContent.includes('缺少调试人姓名')")
+        refusal = browser.run(f"const line = {panel}.querySelector('[role=alert]'), box = line.getBoundingClientRect();"
+                              "return [line.textContent, line.previousElementSibling.textContent,"
+                              " box.top >= 0 && box.bottom <= innerHeight]")
+        self.assertEqual(refusal, ["缺少调试人姓名", "保存", True], "beside the button, in sight")
+        # In the other language the sentences of the command are fetched anew, and nothing that was drawn is lost.
+        drawn = browser.run("return JSON.stringify(commission.draft.boxes)")
+        browser.run("document.getElementById('language').click()")
+        become("commission.state.checked && commission.state.checked.told.some((line) => /^may steer: /.test(line))",
+               STEP_S)
+        self.assertRegex(browser.run(f"return {panel}.innerText"), "Sensor in the machine[^]*roll")
+        browser.run("document.getElementById('language').click()")
+        become("commission.state.checked && commission.state.checked.told.some((line) => /^可用于控制：/.test(line))",
+               STEP_S)
+        self.assertEqual(browser.run("return JSON.stringify(commission.draft.boxes)"), drawn)
+        self.assertNotRegex(browser.run("return Array.from(document.querySelectorAll('#commission label'), "
+                                        "(x) => x.textContent).join()"), "roll|pitch|yaw")
         browser.run("commission.by = '李工'; commission.shown = ''; commission.show()")
         browser.run(f"for (const box of {panel}.querySelectorAll('.commission-confirm input')) box.click()")
         click("保存")

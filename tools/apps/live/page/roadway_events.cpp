@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// As pictures of `pose_wall map` have them: unknown, free, a thing.
+// As pictures of `pose_wall map` have them: unknown, free, a thing. The first is the page's ground (live.css).
 constexpr std::array<Rgb, 4> kShades = {{{222, 219, 212}, {255, 255, 255}, {34, 40, 46}, {255, 255, 255}}};
 constexpr int kOccupied = 65, kFree = 35;  // per cent
 

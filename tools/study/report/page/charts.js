@@ -96,21 +96,28 @@ class Charts {
   // The values of a second run.
   draw_second(pen, q, x_of, y_of) {
     const r = this.recording;
-    this.draw_run(pen, (f) => r.other.value[r.at(f, q)] * r.unit(q), x_of, y_of);
+    this.draw_run(pen, (f) => r.other.value[r.at(f, q)] * r.unit(q), (f) => r.other.state[r.at(f, q)] === VALID, x_of, y_of);
   }
 
-  // A line by frames, broken where there is no number.
-  draw_run(pen, value_of, x_of, y_of) {
+  // A line by frames, broken where there is no number: solid where it is valid, else dashed as far as to its neighbours. A
+  // number alone is a dot, and a ring where it is not valid.
+  draw_run(pen, value_of, is_valid, x_of, y_of) {
     const style = colour('second'), first = Math.max(0, Math.floor(this.from)), last = Math.min(this.recording.frames - 1, Math.ceil(this.to));
-    let run = [];
+    let run = [], is_solid = true;
     const finish = () => {
-      if (run.length === 1) dot(pen, run[0], 2, style);
-      stroke(pen, run, style, 1.4);
+      if (run.length === 1) (is_solid ? dot : ring)(pen, run[0], 2, style);
+      else stroke(pen, run, style, is_solid ? 1.8 : 1.1, is_solid ? [] : [2, 3]);
       run = [];
     };
     for (let f = first; f <= last; ++f) {
-      const v = value_of(f);
-      if (Number.isFinite(v)) run.push([x_of(f), y_of(v)]); else finish();
+      const v = value_of(f), point = [x_of(f), y_of(v)], is_now = is_valid(f);
+      if (!Number.isFinite(v)) { finish(); continue; }
+      if (run.length && is_now !== is_solid) {
+        const before = run[run.length - 1];
+        if (!is_now) { finish(); run = [before]; } else { run.push(point); finish(); }
+      }
+      is_solid = is_now;
+      run.push(point);
     }
     finish();
   }
@@ -126,7 +133,8 @@ class Charts {
     pen.beginPath();
     pen.rect(Charts.kLeft, 4, inside, bottom - 4);
     pen.clip();
-    this.draw_run(pen, (f) => r.other.difference(f, q), x_of, y_of);
+    const are_valid = (f) => [r.state, r.other.state].every((states) => states[r.at(f, q)] === VALID);
+    this.draw_run(pen, (f) => r.other.difference(f, q), are_valid, x_of, y_of);
     pen.restore();
     if (this.frame !== undefined) stroke(pen, [[x_of(this.frame), 0], [x_of(this.frame), height]], colour('ink'), 1);
   }
@@ -140,9 +148,10 @@ class Charts {
     const unit = this.recording.is_angle(q) ? '°' : 'm';
     label(pen, `${name_text(q)} [${unit}]`, Charts.kLeft + 6, 16, colour('ink'));
     if (q !== QUANTITIES.length - 1) return;
+    const told = [];
     for (const [f, text] of clock_ticks(this.recording, this.from, this.to, (width - Charts.kLeft) / 100)) {
       stroke(pen, [[x_of(f), bottom + 7], [x_of(f), bottom + 10]], colour('faint'), 1);
-      label(pen, text, Math.min(x_of(f), width - 32), bottom + 20, colour('faint'), 'center');
+      tick_label(pen, text, x_of(f), bottom + 20, told, width);
     }
   }
 

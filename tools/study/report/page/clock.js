@@ -3,8 +3,12 @@
 const kClockFrom_s = 1e9;  // 2001: what is less counts from the start of a sensor or of a simulation
 const kTicks_s = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 43200, 86400];
 
-// Where nothing came yet a live page has stamps of 0.
-function first_stamp(recording) { return Math.max(0, recording.stamp_s.subarray(0, recording.frames).findIndex((s) => s > 0)); }
+// Where nothing came yet a live page has stamps of 0. A recording without stamps begins at 0.
+function first_stamp(recording) {
+  const stamp_s = recording.stamp_s.subarray(0, recording.frames);
+  const is_none = (s) => !(s > 0) && (recording.is_live || stamp_s[stamp_s.length - 1] >= kClockFrom_s);
+  return Math.max(0, stamp_s.findIndex((s) => !is_none(s)));
+}
 
 function has_clock(recording) { return recording.stamp_s[first_stamp(recording)] >= kClockFrom_s; }
 

@@ -8,7 +8,7 @@ const kDegPerRad = 180 / Math.PI;
 
 class CommissionPanel {
   constructor() {
-    Object.assign(this, { state: null, draft: null, told: '', open_error: '', scene: null, confirmed: {}, shown: '' });
+    Object.assign(this, { state: null, draft: null, asked: null, refused: '', told_error: '', language: page.language, scene: null, confirmed: {}, shown: '' });
     this.panel = document.getElementById('commission');
     this.canvas = element('canvas');  // stays, and so do its view and its context
     this.canvas.id = 'commission-space';
@@ -21,22 +21,45 @@ class CommissionPanel {
     setTimeout(() => this.look(), this.state && this.state.open ? 1000 : 5000);
   }
 
-  async ask(step, message) {
+  // is_retold: the same in another language.
+  async ask(step, message, is_retold = false) {
+    Object.assign(this, { asked: step, told_error: '' });
+    if (step === 'examine' && !is_retold) this.proposed = '';
     const answer = await fetch(`/commissioning/${step}`, { method: 'POST', headers: { 'Content-Type': 'application/json' },
       body: JSON.stringify({ language: page.language, ...message }) }).catch(() => null);
-    this.open_error = answer && !answer.ok ? (await answer.json().catch(() => ({ error: answer.status }))).error : '';
+    this.refused = answer && !answer.ok ? (await answer.json().catch(() => ({ error: answer.status }))).error : '';
     const now = await fetch('/commissioning.json').catch(() => null);
     if (now && now.ok) this.take(await now.json());
   }
 
   // What the doctor proposes is taken into the draft once.
   take(state) {
-    const before = this.state;
     this.state = state;
+    if (!state.open || !state.recorded) this.proposed = '';
     if (state.open && !this.draft) this.draft = this.draft_of(state.mounting);
-    if (JSON.stringify(state.recorded) !== JSON.stringify(before && before.recorded)) this.confirmed = {};
-    if (state.open && state.examined && state.examined.grade !== 'not' && JSON.stringify(state.examined.changes) !== JSON.stringify(before && before.examined && before.examined.changes)) this.propose(state.examined.changes);
+    if (JSON.stringify(state.recorded) !== this.recorded) this.confirmed = {};  // they were of another recording
+    this.recorded = JSON.stringify(state.recorded);
+    if (state.open && state.examined && state.examined.grade !== 'not') this.take_proposal(state.examined.changes);
     this.show();
+  }
+
+  // The same proposal in other words leaves what a person drew since.
+  take_proposal(changes) {
+    const values = JSON.stringify(changes.map(({ key, value }) => [key, value]));
+    if (values !== this.proposed) this.propose(changes);
+    this.proposed = values;
+    for (const gate of this.draft.gates) Object.assign(gate, { reason: changes.find(({ key }) => key === gate.key).reason });
+  }
+
+  // What the command told is in the language in which it was asked. Asked again it costs nothing that a person did, until
+  // the settings are saved.
+  tell_anew() {
+    const s = this.state;
+    if (this.language === page.language) return;
+    this.language = page.language;
+    if (!s || !s.open || s.busy || s.saved) return;
+    if (s.checked) this.ask('check', { changes: s.checked.changes }, true);
+    else if (s.examined) this.ask('examine', {}, true);
   }
 
   draft_of(mounting) {
@@ -83,17 +106,38 @@ class CommissionPanel {
     this.panel.hidden = false;
     const busy = this.panel.querySelector('.commission-busy');
     if (busy && s.busy) busy.textContent = this.busy_text();
-    const what = JSON.stringify([page.language, this.open_error, { ...s, busy_s: 0, clouds: 0 }, this.draft && this.draft.gates.length, this.draft && this.draft.boxes.length]);
+    const what = JSON.stringify([page.language, this.refused, this.asked, { ...s, busy_s: 0, clouds: 0 }, this.draft && this.draft.gates.length, this.draft && this.draft.boxes.length]);
     if (what === this.shown) return;
     this.shown = what;
     const w = words(), parts = [element('h2', w.commission), element('p', w.commission_on, 'faint')];
-    if (this.open_error || s.error) parts.push(element('p', this.error_text(this.open_error || s.error), 'commission-error'));
+    // What was asked before the page was loaded has no button that it belongs to.
+    if (s.error && (!this.asked || this.asked === 'open')) parts.push(this.error_line(s.error));
     parts.push(...(s.open ? this.steps() : [this.code()]));
     this.panel.replaceChildren(...parts);
     if (s.open && s.examined) this.show_space();
+    this.show_error();
   }
 
   error_text(text) { return (words().commission_errors || {})[text] || String(text); }
+
+  error_line(text) {
+    const out = element('span', this.error_text(text), 'commission-error');
+    out.setAttribute('role', 'alert');
+    return out;
+  }
+
+  // Why a step was refused or failed, for beside its button.
+  error_of(step) {
+    const text = this.refused || this.state.error;
+    return text && this.asked === step ? [this.error_line(text)] : [];
+  }
+
+  // Once each: it is brought to where the reader looks.
+  show_error() {
+    const line = this.panel.querySelector('[role=alert]'), text = line ? line.textContent : '';
+    if (line && text !== this.told_error) line.scrollIntoView({ block: 'nearest' });
+    this.told_error = text;
+  }
 
   code() {
     const w = words(), form = element('form', undefined, 'commission-row'), input = element('input');
@@ -101,7 +145,7 @@ class CommissionPanel {
     input.setAttribute('aria-label', w.commission_code);
     const go = button(w.commission_open, () => {});
     go.type = 'submit';
-    form.append(element('span', w.commission_code), input, go);
+    form.append(element('span', w.commission_code), input, go, ...this.error_of('open'));
     input.value = this.typed || '';  // a wrong letter does not cost the other nine
     input.addEventListener('input', () => { this.typed = input.value; });
     form.addEventListener('submit', (event) => { event.preventDefault(); this.ask('open', { code: input.value.normalize('NFKC') }); });
@@ -121,25 +165,25 @@ class CommissionPanel {
 
   busy_text() { return words().commission_busy(words().commission_jobs[this.state.busy], this.state.busy_s); }
 
-  // A step's button, or how long it has been at work.
+  // A step's button and why it was refused, or how long it has been at work.
   action(step, text, message) {
     const s = this.state;
-    if (s.busy === step) return element('span', this.busy_text(), 'commission-busy');
+    if (s.busy === step) return [element('span', this.busy_text(), 'commission-busy')];
     const out = button(text, () => this.ask(step, message ? message() : {}));
     out.disabled = Boolean(s.busy);
-    return out;
+    return [out, ...this.error_of(step)];
   }
 
   record() {
     const w = words(), row = element('p', undefined, 'commission-row');
-    row.append(this.action('record', w.commission_record, () => ({ seconds: 30 })));
+    row.append(...this.action('record', w.commission_record, () => ({ seconds: 30 })));
     if (this.state.recorded) row.append(element('span', w.commission_recorded(this.state.recorded)));
     return [element('p', w.commission_record_help), row];
   }
 
   examine() {
     const w = words(), found = this.state.examined, row = element('p', undefined, 'commission-row');
-    row.append(this.action('examine', w.commission_examine));
+    row.append(...this.action('examine', w.commission_examine));
     const out = [element('p', w.commission_examine_help), row];
     if (!found) return out;
     const list = element('ul');
@@ -170,7 +214,7 @@ class CommissionPanel {
     }
     MOUNTING.forEach((key, k) => {
       const factor = k < 3 ? 1 : kDegPerRad, unit = k < 3 ? ' m' : '°';
-      mounting.append(number_field(`${key.slice(10)}`, unit, this.draft.mounting[k] * factor, k < 3 ? 3 : 2, (v) => { this.draft.mounting[k] = v / factor; this.confirmed.mounting = false; this.note_change(); }));
+      mounting.append(number_field(w.names[key.slice(10)] || key.slice(10), unit, this.draft.mounting[k] * factor, k < 3 ? 3 : 2, (v) => { this.draft.mounting[k] = v / factor; this.confirmed.mounting = false; this.note_change(); }));
     });
     this.space_note = element('p', w.commission_space_help, 'faint');
     const drawn = this.confirmations(this.state.to_confirm.filter((name) => OF_THE_DRAFT.includes(name)));
@@ -207,7 +251,7 @@ class CommissionPanel {
 
   check() {
     const w = words(), { checked } = this.state, row = element('p', undefined, 'commission-row');
-    row.append(this.action('check', w.commission_check, () => ({ changes: this.changes() })));
+    row.append(...this.action('check', w.commission_check, () => ({ changes: this.changes() })));
     const out = [element('p', w.commission_check_help), row];
     if (!checked) return out;
     if (!this.is_checked()) out.push(element('p', w.commission_changed, 'commission-error'));
@@ -220,13 +264,13 @@ class CommissionPanel {
     by.value = this.by || '';
     by.setAttribute('aria-label', w.commission_by);
     by.addEventListener('input', () => { this.by = by.value; });
-    row.append(element('span', w.commission_by), by, this.action('save', w.commission_save, () => ({
+    row.append(element('span', w.commission_by), by, ...this.action('save', w.commission_save, () => ({
       by: by.value, confirmed: this.confirmed, config_crc32: this.is_checked() ? s.checked.config_crc32 : null })));
     const contradicted = this.confirmations(s.to_confirm.filter((name) => !OF_THE_DRAFT.includes(name)));
     const out = [element('p', w.commission_crc(crc_text(s.checked.config_crc32))), element('p', w.commission_save_help), contradicted, row];
     if (!s.saved) return out;
     const done = element('p', undefined, 'commission-row');
-    done.append(element('b', w.commission_saved), link(w.commission_evidence, '/commissioning/evidence.zip'), this.action('restart', w.commission_restart));
+    done.append(element('b', w.commission_saved), link(w.commission_evidence, '/commissioning/evidence.zip'), ...this.action('restart', w.commission_restart));
     return [...out, done, element('pre', s.saved.evidence.join('\n'))];
   }
 

@@ -18,10 +18,16 @@ function csv_rows(text) {
   return rows;
 }
 
+// The same file may be named from another folder.
+function is_same_source(a, b) {
+  const [long, short] = [a, b].map((path) => path.split('/').filter((part) => part && !part.startsWith('.'))).sort((x, y) => y.length - x.length);
+  return short.every((part, k) => part === long[long.length - short.length + k]);
+}
+
 // Values and states by the frames of the report; NaN where the second run has none. Throws the name of a word.
 class SecondRun {
   constructor(recording, name, text) {
-    Object.assign(this, { recording, name, matched: 0, by: 'stamp' });
+    Object.assign(this, { recording, name, matched: 0, by: 'stamp', others: 0, source: '' });
     const [head = [], ...rows] = csv_rows(text), column = (title) => head.indexOf(title);
     if (column('frame') < 0 || QUANTITIES.some((q) => column(q) < 0 || column(`${q}_state`) < 0)) throw new Error('no_table_of_run');
     this.value = new Float32Array(7 * recording.frames).fill(NaN);
@@ -35,6 +41,12 @@ class SecondRun {
       pairs = rows.map((row) => [Number(row[column('frame')]), row]).filter(([f]) => Number.isInteger(f) && f >= 0 && f < recording.frames);
     }
     for (const [f, row] of pairs) this.take(f, row, column);
+    const source = column('source');
+    for (const [f, row] of source < 0 ? [] : pairs) {
+      if (is_same_source(row[source], recording.source[f])) continue;
+      ++this.others;
+      this.source = this.source || row[source];
+    }
     if (!this.matched) throw new Error('no_frame_in_common');
   }
 
@@ -114,8 +126,12 @@ class Compare {
     if (!other) return;
     const how = other.by === 'stamp' ? w.by_stamp : w.by_frame;
     document.getElementById('compare-line').textContent = w.compared_with(other.name, other.matched, recording.frames, how);
-    fill('compare-table', table(['', w.both_valid, w.median_apart, w.rms_apart, w.largest_apart, w.at_frame], QUANTITIES.map((_, q) => {
-      const x = other.summary(q), amount = (v) => amount_text(recording, q, v), link = element('td');
+    const summaries = QUANTITIES.map((_, q) => other.summary(q)), doubts = [];
+    if (other.others) doubts.push(w.other_sources(other.others, other.source));
+    if (!summaries.some((x) => x.frames)) doubts.push(w.never_both_valid);
+    document.getElementById('compare-doubt').textContent = w.sentences(doubts);
+    fill('compare-table', table(['', w.both_valid, w.median_apart, w.rms_apart, w.largest_apart, w.at_frame], summaries.map((x, q) => {
+      const amount = (v) => amount_text(recording, q, v), link = element('td');
       if (x.at >= 0) link.append(Object.assign(element('a', String(x.at)), { href: `#${x.at}` }));
       return [name_text(q), String(x.frames), amount(x.median), amount(x.rms), amount(x.largest), link];
     })));

@@ -5,6 +5,7 @@ class LiveRecording extends Recording {
   constructor(hello, first, number) {
     super({ ...first, head: hello.head, words: hello.words });
     this.room = LiveRecording.kRoom;
+    this.is_live = true;
     this.points_frame = 0;
     this.numbers = [number];
     for (const name of LiveRecording.kSeries) {
@@ -50,10 +51,9 @@ LiveRecording.kSeries = ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 
 // Silence of a sensor is told ten times a second: so long without a result is a break, or a worker that hangs. Health comes
 // from the server, whatever the worker does, and makes nothing current.
 const kLost_ms = 2000, kChartsEvery_ms = 400;
-const page = { language: 'en', frame: 0, paused: false, hello: null, told: null, heard_ms: 0, arrivals: [], drawn_charts_ms: 0, shown: 0 };
+const page = { language: 'en', frame: 0, paused: false, hello: null, told: null, heard_ms: 0, arrivals: [], drawn_charts_ms: 0, shown: 0, spoken: '' };
 let commission = null, recording = null, viewer = null, charts = null, roadway = null;
 
-// A text is told to those who hear the page only when it changes.
 function put(id, text) {
   const node = document.getElementById(id);
   if (node.textContent !== text) node.textContent = text;
@@ -72,6 +72,23 @@ function show_steer(link_grade) {
   put('steer-help', help);
   const grade = is_lost ? (link_grade === 'lost' ? 'bad' : 'fair') : worse(link_grade, steer_grade(list), roadway ? roadway.grade() : 'good');
   document.getElementById('steer').className = `panel ${grade}`;
+  return { grade, may };
+}
+
+// Those who hear the page are told when the grade, the link or the stop changes, and not each number.
+function speak({ grade, may }, link_grade, link) {
+  const stop = roadway ? roadway.spoken() : '', is_silent = page.told && page.told.told_by === 'silence';
+  const key = [page.language, grade, link_grade, page.paused, is_silent, stop].join(' ');
+  if (key === page.spoken) return;
+  page.spoken = key;
+  put('spoken', words().sentences([may, link, stop].filter((text) => text)));
+}
+
+// Of a silence: what has become of the values.
+function silence_text(age_s) {
+  const w = words(), f = recording ? recording.frames - 1 : 0, of = (is_so) => QUANTITIES.some((_, q) => is_so(recording.at(f, q)));
+  if (recording && of((i) => recording.state[i] !== INVALID)) return w.silent(age_s);
+  return recording && of((i) => recording.age_s[i] > 0) ? w.silent_invalid(age_s) : w.silent_never(age_s);
 }
 
 function show_link() {
@@ -79,12 +96,13 @@ function show_link() {
   const away_s = Math.round((now - page.heard_ms) / 1000);
   const is_lost = now - page.heard_ms > kLost_ms;
   document.body.classList.toggle('waiting', is_lost || !recording);
-  const say = (grade, text) => { show_steer(grade); put('link', text); };
+  document.body.classList.toggle('paused', page.paused && !is_lost);
+  const say = (grade, text) => { put('link', text); speak(show_steer(grade), grade, text); };
   if (!page.heard_ms) return say('fair', w.no_link_yet);
   if (is_lost) return say('lost', w.no_link(away_s));
   if (page.paused) return say('fair', w.paused);
   if (!page.told) return say('fair', w.no_link_yet);
-  if (page.told.told_by === 'silence') return say('bad', w.silent((page.told.age_ms / 1000).toFixed(1)));
+  if (page.told.told_by === 'silence') return say('bad', silence_text((page.told.age_ms / 1000).toFixed(1)));
   const span_ms = page.arrivals.length > 1 ? page.arrivals[page.arrivals.length - 1] - page.arrivals[0] : NaN;
   return say('good', w.live({ frame: page.told.frame, rate: number_text(1000 * (page.arrivals.length - 1) / span_ms, 1), age: number_text(page.told.age_ms, 0) }));
 }
@@ -147,8 +165,10 @@ function show_frame() {
   const f = page.frame = recording.frames - 1, w = words();
   show_tiles(f);
   if (roadway) viewer.space.sweep = roadway.sweep(recording.head.machine.forward);
+  viewer.is_old = page.told.told_by === 'silence';
   viewer.draw(f);
-  document.getElementById('drawn-note').textContent = drawn_text(f);
+  document.getElementById('drawn-note').textContent = w.sentences([viewer.is_old && recording.cloud_at(f) >= 0 ? w.old_points(number_text(page.told.age_ms / 1000, 1)) : '',
+    drawn_text(f)].filter((text) => text));
   const notes = [w.counts(recording.counts.subarray(10 * f, 10 * f + 10))];
   for (const bit of recording.reason_bits(recording.frame_reasons[f])) notes.push(reason_text(bit));
   document.getElementById('frame-note').textContent = notes.join(' · ');
@@ -175,7 +195,7 @@ function show_all() {
   document.getElementById('pause').textContent = page.paused ? w.resume_live : w.pause_live;
   show_link();
   show_hints();
-  if (commission) commission.show();
+  if (commission) { commission.tell_anew(); commission.show(); }
   if (!recording) return;
   document.getElementById('subtitle').textContent = recording.head.title;
   show_layers();
@@ -242,15 +262,13 @@ function connect() {
 
 document.getElementById('language').addEventListener('click', () => { page.language = page.language === 'en' ? 'zh' : 'en'; show_all(); });
 document.getElementById('pause').addEventListener('click', () => { page.paused = !page.paused; show_all(); });
-document.getElementById('theme').addEventListener('click', () => {
-  const root = document.documentElement;
-  root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
-  if (recording) { show_frame(); show_slowly(); }
-});
 window.addEventListener('resize', () => { if (recording) { viewer.draw(page.frame); charts.draw(); } });
 setInterval(show_link, 250);
 setInterval(() => { if (roadway) roadway.show(); }, 100);
 page.language = (navigator.language || 'en').startsWith('zh') ? 'zh' : 'en';
-document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+follow_theme(() => {
+  if (recording) { viewer.draw(page.frame); charts.draw(); }
+  if (roadway) roadway.draw();
+});
 show_all();
 connect();

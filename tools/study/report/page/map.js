@@ -1,4 +1,3 @@
-'use strict';
 // The page about maps: every text stands in the data, in both languages; pictures are files of their own in it.
 
 const report = JSON.parse(document.getElementById('data').textContent);
@@ -57,9 +56,5 @@ function show_all() {
 }
 
 document.getElementById('language').addEventListener('click', () => { language = language === 'en' ? 'zh' : 'en'; show_all(); });
-document.getElementById('theme').addEventListener('click', () => {
-  const root = document.documentElement;
-  root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
-});
-document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+follow_theme(() => {});
 show_all();

@@ -18,11 +18,6 @@ function listen_to_reader(frames) {
   slider.max = frames - 1;
   slider.addEventListener('input', () => show_frame(Number(slider.value)));
   on('language', 'click', () => { page.language = page.language === 'en' ? 'zh' : 'en'; show_all(); });
-  on('theme', 'click', () => {
-    const root = document.documentElement;
-    root.dataset.theme = root.dataset.theme === 'dark' ? 'light' : 'dark';
-    show_frame(page.frame);
-  });
   document.addEventListener('keydown', (event) => {
     if (event.target.tagName === 'INPUT') return;
     const step = { ArrowLeft: -1, ArrowRight: 1, PageUp: -10, PageDown: 10 }[event.key];
@@ -38,5 +33,5 @@ function begin_page(language) {
   page.language = language;
   page.frame = frame_of_address();
   window.addEventListener('hashchange', () => show_frame(frame_of_address()));
-  document.documentElement.dataset.theme = window.matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+  follow_theme(() => show_frame(page.frame));
 }

@@ -12,6 +12,7 @@ class RoadwayView {
     this.stop_heard_ms = this.place_heard_ms = -Infinity;
     this.is_near = false;
     for (const id of ['roadway-panel', 'stop-line']) document.getElementById(id).hidden = false;
+    document.getElementById('roadway-png').onclick = () => { if (recording) save_picture('roadway', [document.getElementById('roadway')]); };
     document.getElementById('roadway-zoom').onclick = () => { this.is_near = !this.is_near; this.show(); };
   }
 
@@ -36,6 +37,12 @@ class RoadwayView {
 
   // Only go lets the machine drive as fast as it likes.
   grade() { return this.is_stop_known() ? { go: 'good', slow: 'fair', stop: 'bad' }[this.stop.state] : 'bad'; }
+
+  // What the stop permits, without the numbers that change with each answer.
+  spoken() {
+    const w = words();
+    return this.is_stop_known() ? { go: w.stop_go, slow: w.stop_slows, stop: w.stop_stop }[this.stop.state] : w.stop_not_known;
+  }
 
   // In base, for three dimensions: the machine as the stop reckons with it, and its way until it stands, by the motion
   // that was measured. Nothing is drawn ahead of a machine whose motion nobody knows.
@@ -80,6 +87,7 @@ class RoadwayView {
     const w = words(), line = document.getElementById('place-line'), place = this.place;
     document.getElementById('roadway-zoom').textContent = this.is_near ? w.whole_map : w.around_machine;
     if (!place) return fill('place-line', w.no_place_yet);
+    if (page.paused) return fill('place-line', w.place_paused);
     if (this.is_place_old()) return fill('place-line', w.no_scan_comes);
     const state = w.place_states[place.state] || place.state;
     const at = place.pose ? w.place_at(number_text(place.pose[0], 2), number_text(place.pose[1], 2), number_text(place.pose[2] * 180 / Math.PI, 1)) : '';
@@ -99,7 +107,10 @@ class RoadwayView {
   }
 
   draw() {
-    const { pen, width, height } = begin(document.getElementById('roadway')), shown = this.window();
+    const canvas = document.getElementById('roadway'), { pen, width, height } = begin(canvas), shown = this.window();
+    this.colour = (name) => colour(name, canvas);
+    pen.fillStyle = this.colour('unknown');
+    pen.fillRect(0, 0, width, height);
     if (!shown) return;
     const scale = Math.min(width / (shown[1] - shown[0]), height / (shown[3] - shown[2]));
     const middle = [(shown[0] + shown[1]) / 2, (shown[2] + shown[3]) / 2];
@@ -114,12 +125,12 @@ class RoadwayView {
   }
 
   draw_place(pen, at) {
-    if (this.place.track.length > 1) stroke(pen, this.place.track.map(at), colour('left'), 1.6);
-    for (const candidate of this.place.candidates) this.draw_machine(pen, at, candidate, colour('not-valid'), [4, 3]);
+    if (this.place.track.length > 1) stroke(pen, this.place.track.map(at), this.colour('left'), 1.6);
+    for (const candidate of this.place.candidates) this.draw_machine(pen, at, candidate, this.colour('not-valid'), [4, 3]);
     if (!this.place.pose) return;
-    this.draw_machine(pen, at, this.place.pose, colour(this.is_place_old() ? 'not-valid' : 'machine'));
+    this.draw_machine(pen, at, this.place.pose, this.colour(this.is_place_old() ? 'not-valid' : 'machine'));
     if (!this.is_stop_known() || !this.stop.nearest_m) return;
-    dot(pen, at(this.placed(this.place.pose, this.stop.nearest_m)), 4, colour('invalid'));
+    dot(pen, at(this.placed(this.place.pose, this.stop.nearest_m)), 4, this.colour('invalid'));
   }
 
   placed([x, y, yaw], [px, py]) {
@@ -128,14 +139,17 @@ class RoadwayView {
 
   draw_machine(pen, at, pose, style, dash) {
     const [x_min, x_max, y_min, y_max] = this.planar.outline_m, corner = (x, y) => at(this.placed(pose, [x, y]));
-    stroke(pen, [corner(x_min, y_min), corner(x_max, y_min), corner(x_max, y_max), corner(x_min, y_max), corner(x_min, y_min)], style, 2, dash);
+    const outline = [corner(x_min, y_min), corner(x_max, y_min), corner(x_max, y_max), corner(x_min, y_max), corner(x_min, y_min)];
+    // With a dark edge: yellow alone is lost on what is free.
+    if (!dash) for (const line of [outline, [at(pose), corner(x_max, 0)]]) stroke(pen, line, this.colour('ink'), 4);
+    stroke(pen, outline, style, 2, dash);
     dot(pen, at(pose), 3, style);
     stroke(pen, [at(pose), corner(x_max, 0)], style, 2, dash);
   }
 
   draw_scale(pen, width, height, scale) {
     const length_m = round_step(width / scale, 6), y = height - 12;
-    stroke(pen, [[12, y], [12 + length_m * scale, y]], colour('ink'), 2);
-    label(pen, `${length_m} m`, 12, y - 6, colour('ink'));
+    stroke(pen, [[12, y], [12 + length_m * scale, y]], this.colour('ink'), 2);
+    label(pen, `${length_m} m`, 12, y - 6, this.colour('ink'), 'left', this.colour('unknown'));
   }
 }

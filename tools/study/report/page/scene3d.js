@@ -5,6 +5,7 @@
 //   const scene = new Scene3D(canvas, { on_change: () => { ... } });  // when fault or is_awake changed
 //   scene.fault                          // null, or why nothing is drawn: 'no_library', 'no_webgl', 'lost'
 //   scene.set_cloud(xyz, labels, shown)  // Float32Array of 3 n, Uint8Array of n (place in LAYERS), one boolean a layer
+//   scene.set_old(is_old)                // the cloud is not of now: pale, in one colour
 //   scene.set_planes([{ corners, tint, is_pale, grid_m }])   // four corners in turn; grid_m: lines so far apart
 //   scene.set_region([{ corners, tint }])                    // what of the planes was measured
 //   scene.set_boxes([[x0, x1, y0, y1, z0, z1]], { editable, on_edit })  // on_edit(index, box, is_done) while a face moves
@@ -22,6 +23,9 @@ const kBoxLeast_m = 0.05, kStep_m = 0.01;
 // Within so much of the view's direction a normal looks too short to be dragged along: the square of the sine.
 const kFacing = 0.02;
 
+// How much is left of points that are not of now.
+const OLD_ALPHA = 0.45;
+
 // Of a point: size in pixels at a metre, its bounds, colours and which layers are shown.
 const POINT_SHADER = {
   vertexShader: `
@@ -29,13 +33,15 @@ const POINT_SHADER = {
     uniform vec3 tints[5];
     uniform float shown[5];
     uniform vec3 size;
+    uniform vec3 old_tint;
+    uniform float is_old;
     varying vec3 tint;
     void main() {
       int layer = int(label + 0.5);
       vec4 seen = modelViewMatrix * vec4(position, 1.0);
       gl_Position = shown[layer] > 0.5 ? projectionMatrix * seen : vec4(2.0, 2.0, 2.0, 1.0);
       gl_PointSize = clamp(size.x / max(0.1, -seen.z), size.y, size.z);
-      tint = tints[layer];
+      tint = mix(tints[layer], old_tint, is_old);
     }`,
   fragmentShader: `
     varying vec3 tint;
@@ -87,7 +93,8 @@ class Scene3D {
   }
 
   add_points(size) {
-    const uniforms = { tints: { value: LAYERS.map(() => new THREE.Color()) }, shown: { value: LAYERS.map(() => 1) }, size: { value: new THREE.Vector3(...size) } };
+    const uniforms = { tints: { value: LAYERS.map(() => new THREE.Color()) }, shown: { value: LAYERS.map(() => 1) }, size: { value: new THREE.Vector3(...size) },
+      old_tint: { value: new THREE.Color() }, is_old: { value: 0 } };
     const points = new THREE.Points(new THREE.BufferGeometry(), new THREE.ShaderMaterial({ ...POINT_SHADER, uniforms }));
     points.size = size;
     fill_points(points.geometry, new Float32Array(0), new Uint8Array(0));
@@ -107,6 +114,12 @@ class Scene3D {
     this.set_part('planes', planes.flatMap(({ corners, tint, is_pale, grid_m }) => [
       { corners, tint, alpha: is_pale ? 0.05 : 0.12 },
       ...(grid_m ? grid_lines(corners, grid_m).map((line) => ({ line, tint: 'faint', alpha: 0.25 })) : [])]));
+  }
+
+  set_old(is_old) {
+    if (this.fault || this.cloud.material.uniforms.is_old.value === Number(is_old)) return;
+    this.cloud.material.uniforms.is_old.value = Number(is_old);
+    this.draw();
   }
 
   set_region(regions) {
@@ -205,6 +218,7 @@ class Scene3D {
     this.theme = theme;
     this.are_shapes_old = true;
     this.scene.background = new THREE.Color(colour('panel'));
+    this.cloud.material.uniforms.old_tint.value.set(colour('panel')).lerp(new THREE.Color(colour('other')), OLD_ALPHA);
     LAYERS.forEach((name, k) => this.cloud.material.uniforms.tints.value[k].set(colour(name)));
     ['dropped', 'machine'].forEach((name, k) => this.handles.material.uniforms.tints.value[k].set(colour(name)));
   }

@@ -27,6 +27,7 @@ class SpaceView {
     const { viewer, recording: r } = this;
     Object.assign(this, { frame, into_base: this.placer(frame) });
     this.show_cloud(r.cloud_at(frame));
+    this.scene.set_old(viewer.is_old);
     this.scene.set_planes(viewer.planes_shown ? this.planes() : []);
     this.scene.set_region(viewer.planes_shown ? this.regions() : []);
     this.scene.set_boxes(viewer.boxes_shown ? r.head.body_boxes : []);

@@ -122,12 +122,12 @@ function why_text(f, q) {
 }
 
 function show_values(f) {
-  const w = words(), head = ['', w.value, w.level, w.state, w.raw, w.raw_level, w.sigma, w.age];
+  const w = words(), head = ['', w.state, w.value, w.level, w.raw, w.raw_level, w.sigma, w.age];
   if (recording.has_truth) head.push(w.truth, w.error);
   fill('values', table(head.concat([w.why]), QUANTITIES.map((name, q) => {
     const i = recording.at(f, q), unit = recording.unit(q), state = recording.state[i], amount = (x) => amount_text(recording, q, x * unit);
     const is_there = state !== INVALID;
-    const cells = [name_text(q), value_cell(is_there ? amount(recording.value[i]) : '–', state), level_cell(q, recording.bound_of(f, q)), state_cell(state),
+    const cells = [name_text(q), state_cell(state), value_cell(is_there ? amount(recording.value[i]) : '–', state), level_cell(q, recording.bound_of(f, q)),
       value_cell(amount(recording.raw[i]), state), level_cell(q, recording.raw_level[i] * unit), amount(recording.sigma[i]),
       `${number_text(recording.age_s[i], 1)} s`];
     if (recording.has_truth) cells.push(amount(recording.truth[i]), is_there ? amount_text(recording, q, recording.error_of(f, q)) : '–');

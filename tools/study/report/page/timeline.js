@@ -69,10 +69,11 @@ class Timeline {
       pen.fillStyle = colour(STATES[this.state_of(f, to)]);
       pen.fillRect(x, 4, Math.max(1, Math.min(Timeline.kEdge + inside, x_of(to + 0.5)) - x + 0.3), 12);
     }
+    const told = [];
     for (const [f, text] of clock_ticks(r, 0, r.frames - 1, inside / 90)) {
       const x = x_of(f);
       stroke(pen, [[x, 16], [x, 21]], colour('faint'), 1);
-      if (x > 34 && x < width - 34) label(pen, text, x, 33, colour('faint'), 'center');
+      tick_label(pen, text, x, 33, told, width);
     }
     const x = x_of(this.frame);
     stroke(pen, [[x, 0], [x, 20]], colour('ink'), 2);

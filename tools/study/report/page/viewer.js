@@ -1,6 +1,7 @@
 // One frame from above and in section, its points coloured by their use. Metres along the road, to its left and up.
 
 const LAYERS = ['other', 'floor', 'left', 'right', 'dropped'], YAW = 2;
+const kTickEdge_px = 20;  // half of the words of a tick
 
 class View {
   // axes: which two of (along, left, up) lie to the right and up on the screen, and the sign of each.
@@ -69,6 +70,7 @@ class Viewer {
     this.shown = LAYERS.map(() => true);
     this.planes_shown = true;
     this.boxes_shown = true;
+    this.is_old = false;  // the points are not of now
     const again = () => this.draw(this.frame);
     this.top = new View(document.getElementById('top'), [{ axis: 0, sign: 1 }, { axis: 1, sign: 1 }], { centre: [0, 0], metres: [26, 12] }, again);
     this.section = new View(document.getElementById('section'), [{ axis: 1, sign: -1 }, { axis: 2, sign: 1 }], { centre: [0, 0.2], metres: [9, 6] }, again);
@@ -104,7 +106,7 @@ class Viewer {
     for (let x = first_x; x < view.centre[0] + width / 2 / s; x += step) {
       const at = width / 2 + s * (x - view.centre[0]);
       stroke(pen, [[at, 0], [at, height]], colour('line'), 1);
-      label(pen, `${Number((view.axes[0].sign * x).toFixed(3))} m`, at, height - 5, colour('faint'), 'center');
+      if (at > kTickEdge_px && at < width - kTickEdge_px) label(pen, `${Number((view.axes[0].sign * x).toFixed(3))} m`, at, height - 5, colour('faint'), 'center');
     }
     for (let y = first_y; y < view.centre[1] + height / 2 / s; y += step) {
       const at = height / 2 - s * (y - view.centre[1]);
@@ -114,15 +116,17 @@ class Viewer {
 
   draw_points(pen, view, cloud, in_view) {
     const r = this.recording, [from, to] = r.cloud_range(cloud), size = Math.min(3, Math.max(1.2, view.scale() / 40));
+    pen.globalAlpha = this.is_old ? OLD_ALPHA : 1;
     LAYERS.forEach((layer, kind) => {
       if (!this.shown[kind]) return;
-      pen.fillStyle = colour(layer);
+      pen.fillStyle = colour(this.is_old ? 'other' : layer);
       for (let k = from; k < to; ++k) {
         if (r.point_label[k] !== kind || !in_view(k)) continue;
         const [x, y] = view.place([r.point_cm[3 * k] / 100, r.point_cm[3 * k + 1] / 100, r.point_cm[3 * k + 2] / 100]);
         pen.fillRect(x - size / 2, y - size / 2, size, size);
       }
     });
+    pen.globalAlpha = 1;
   }
 
   // [found, normal along, left, up, d, along_min, along_max, rms] of a side.
