@@ -136,6 +136,20 @@ class Monitor(Watched):
         grades = metrics["pose_wall_part_grade"]
         self.assertEqual(grades[("pose_wall_part_grade", (("part", "runtime"), ("pose_wall_part_grade", "error")))], 1)
 
+    def test_a_sensor_that_froze_is_told_as_the_reason_and_its_settings_name_its_port(self):
+        udp, config = live_peer.free_port(socket.SOCK_DGRAM), self.file("sensor.yaml", "")
+        sensor = self.start(SENSOR, "--sensor", "vlp16", "--frames", "1", "--frozen", "--to", f"127.0.0.1:{udp}",
+                            "--config-to", config)
+        self.assertTrue(sensor.says("sends to"), sensor.log())
+        daemon = self.daemon("--config", config)
+        self.assertTrue(daemon.says("shows the page"), daemon.log())
+        frozen = ("pose_wall_value_reason", (("reason", "frozen"), ("value", "yaw")))
+        is_told = live_peer.becomes_true(lambda: frozen in self.metrics()["pose_wall_value_reason"])
+        self.assertTrue(is_told, daemon.log())
+        self.assertEqual(self.may_steer(self.metrics()), [])
+        received = ("pose_wall_packets_received_total", ())
+        self.assertGreater(self.metrics()["pose_wall_packets_received"][received], 0)
+
     def test_crcs_are_known_from_the_start_and_the_older_text_is_given_to_who_asks_for_it(self):
         udp = live_peer.free_port(socket.SOCK_DGRAM)
         daemon = self.daemon("--config", ROOT / "config/vlp16.yaml", "--set", f"udp_port={udp}", "--set", "planar=map")
