@@ -18,28 +18,30 @@ namespace {
 // Any: 50 s after a start, in January 2027.
 constexpr std::int64_t kPublished_ns = 50'000'000'000, kWall_ns = 1'800'000'000'000'000'000;
 
-LiveResult good_result() {
-  LiveResult result;
+Newest good_newest() {
+  Newest newest;
+  newest.status = POSE_WALL_OK;
+  LiveResult& result = newest.result;
   const api::Config config;
   result.config = *config.get();
   result.publication.cause = POSE_WALL_RUNTIME_FRAME;
+  result.publication.received_ns = kPublished_ns - 40'000'000;
   result.publication.published_ns = kPublished_ns;
-  result.publication.age_ns = 40'000'000;
+  result.publication.age_ns = 100'000'000;
   for (pose_wall_value& value : result.publication.result.quantity) {
     value.state = value.raw_state = POSE_WALL_VALID;
     value.value = 0.25;
     value.protection_level = 0.001;
   }
-  return result;
+  return newest;
 }
 
-nlohmann::json told(const LiveResult* result, std::int64_t later_ns) {
-  return nlohmann::json::parse(last_value(result, kPublished_ns + later_ns, kWall_ns).json);
+nlohmann::json told(const Newest& newest, std::int64_t later_ns) {
+  return nlohmann::json::parse(last_value(newest, kPublished_ns + later_ns, kWall_ns).json);
 }
 
 TEST(LastValue, OfAFreshFrameTellsAgeAndEnd) {
-  const LiveResult result = good_result();
-  const nlohmann::json last = told(&result, 60'000'000);
+  const nlohmann::json last = told(good_newest(), 60'000'000);
   EXPECT_EQ(last["state"], "live");
   EXPECT_EQ(last["schema"], 1);
   EXPECT_NEAR(last["age_s"], 0.1, 1e-9);
@@ -47,13 +49,16 @@ TEST(LastValue, OfAFreshFrameTellsAgeAndEnd) {
   EXPECT_EQ(last["valid_until_ns"], kWall_ns + 3'000'000'000);
   EXPECT_EQ(last["may_steer"].size(), std::size_t{POSE_WALL_QUANTITIES});
   EXPECT_EQ(last["values"]["yaw"]["value_rad"], 0.25);
+  EXPECT_NEAR(last["values"]["yaw"]["age_s"], 0.1, 1e-9) << "from its frame's reception until now";
   EXPECT_EQ(last["values"]["d_lf"]["protection_level_m"], 0.001);
   EXPECT_EQ(std::string(last["line"]["en"]).rfind("may steer: roll, ", 0), 0U);
 }
 
 TEST(LastValue, OfAWorkerThatHangsHasNoValues) {
-  const LiveResult result = good_result();
-  const nlohmann::json last = told(&result, 1'500'000'000);
+  Newest newest = good_newest();
+  newest.status = POSE_WALL_RUNTIME_E_STALE;
+  newest.result.publication.age_ns = 1'540'000'000;
+  const nlohmann::json last = told(newest, 1'500'000'000);
   EXPECT_EQ(last["state"], "stale");
   EXPECT_NEAR(last["age_s"], 1.54, 1e-9);
   EXPECT_TRUE(last["may_steer"].empty());
@@ -62,33 +67,33 @@ TEST(LastValue, OfAWorkerThatHangsHasNoValues) {
 }
 
 TEST(LastValue, OfSilenceIsTold) {
-  LiveResult result = good_result();
-  result.publication.cause = POSE_WALL_RUNTIME_SILENCE;
-  for (pose_wall_value& value : result.publication.result.quantity) value.state = POSE_WALL_INVALID;
-  const nlohmann::json last = told(&result, 0);
+  Newest newest = good_newest();
+  newest.result.publication.cause = POSE_WALL_RUNTIME_SILENCE;
+  for (pose_wall_value& value : newest.result.publication.result.quantity) value.state = POSE_WALL_INVALID;
+  const nlohmann::json last = told(newest, 0);
   EXPECT_EQ(last["state"], "silent");
   EXPECT_TRUE(last["may_steer"].empty());
   EXPECT_TRUE(last["values"]["yaw"]["value_rad"].is_null());
 }
 
 TEST(LastValue, BeforeTheFirstResultAndAfterTheEndThereIsNone) {
-  const nlohmann::json none = told(nullptr, 0), gone = nlohmann::json::parse(no_last_value());
+  const nlohmann::json none = told({}, 0), gone = nlohmann::json::parse(no_last_value());
   EXPECT_EQ(none["state"], "stale");
   EXPECT_TRUE(none["age_s"].is_null());
   EXPECT_EQ(gone["state"], "gone");
   EXPECT_TRUE(gone["may_steer"].empty());
   EXPECT_TRUE(gone["valid_until_ns"].is_null());
-  LiveResult never = good_result();
-  never.publication.age_ns = INT64_MAX;  // the clock went back
-  EXPECT_TRUE(told(&never, 10)["age_s"].is_null());
+  Newest never = good_newest();
+  never.result.publication.age_ns = INT64_MAX;  // the clock went back
+  EXPECT_TRUE(told(never, 10)["age_s"].is_null());
 }
 
 TEST(LastValue, WhatChangesItIsToldAtOnce) {
-  LiveResult result = good_result();
-  const std::string all = last_value(&result, kPublished_ns, kWall_ns).gist;
-  EXPECT_EQ(last_value(&result, kPublished_ns + 500'000'000, kWall_ns + 500'000'000).gist, all);
-  result.publication.result.quantity[POSE_WALL_YAW].state = POSE_WALL_DEGRADED;
-  EXPECT_NE(last_value(&result, kPublished_ns, kWall_ns).gist, all);
+  Newest newest = good_newest();
+  const std::string all = last_value(newest, kPublished_ns, kWall_ns).gist;
+  EXPECT_EQ(last_value(newest, kPublished_ns + 200'000'000, kWall_ns + 200'000'000).gist, all);
+  newest.result.publication.result.quantity[POSE_WALL_YAW].state = POSE_WALL_DEGRADED;
+  EXPECT_NE(last_value(newest, kPublished_ns, kWall_ns).gist, all);
   EXPECT_EQ(with_end("{\"a\":1}", 5), "{\"a\":1,\"valid_until_ns\":3000000005}");
 }
 

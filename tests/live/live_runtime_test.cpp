@@ -9,11 +9,17 @@
 #include <sched.h>
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <thread>
 
+#include "apps/live/clocks.hpp"
 #include "apps/live/edges.hpp"
 #include "apps/live/live_runtime.hpp"
+#include "apps/live/mqtt/last_value.hpp"
+#include "apps/live/page/probes.hpp"
 #include "live/frame_catcher.hpp"
 #include "tools/test_files.hpp"
 
@@ -80,12 +86,16 @@ class LiveRuntimeTest : public ::testing::Test {
   void open(const std::vector<std::string>& settings, bool wants_points = false) {
     runtime_ = std::make_unique<LiveRuntime>(
         load_config("", settings), [] { return BlackBox{}; },
-        [this](const std::shared_ptr<const LiveResult>& result) { collected_.add(result); },
+        [this](const std::shared_ptr<const LiveResult>& result) {
+          while (holds_up_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          collected_.add(result);
+        },
         [wants_points] { return wants_points; });
     runtime_->start();
   }
 
   Collected collected_;
+  std::atomic<bool> holds_up_{false};  // the worker, where it posts
   std::unique_ptr<LiveRuntime> runtime_;
 };
 
@@ -243,6 +253,76 @@ TEST_F(LiveRuntimeTest, ImagesAreSoundBeforeWhileAndAfterItRuns) {
   runtime_->stop();
   EXPECT_EQ(runtime_->image().verdict, static_cast<std::uint32_t>(POSE_WALL_INVALID));
   EXPECT_EQ(runtime_->image2().struct_size, sizeof(pose_wall_image2));
+}
+
+TEST_F(LiveRuntimeTest, TheNewestResultHasWhatItsFramesHeaderSays) {
+  open({});
+  EXPECT_FALSE(runtime_->newest().is_there());
+  runtime_->take(road_frame(0));
+  runtime_->wait_idle();
+  const Newest first = runtime_->newest();
+  ASSERT_TRUE(first.is_fresh());
+  EXPECT_EQ(first.result.frame_id, "lidar");
+  EXPECT_EQ(first.result.header_stamp_ns, 7);
+  EXPECT_FALSE(first.result.frame);
+  holds_up_ = true;
+  runtime_->take(road_frame(100'000'000, 0.01F));
+  ASSERT_TRUE(becomes_true([&] { return runtime_->newest().result.publication.frame == 1; }));
+  EXPECT_EQ(runtime_->newest().result.header_stamp_ns, 100'000'007) << "before anybody was told of it";
+  holds_up_ = false;
+  ASSERT_TRUE(becomes_true([&] { return runtime_->newest().result.publication.cause == POSE_WALL_RUNTIME_SILENCE; }));
+  const Newest silence = runtime_->newest();
+  EXPECT_EQ(silence.result.header_stamp_ns, 100'000'007) << "of the last one that was measured";
+  EXPECT_EQ(silence.result.frame_id, "");
+  runtime_->stop();
+  EXPECT_FALSE(runtime_->newest().is_there());
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+// By each way that asks, for a result that one of them calls stale must be so to all.
+TEST_F(LiveRuntimeTest, AWorkerThatIsHeldUpSteersNothingAnywhereFourTenthsOfASecondLater) {
+  open({});
+  runtime_->take(road_frame(0));
+  runtime_->wait_idle();
+  const auto moment = [this] {
+    Moment now;
+    now.parts = {runtime_->health()};
+    now.newest = runtime_->newest();
+    now.now_ns = monotonic_ns();
+    return now;
+  };
+  const auto may_steer = [](const Moment& now) { return last_value(now.newest, now.now_ns, wall_ns()).json; };
+  holds_up_ = true;
+  runtime_->take(road_frame(100'000'000, 0.01F));
+  ASSERT_TRUE(becomes_true([&] { return runtime_->newest().result.publication.frame == 1; }));
+  const Moment fresh = moment();
+  ASSERT_TRUE(fresh.newest.is_fresh()) << "it was published just now";
+  EXPECT_TRUE(ready_probe(fresh).is_well);
+  EXPECT_EQ(count_of(metrics_text(fresh), "pose_wall_may_steer{value=\"yaw\"} 1\n"), 1U);
+  EXPECT_NE(may_steer(fresh).find(R"("state":"live")"), std::string::npos);
+
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  const Moment held = moment();
+  EXPECT_FALSE(ready_probe(held).is_well);
+  const std::string metrics = metrics_text(held);
+  EXPECT_EQ(count_of(metrics, "pose_wall_may_steer{value="), std::size_t{POSE_WALL_QUANTITIES});
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    const std::string name = pose_wall_quantity_name(q);
+    EXPECT_EQ(count_of(metrics, "pose_wall_may_steer{value=\"" + name + "\"} 0\n"), 1U);
+    EXPECT_EQ(held.newest.result.publication.result.quantity[q].state, POSE_WALL_INVALID);
+  }
+  EXPECT_EQ(count_of(metrics, "pose_wall_angle_radians{"), 0U);
+  EXPECT_NE(may_steer(held).find(R"("may_steer":[])"), std::string::npos);
+  EXPECT_NE(may_steer(held).find(R"("state":"stale")"), std::string::npos);
+  EXPECT_EQ(runtime_->image().verdict, static_cast<std::uint32_t>(POSE_WALL_INVALID));
+  EXPECT_EQ(held.parts[0].grade, Grade::kBad);
+  holds_up_ = false;
+  runtime_->stop();
 }
 
 TEST_F(LiveRuntimeTest, ACloudThatIsTooLargeIsNamed) {

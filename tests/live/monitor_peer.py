@@ -7,13 +7,18 @@ nobody, which monitors take for dead. All answers and events are as the daemon's
 
 usage: monitor_peer.py ROOT POSE_WALL POSE_WALLD POSE_WALL_SENSOR"""
 
+import contextlib
+import ctypes
 import http.client
 import json
 import os
 import pathlib
 import signal
 import socket
+import subprocess
 import sys
+import tempfile
+import time
 import unittest
 
 sys.dont_write_bytecode = True  # the sources stay as they are
@@ -24,6 +29,7 @@ import live_peer  # noqa: E402  pylint: disable=wrong-import-position
 
 live_peer.need("python3-prometheus-client python3-jsonschema", modules=("prometheus_client", "jsonschema"))
 import jsonschema  # noqa: E402  pylint: disable=wrong-import-position
+from prometheus_client import parser as older_parser  # noqa: E402  pylint: disable=wrong-import-position
 from prometheus_client.openmetrics import parser  # noqa: E402  pylint: disable=wrong-import-position
 
 VALUES = ["roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"]
@@ -32,19 +38,26 @@ VALUES = ["roll", "pitch", "yaw", "d_lf", "d_lb", "d_rf", "d_rb"]
 class Watched(unittest.TestCase):
     """A daemon, and what it answers."""
 
-    def start(self, *words):
-        program = live_peer.Program(*words)
+    def start(self, *words, **options):
+        program = live_peer.Program(*words, **options)
         self.addCleanup(program.kill)
         return program
 
-    def daemon(self, *words):
+    def daemon(self, *words, **options):
         self.port = live_peer.free_port()
-        return self.start(POSE_WALLD, "--http", f"127.0.0.1:{self.port}", *words)
+        return self.start(POSE_WALLD, "--http", f"127.0.0.1:{self.port}", *words, **options)
 
-    def ask(self, path):
+    def file(self, name, text):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name) / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def ask(self, path, **headers):
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
         try:
-            connection.request("GET", path)
+            connection.request("GET", path, headers=headers)
             answer = connection.getresponse()
             return answer.status, answer.headers["Content-Type"], answer.read().decode("utf-8")
         finally:
@@ -93,6 +106,14 @@ class Monitor(Watched):
         self.assertEqual(sum(metrics["pose_wall_stop_state"].values()), 1, "one state of the stop holds")
         facts = metrics["pose_wall_part_fact"]
         self.assertGreater(facts[("pose_wall_part_fact", (("fact", "frames pushed"), ("part", "runtime")))], 0)
+        self.assertIn(("pose_wall_part_fact", (("fact", "viewers"), ("part", "sink page"),
+                                               ("place", f"127.0.0.1:{self.port}"))), facts)
+        buckets = {labels[0][1]: value for (name, labels), value in
+                   metrics["pose_wall_result_latency_seconds"].items() if name.endswith("_bucket")}
+        self.assertGreater(buckets["+Inf"], 0)
+        self.assertIn(("pose_wall_results_lost_total", (("sink", "page"),)), metrics["pose_wall_results_lost"])
+        self.assertGreater(metrics["process_start_time_seconds"][("process_start_time_seconds", ())],
+                           time.time() - 600)
         before = metrics["pose_wall_frames_pushed"][("pose_wall_frames_pushed_total", ())]
         self.assertTrue(live_peer.becomes_true(
             lambda: self.metrics()["pose_wall_frames_pushed"][("pose_wall_frames_pushed_total", ())] > before))
@@ -114,6 +135,57 @@ class Monitor(Watched):
         self.assertEqual(self.may_steer(metrics), [])
         grades = metrics["pose_wall_part_grade"]
         self.assertEqual(grades[("pose_wall_part_grade", (("part", "runtime"), ("pose_wall_part_grade", "error")))], 1)
+
+    def test_a_sensor_that_froze_is_told_as_the_reason_and_its_settings_name_its_port(self):
+        udp, config = live_peer.free_port(socket.SOCK_DGRAM), self.file("sensor.yaml", "")
+        sensor = self.start(SENSOR, "--sensor", "vlp16", "--frames", "1", "--frozen", "--to", f"127.0.0.1:{udp}",
+                            "--config-to", config)
+        self.assertTrue(sensor.says("sends to"), sensor.log())
+        daemon = self.daemon("--config", config)
+        self.assertTrue(daemon.says("shows the page"), daemon.log())
+        frozen = ("pose_wall_value_reason", (("reason", "frozen"), ("value", "yaw")))
+        is_told = live_peer.becomes_true(lambda: frozen in self.metrics()["pose_wall_value_reason"])
+        self.assertTrue(is_told, daemon.log())
+        self.assertEqual(self.may_steer(self.metrics()), [])
+        received = ("pose_wall_packets_received_total", ())
+        self.assertGreater(self.metrics()["pose_wall_packets_received"][received], 0)
+
+    def test_crcs_are_known_from_the_start_and_the_older_text_is_given_to_who_asks_for_it(self):
+        udp = live_peer.free_port(socket.SOCK_DGRAM)
+        daemon = self.daemon("--config", ROOT / "config/vlp16.yaml", "--set", f"udp_port={udp}", "--set", "planar=map")
+        self.assertTrue(daemon.says("shows the page"), daemon.log())
+        (_, labels), = self.metrics()["pose_wall_build"]
+        for part, label in (("config", "config_crc32"), ("planar stop", "planar_stop_crc32")):
+            self.assertTrue(daemon.says(f"{part}: settings' CRC: {dict(labels)[label]} "), daemon.log())
+        status, kind, text = self.ask("/metrics", Accept="text/plain")
+        self.assertEqual((status, kind), (200, "text/plain; version=0.0.4; charset=utf-8"))
+        families = {family.name: family.type for family in older_parser.text_string_to_metric_families(text)}
+        self.assertEqual(families["pose_wall_frames_pushed"], "counter")
+        self.assertEqual(families["pose_wall_value_state"], "gauge")
+        self.assertNotIn("# EOF", text)
+
+    def test_a_signal_to_read_the_settings_again_leaves_a_trace(self):
+        config = self.file("pose_wall.yaml", "log_level: info\n")
+        daemon = self.daemon("--config", config, "--replay", live_peer.simulated_road(POSE_WALL) / "frames", "--repeat",
+                             stdin=subprocess.DEVNULL)
+        self.assertTrue(daemon.says("shows the page"), daemon.log())
+        def told():
+            part = next(part for part in json.loads(self.ask("/health")[2])["parts"] if part["part"] == "settings")
+            metrics = self.metrics()
+            return (part["grade"], part["summary"].split(": ", 1)[-1],
+                    *(next(iter(metrics[f"pose_wall_settings_{name}"].values())) for name in ("waiting", "refused")))
+        self.assertEqual(told(), ("ok", "read at the start", 0, 0))
+        def read_again(text, expected):
+            config.write_text(text, encoding="utf-8")
+            daemon.process.send_signal(signal.SIGHUP)
+            self.assertTrue(live_peer.becomes_true(lambda: told() == expected), (told(), expected))
+        read_again("range_max: 40\nyaw_max_deg: 30\n", ("ok", "2 wait for a restart", 2, 0))
+        config.write_text("range_max: far\n", encoding="utf-8")
+        daemon.process.send_signal(signal.SIGHUP)
+        self.assertTrue(live_peer.becomes_true(lambda: told()[3] == 1))
+        self.assertEqual(told()[0], "warning")
+        self.assertIn("range_max", told()[1])
+        read_again("", ("ok", "nothing waits for a restart", 0, 0))
 
     @staticmethod
     def is_stopped(pid):
@@ -137,6 +209,62 @@ class Monitor(Watched):
             os.kill(daemon.process.pid, signal.SIGCONT)
         self.assertTrue(self.says("/live", 200))
         self.assertTrue(self.says("/ready", 200), "it comes back")
+
+
+@contextlib.contextmanager
+def held_up(program, thread):
+    """One thread of it, by its name, as a debugger does (ptrace(2))."""
+    seize, interrupt, detach, every_kind = 0x4206, 0x4207, 17, 0x40000000
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.ptrace.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
+    tasks = pathlib.Path(f"/proc/{program.process.pid}/task").glob("*/comm")
+    task, = [int(task.parent.name) for task in tasks if task.read_text(encoding="ascii").strip() == thread]
+    for request in (seize, interrupt):
+        if libc.ptrace(request, task, None, None) != 0:
+            raise unittest.SkipTest(f"SKIPPED: ptrace: {os.strerror(ctypes.get_errno())}")
+    os.waitpid(task, every_kind)
+    try:
+        yield
+    finally:
+        libc.ptrace(detach, task, None, None)
+
+
+class HeldUp(Watched):
+    """A thread that does not get on: what it told last must not seem to hold."""
+
+    def setUp(self):
+        super().setUp()
+        self.running = self.replay("--set", "planar=map")
+        self.assertTrue(self.running.says("runtime: measures"), self.running.log())
+        self.assertTrue(live_peer.becomes_true(lambda: len(self.may_steer(self.metrics())) == 7), self.running.log())
+
+    def test_without_the_worker_nothing_steers_anywhere(self):
+        with held_up(self.running, "worker"):
+            time.sleep(0.4)
+            metrics = self.metrics()
+            self.assertEqual(self.may_steer(metrics), [])
+            self.assertEqual(metrics["pose_wall_angle_radians"], {})
+            self.assertEqual(metrics["pose_wall_value_reason"][
+                ("pose_wall_value_reason", (("reason", "no_frame"), ("value", "yaw")))], 1)
+            self.assertEqual(self.ask("/state.json")[0], 503)
+            status, _, why = self.ask("/ready")
+            self.assertEqual((status, json.loads(why)["why"][0]), (503, "the newest result is stale"))
+            self.assertEqual(self.ask("/live")[0], 200, "a new start would take longer than this")
+            counter = ("pose_wall_value_not_steering_seconds_total", (("value", "yaw"),))
+            before = metrics["pose_wall_value_not_steering_seconds"][counter]
+            time.sleep(0.2)
+            self.assertGreaterEqual(self.metrics()["pose_wall_value_not_steering_seconds"][counter], before + 0.19)
+        self.assertTrue(live_peer.becomes_true(lambda: len(self.may_steer(self.metrics())) == 7), self.running.log())
+
+    def test_without_the_stops_thread_the_machine_stops_and_the_daemon_lives(self):
+        with held_up(self.running, "planar-stop"):
+            time.sleep(1.0)
+            metrics = self.metrics()
+            states = metrics["pose_wall_stop_state"]
+            self.assertEqual(states[("pose_wall_stop_state", (("pose_wall_stop_state", "stop"),))], 1)
+            self.assertEqual(metrics["pose_wall_stop_reason"][("pose_wall_stop_reason", (("reason", "stale"),))], 1)
+            status, _, body = self.ask("/live")
+            self.assertEqual(status, 200, body)
 
 
 def without_more(schema):

@@ -58,7 +58,12 @@ TEST_F(MqttSinkTest, WithoutABrokerItWarnsTakesResultsAndStops) {
   EXPECT_EQ(sink->health().grade, Grade::kWarning);
   sink->start();
   EXPECT_TRUE(becomes_true([&] { return sink->health().summary.rfind("no broker: ", 0) == 0; }));
+  EXPECT_EQ(sink->health().summary, "no broker: Connection refused; tries again");
+  const std::uint64_t before = std::stoull(fact(sink->health(), "messages not sent"));
   sink->take(LiveResult{});
+  EXPECT_GT(std::stoull(fact(sink->health(), "messages not sent")), before) << "it was due, and nobody took it";
+  EXPECT_TRUE(becomes_true([&] { return std::stoull(fact(sink->health(), "messages not sent")) > before + 2; }))
+      << "one a second is due";
   EXPECT_EQ(sink->health().grade, Grade::kWarning);
   EXPECT_EQ(fact(sink->health(), "messages acknowledged"), "0");
   sink->stop();

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <array>
+#include <cerrno>
 #include <csignal>
 #include <filesystem>
 #include <random>
@@ -456,6 +458,21 @@ TEST_F(BlackBoxTest, TheSmallestRoomServesTheRuntimeAndCanBeComputedAgain) {
   EXPECT_GT(replay.records, 0U);
   EXPECT_TRUE(replay.is_whole());
   EXPECT_EQ(replay.different, 0U);
+}
+
+TEST_F(BlackBoxTest, TellsWhyItIsNotWrittenAndThatItIsAgain) {
+  const BlackBox box = open_black_box(settings("10"));
+  EXPECT_GT(box.state->free_bytes, 0U);
+  const std::array<char, 64> record{};
+  ASSERT_EQ(box.write(box.user, 0, record.data(), record.size()), 0);
+  EXPECT_EQ(box.state->fault, 0);
+  {
+    const WritesFail full(0);
+    EXPECT_NE(box.write(box.user, 0, record.data(), record.size()), 0);
+  }
+  EXPECT_EQ(box.state->fault, EFBIG);
+  EXPECT_EQ(box.write(box.user, 0, record.data(), record.size()), 0);
+  EXPECT_EQ(box.state->fault, 0);
 }
 
 TEST_F(BlackBoxTest, AStartThatFailsLeavesNoFile) {

@@ -22,6 +22,7 @@
 #include "apps/live/clocks.hpp"
 #include "live/frame_catcher.hpp"
 #include "live/hall_frames.hpp"
+#include "study/planar/stop_line.hpp"
 #include "support/said_by.hpp"
 
 namespace pose_wall::tools::live {
@@ -119,6 +120,57 @@ TEST_F(StopGuardTest, FramesPermitAndSilenceStopsAsSoonAsTheNewestIsStale) {
   EXPECT_GT(first_age_ns, stale_ns);
   EXPECT_LT(first_age_ns, stale_ns + kSecond_ns) << "a busy machine is given time";
   EXPECT_EQ(guard_->stop_now().header_stamp_ns, stamp_ns_ + 7);
+}
+
+// Who starts the daemon anew for a short hold-up makes a longer one of it.
+TEST_F(StopGuardTest, AThreadThatIsHeldUpStopsAtOnceAndIsNotTakenForOneThatHangs) {
+  ASSERT_TRUE(is_brought_to_drive());
+  const std::int64_t stopped_ns = guard_->state_ns().at(kStop);
+  {
+    const std::lock_guard<std::mutex> holds_up(lock_);  // it waits for that where it tells
+    std::this_thread::sleep_for(std::chrono::nanoseconds(3 * StopGuard::kSilent_ns));
+    const StopNews news = guard_->stop_now();
+    EXPECT_EQ(news.result.state, kStop);
+    EXPECT_NE(news.result.reasons & POSE_WALL_PLANAR_STOP_R_STALE, 0U);
+    EXPECT_TRUE(guard_->is_alive());
+    EXPECT_GE(guard_->state_ns().at(kStop) - stopped_ns, StopGuard::kSilent_ns)
+        << "the time without answers is a stop's";
+  }
+  EXPECT_GT(kHangs_ns, 10 * StopGuard::kSilent_ns);
+}
+
+TEST_F(StopGuardTest, TheTimesOfTheStatesAreThatOfTheClock) {
+  const std::int64_t began_ns = monotonic_ns();
+  const std::vector<std::int64_t> before = guard_->state_ns();
+  ASSERT_TRUE(is_brought_to_drive());
+  ASSERT_TRUE(becomes_true([&] { return !drives(); }));
+  const std::vector<std::int64_t> after = guard_->state_ns();
+  const std::int64_t took_ns = monotonic_ns() - began_ns;
+  std::int64_t sum_ns = 0;
+  for (std::size_t state = 0; state < after.size(); ++state) {
+    EXPECT_GE(after[state], before[state]);
+    sum_ns += after[state] - before[state];
+  }
+  EXPECT_GT(after[POSE_WALL_PLANAR_STOP_SLOW] + after[POSE_WALL_PLANAR_STOP_GO], 0);
+  EXPECT_LE(sum_ns, took_ns);
+  EXPECT_GT(sum_ns, took_ns / 2) << "no time is lost";
+}
+
+// Of a recording that begins again "the newest frame is 1 s old, for 2 s" would be said.
+TEST_F(StopGuardTest, AFrameThatComesTooLateBeginsTheTimeOfTheSilenceAnew) {
+  ASSERT_TRUE(is_brought_to_drive());
+  ASSERT_TRUE(becomes_true([&] { return !drives(); }));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  show();  // a tenth of a second after the one before, by its stamp
+  const std::uint64_t frames = guard_->stop_now().result.frames;
+  ASSERT_TRUE(becomes_true([&] { return guard_->stop_now().result.frames > frames; }));
+  std::size_t late = 0;
+  for (const auto& news : told()) {
+    if (stop_cause(news->result) != StopCause::kStale) continue;
+    ++late;
+    EXPECT_GE(news->cause_since_ns, news->result.stamp_ns);
+  }
+  EXPECT_GT(late, 0U);
 }
 
 TEST_F(StopGuardTest, AThingInTheWayStopsWithItsPlace) {

@@ -14,7 +14,6 @@
 #include "apps/live/clocks.hpp"
 #include "apps/live/health_words.hpp"
 #include "apps/live/planar/roadway_sink.hpp"
-#include "apps/live/setting_changes.hpp"
 #include "io/config_file/all_settings.hpp"
 #include "io/config_file/key_table.hpp"
 #include "io/config_file/resolved_frames.hpp"
@@ -25,8 +24,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kLook = std::chrono::milliseconds(50);
-// As a worker's (live_runtime.cpp): the loop writes the log, and who reads that may be slow.
-constexpr std::int64_t kLoopHangs_ns = 10'000'000'000;
 // A replay that waits for a disk looks so often whether it is to stop: a stop within a second must not wait for that.
 constexpr auto kDiskStall = std::chrono::milliseconds(500);
 
@@ -183,7 +180,7 @@ void Daemon::stop() {
 }
 
 std::vector<PartHealth> Daemon::all() const {
-  std::vector<PartHealth> parts = {runtime_.health(), source_->health(), host_clock_.health()};
+  std::vector<PartHealth> parts = {runtime_.health(), source_->health(), host_clock_.health(), readings_.health()};
   if (guard_) parts.push_back(guard_->health());
   if (commands_) parts.push_back(commands_->health(monotonic_ns()));
   if (roadway_) parts.push_back(roadway_->health());
@@ -196,7 +193,7 @@ std::vector<std::string> Daemon::hung() const {
   if (!runtime_.is_alive()) hung.emplace_back("the runtime's worker hangs");
   if (guard_ && !guard_->is_alive()) hung.emplace_back("the obstacle stop hangs");
   const std::int64_t looked_ns = looked_ns_;
-  if (looked_ns != 0 && monotonic_ns() - looked_ns > kLoopHangs_ns) hung.emplace_back("the daemon's own loop hangs");
+  if (looked_ns != 0 && monotonic_ns() - looked_ns > kHangs_ns) hung.emplace_back("the daemon's own loop hangs");
   return hung;
 }
 
@@ -205,6 +202,7 @@ void Daemon::take_settings(const std::function<LoadedConfig()>& read) {
   try {
     fresh = read();
   } catch (const std::exception& fault) {
+    readings_.note_refused(fault.what(), wall_ns());
     log_lines("settings", fault.what(), Grade::kBad);
     log_line(Grade::kBad, "settings", "read again and refused: nothing is changed");
     return;
@@ -217,6 +215,7 @@ void Daemon::take_settings(const std::function<LoadedConfig()>& read) {
     taken += change.is_taken ? 1 : 0;
     log_anyway(change.is_taken ? Grade::kGood : Grade::kWarning, "settings", change_text(change));
   }
+  readings_.note_taken(changes.size() - taken, wall_ns());
   log_anyway(Grade::kGood, "settings",
              fmt::format("read again: {} changed, {} wait for a restart", taken, changes.size() - taken));
 }
@@ -231,8 +230,8 @@ void Daemon::look_around(const Wishes& wishes) {
                     : "somebody has looked, but the key `planar` is off");
     if (guard_) guard_->confirm();
   }
-  // A worker that hangs is a reason to be started anew.
-  if (runtime_.is_alive() && (!guard_ || guard_->is_alive())) service_.alive();
+  // What hangs is a reason to be started anew.
+  if (hung().empty()) service_.alive();
 }
 
 void Daemon::run(const Wishes& wishes) {

@@ -19,6 +19,7 @@
 #include "apps/live/log.hpp"
 #include "apps/live/planar/stop_guard.hpp"
 #include "apps/live/service_manager.hpp"
+#include "apps/live/setting_changes.hpp"
 #include "apps/live/sink_thread.hpp"
 #include "apps/live/source.hpp"
 #include "io/config_file/load_config.hpp"
@@ -50,6 +51,8 @@ class Daemon final : public HealthBoard {
 
   std::vector<PartHealth> all() const override;
   std::vector<std::string> hung() const override;
+  Newest newest() const override { return runtime_.newest(); }
+  ResultSums sums() const override { return runtime_.sums(); }
   std::optional<pose_wall_runtime_statistics> statistics() const override { return runtime_.statistics(); }
 
  private:
@@ -79,6 +82,7 @@ class Daemon final : public HealthBoard {
   ServiceManager service_;
   HostClock host_clock_;
   HealthLog health_log_;
+  SettingReadings readings_;
   std::atomic<std::int64_t> looked_ns_{0};  // when the daemon's own loop last went round; 0: not yet
 };
 

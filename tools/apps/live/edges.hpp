@@ -6,6 +6,8 @@
 
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -72,9 +74,15 @@ std::unique_ptr<Sink> make_recorder(const LoadedConfig& loaded, const HealthBoar
 
 // What the runtime writes its black box with: a ring file for each start, in a folder of bounded size.
 struct BlackBox {
+  // From any thread.
+  struct State {
+    std::atomic<int> fault{0};                 // errno of the last write; 0: it was written
+    std::atomic<std::uint64_t> free_bytes{0};  // of its disk, for others than root
+  };
   pose_wall_runtime_sink write = nullptr;
   void* user = nullptr;
   std::uint64_t bytes = 0;
+  std::shared_ptr<const State> state;
   std::shared_ptr<void> keeper;  // the file stays open as long as this lives
 };
 BlackBox open_black_box(const LoadedConfig& loaded);

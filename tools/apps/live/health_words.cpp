@@ -28,6 +28,7 @@ constexpr const char* kKinds[] = {
     translatable("part axes"),
     translatable("part motion"),
     translatable("part host clock"),
+    translatable("part settings"),
 };
 
 // Names and values of facts that are no sentence: elsewhere the same word may mean something else.

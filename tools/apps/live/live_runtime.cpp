@@ -13,6 +13,7 @@
 
 #include "apps/live/clocks.hpp"
 #include "apps/live/log.hpp"
+#include "apps/live/thread_name.hpp"
 #include "io/config_file/key_table.hpp"
 #include "io/numbers/angles.hpp"
 #include "io/numbers/quantities.hpp"
@@ -22,9 +23,6 @@ namespace {
 
 // A result comes at most this many pushes after its frame: those that wait, the one in work, the one being copied.
 constexpr std::uint64_t kFramesKept = 8;
-// A frame takes 0.2 s at most on the slowest controller (bench/README.md); a worker that is at one thing for so much
-// longer does not come back.
-constexpr std::int64_t kHangs_ns = 10'000'000'000;
 // x, y, z as doubles, intensity, time and ring: whatever a driver writes.
 constexpr std::uint32_t kPointBytes = 48;
 // A transform that moved less is the same mount: a thirtieth of range_bias_max, and as much at five metres. Reopening
@@ -58,6 +56,7 @@ LiveRuntime::LiveRuntime(const LoadedConfig& loaded, std::function<BlackBox()> o
       wants_points_(std::move(wants_points)) {
   settings_.lidar_frame = config_text(*config_.get(), "lidar_frame");
   settings_.extrinsic_by_tf = loaded.live.extrinsic_from == "tf";
+  settings_.has_box = !loaded.live.black_box.empty();
   settings_.motion = loaded.motion;
   settings_.worker_priority = static_cast<std::int32_t>(loaded.live.worker_priority);
   settings_.frame_points_max = static_cast<std::uint32_t>(loaded.live.frame_points_max);
@@ -98,6 +97,7 @@ void LiveRuntime::open() {
   block_.resize(static_cast<std::size_t>((bytes + sizeof(Line) - 1) / sizeof(Line)));
   require(pose_wall_runtime_open(config_.get(), &options, block_.data(), block_.size() * sizeof(Line), &runtime_),
           "opening the runtime");
+  if (!counts_) counts_.emplace(options.watchdog_ns, monotonic_ns());
   ++opened_;
 }
 
@@ -218,6 +218,7 @@ void LiveRuntime::reopen(const api::Config& config) {
   {
     const std::lock_guard<std::mutex> frames_locked(frames_lock_);
     frames_.clear();
+    last_.publication = {};
     next_number_ = 0;
   }
   open();
@@ -234,29 +235,60 @@ void LiveRuntime::called_back(void* user, const pose_wall_publication* publicati
 }
 
 void LiveRuntime::publish(const pose_wall_publication& publication) {
+  thread_local bool is_named = false;
+  if (!std::exchange(is_named, true)) name_this_thread("worker");
   auto result = std::make_shared<LiveResult>();
   result->publication = publication;
   result->config = *config_.get();
+  result->frame = note_publication(result.get());
+  counts_->note(*result);
   if (publication.cause == POSE_WALL_RUNTIME_FRAME) {
-    result->frame = frame_of(publication.frame);
-    if (result->frame) {
-      header_stamp_ns_ = result->frame->stamp_ns;
-      result->frame_id = result->frame->frame_id;
-      times_.note(result->frame->frame, publication);
-    }
+    if (result->frame) times_.note(result->frame->frame, publication);
     if (wants_points_()) result->points = points();
   }
-  result->header_stamp_ns = header_stamp_ns_;
   post_(result);
 }
 
-std::shared_ptr<const LiveFrame> LiveRuntime::frame_of(std::uint64_t number) {
+// Takes its frame from those that wait, and adds what the header of the frame says.
+std::shared_ptr<const LiveFrame> LiveRuntime::note_publication(LiveResult* result) {
   const std::lock_guard<std::mutex> locked(frames_lock_);
-  const auto found = frames_.find(number);
-  if (found == frames_.end()) return nullptr;
-  std::shared_ptr<const LiveFrame> frame = found->second;
-  frames_.erase(frames_.begin(), std::next(found));
+  std::shared_ptr<const LiveFrame> frame;
+  result->header_stamp_ns = last_.header_stamp_ns;
+  const auto found =
+      result->publication.cause == POSE_WALL_RUNTIME_FRAME ? frames_.find(result->publication.frame) : frames_.end();
+  if (found != frames_.end()) {
+    frame = found->second;
+    frames_.erase(frames_.begin(), std::next(found));
+    result->header_stamp_ns = frame->stamp_ns;
+    result->frame_id = frame->frame_id;
+  }
+  last_ = *result;
   return frame;
+}
+
+// What the runtime publishes is there a moment before it is noted here, with the frame still among those that wait.
+Newest LiveRuntime::newest() const {
+  Newest newest;
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  pose_wall_publication& publication = newest.result.publication;
+  while (true) {
+    publication = {};
+    publication.struct_size = sizeof publication;
+    newest.status = pose_wall_runtime_latest(runtime_, &publication);
+    newest.result.config = *config_.get();
+    const std::lock_guard<std::mutex> frames_locked(frames_lock_);
+    if (newest.is_there() && last_.publication.index > publication.index) continue;
+    newest.result.header_stamp_ns = last_.header_stamp_ns;
+    if (!newest.is_there() || publication.cause != POSE_WALL_RUNTIME_FRAME) return newest;
+    const auto waits = frames_.find(publication.frame);
+    if (waits != frames_.end()) {
+      newest.result.header_stamp_ns = waits->second->stamp_ns;
+      newest.result.frame_id = waits->second->frame_id;
+    } else if (last_.publication.index == publication.index) {
+      newest.result.frame_id = last_.frame_id;
+    }
+    return newest;
+  }
 }
 
 std::shared_ptr<const LabelledPoints> LiveRuntime::points() const {
@@ -291,6 +323,10 @@ std::optional<pose_wall_motion_image> LiveRuntime::motion_image() const {
   const std::shared_lock<std::shared_mutex> locked(handle_lock_);
   if (pose_wall_runtime_motion_image(runtime_, &image) == POSE_WALL_RUNTIME_E_MOTION) return std::nullopt;
   return image;
+}
+
+ResultSums LiveRuntime::sums() const {
+  return counts_->until(monotonic_ns());
 }
 
 std::int32_t LiveRuntime::latest(pose_wall_publication* newest) const {
@@ -344,6 +380,7 @@ PartHealth LiveRuntime::health() const {
   }
   if (is_fresh) times_.tell(&health);
   add_runtime_facts(&health);
+  add_box_facts(&health);
   return health;
 }
 
@@ -369,10 +406,13 @@ void LiveRuntime::add_runtime_facts(PartHealth* health) const {
   if (now.priority_error != 0) health->add("worker_priority refused", std::strerror(now.priority_error));
   health->add("activity", pose_wall_runtime_activity_name(now.activity));
   health->add("opened", opened_.load());
-  if (box_.write == nullptr) return;
-  health->add("black box written", now.box_written);
-  health->add("black box lost", now.box_lost);
-  health->add("black box failed", now.box_failed);
+}
+
+void LiveRuntime::add_box_facts(PartHealth* health) const {
+  if (!settings_.has_box) return;
+  const pose_wall_runtime_statistics now = statistics();
+  const std::shared_lock<std::shared_mutex> locked(handle_lock_);
+  box_watch_.tell(box_, now, monotonic_ns(), health);
 }
 
 }  // namespace pose_wall::tools::live

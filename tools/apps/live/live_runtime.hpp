@@ -15,8 +15,10 @@
 #include <shared_mutex>
 #include <vector>
 
+#include "apps/live/box_watch.hpp"
 #include "apps/live/edges.hpp"
 #include "apps/live/images.hpp"
+#include "apps/live/result_counts.hpp"
 #include "apps/live/sink.hpp"
 #include "apps/live/source.hpp"
 #include "apps/live/times_watch.hpp"
@@ -51,6 +53,8 @@ class LiveRuntime final : public FrameTaker, public Images {
   pose_wall_image image() const override;
   pose_wall_image2 image2() const override;
   std::optional<pose_wall_motion_image> motion_image() const override;
+  Newest newest() const;
+  ResultSums sums() const;
   // False when the worker has been at one thing for so long that it hangs.
   bool is_alive() const;
   PartHealth health() const;
@@ -63,7 +67,7 @@ class LiveRuntime final : public FrameTaker, public Images {
   };
   struct Settings {
     std::string lidar_frame;
-    bool extrinsic_by_tf = false;
+    bool extrinsic_by_tf = false, has_box = false;
     std::uint32_t frame_points_max = 0;
     std::int32_t worker_priority = 0;
     pose_wall_motion_settings motion{};
@@ -76,10 +80,11 @@ class LiveRuntime final : public FrameTaker, public Images {
   void close();
   std::optional<api::Config> with_extrinsic(const Extrinsic& extrinsic) const;
   void reopen(const api::Config& config);
-  std::shared_ptr<const LiveFrame> frame_of(std::uint64_t number);
+  std::shared_ptr<const LiveFrame> note_publication(LiveResult* result);
   std::shared_ptr<const LabelledPoints> points() const;
   std::int32_t latest(pose_wall_publication* newest) const;
   void add_runtime_facts(PartHealth* health) const;
+  void add_box_facts(PartHealth* health) const;
 
   api::Config config_;
   Settings settings_;
@@ -99,11 +104,13 @@ class LiveRuntime final : public FrameTaker, public Images {
   std::optional<Extrinsic> extrinsic_, refused_extrinsic_;
   std::int64_t reopened_ns_ = 0;
 
-  std::mutex frames_lock_;
+  mutable std::mutex frames_lock_;
   std::map<std::uint64_t, std::shared_ptr<const LiveFrame>> frames_;
+  LiveResult last_;  // the last publication, without cloud and points
 
-  std::int64_t header_stamp_ns_ = 0;  // of the last measured frame; of the worker's thread
   TimesWatch times_;
+  mutable BoxWatch box_watch_;
+  std::optional<ResultCounts> counts_;  // from the first opening on
 
   std::atomic<bool> has_extrinsic_{false};
   std::atomic<std::uint64_t> without_extrinsic_{0}, opened_{0};

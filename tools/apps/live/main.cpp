@@ -21,6 +21,7 @@
 #include "apps/command_line/language_option.hpp"
 #include "apps/command_line/parse_fault.hpp"
 #include "apps/live/daemon.hpp"
+#include "apps/live/thread_name.hpp"
 #include "apps/options/one_of.hpp"
 #include "io/config_file/config_place.hpp"
 #include "io/config_file/load_config.hpp"
@@ -77,6 +78,7 @@ class StopSignals {
 
  private:
   void wait() {
+    name_this_thread("signals");
     int signal = 0;
     while (sigwait(&signals_, &signal) == 0 && is_wish(signal)) {
     }

@@ -9,12 +9,14 @@
 #include <array>
 
 #include "io/config_file/all_settings.hpp"
+#include "io/numbers/utc_text.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
 
 // What decides neither what is measured, nor who can reach the daemon, nor memory that was taken at the start.
 constexpr std::array<const char*, 2> kTaken = {"log_level", "status_every_s"};
+constexpr std::int64_t kNsPerS = 1'000'000'000;
 
 }  // namespace
 
@@ -36,6 +38,38 @@ void take_changes(const std::vector<SettingChange>& changes, const LoadedConfig&
     const OutsideKey& key = *find_live_key(change.key);
     static_cast<void>(set_live_value(&running->live, key, live_value_text(fresh.live, key)));
   }
+}
+
+void SettingReadings::note_taken(std::size_t waiting, std::int64_t wall_ns) {
+  const std::lock_guard<std::mutex> locked(lock_);
+  ++readings_;
+  waiting_ = waiting;
+  time_ = utc_text(wall_ns / kNsPerS);
+  refusal_.clear();
+}
+
+void SettingReadings::note_refused(const std::string& why, std::int64_t wall_ns) {
+  const std::lock_guard<std::mutex> locked(lock_);
+  ++readings_;
+  time_ = utc_text(wall_ns / kNsPerS);
+  refusal_ = why;
+  // One sentence (health.hpp): the log has all lines.
+  refusal_ = refusal_.substr(0, refusal_.find('\n'));
+}
+
+PartHealth SettingReadings::health() const {
+  const std::lock_guard<std::mutex> locked(lock_);
+  PartHealth health;
+  health.part = "settings";
+  health.grade = refusal_.empty() ? Grade::kGood : Grade::kWarning;
+  health.summary = !refusal_.empty() ? fmt::format("read at {} and refused: {}", time_, refusal_)
+                   : time_.empty()   ? "read at the start"
+                   : waiting_ == 0   ? fmt::format("read at {}: nothing waits for a restart", time_)
+                                     : fmt::format("read at {}: {} wait for a restart", time_, waiting_);
+  health.add("readings", readings_);
+  health.add("waiting", std::uint64_t{waiting_});
+  health.add("refused", std::uint64_t{refusal_.empty() ? 0U : 1U});
+  return health;
 }
 
 std::string change_text(const SettingChange& change) {

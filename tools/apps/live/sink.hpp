@@ -35,9 +35,6 @@ struct LiveResult {
   pose_wall_config config{};                     // with which it was measured: the extrinsic may come from tf
 };
 
-// Older than this a result is that of a worker that hangs: ten publications of silence. Nothing of it may steer.
-constexpr std::int64_t kOldResult_ns = 1'000'000'000;
-
 class Sink {
  public:
   Sink() = default;

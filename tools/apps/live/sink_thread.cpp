@@ -3,7 +3,10 @@
 
 #include "apps/live/sink_thread.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "apps/live/thread_name.hpp"
 
 namespace pose_wall::tools::live {
 
@@ -41,6 +44,9 @@ void SinkThread::post(const std::shared_ptr<const LiveResult>& whole_result) {
 }
 
 void SinkThread::run() {
+  std::string name = sink_->health().kind();
+  std::replace(name.begin(), name.end(), ' ', '-');
+  name_this_thread(name);
   std::unique_lock<std::mutex> locked(lock_);
   while (true) {
     changed_.wait(locked, [this] { return ending_ || has_work(); });

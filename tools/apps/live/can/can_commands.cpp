@@ -11,6 +11,7 @@
 
 #include "apps/live/clocks.hpp"
 #include "apps/live/edges.hpp"
+#include "apps/live/thread_name.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -37,6 +38,7 @@ void CanCommands::stop() {
 }
 
 void CanCommands::run() {
+  name_this_thread("commands-can");
   while (!ending_) {
     if (!port_.is_open()) {
       open_again();

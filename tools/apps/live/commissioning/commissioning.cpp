@@ -23,6 +23,7 @@
 #include "apps/live/commissioning/steps.hpp"
 #include "apps/live/edges.hpp"
 #include "apps/live/log.hpp"
+#include "apps/live/thread_name.hpp"
 #include "apps/live/web/web_server.hpp"
 #include "io/config_file/key_table.hpp"
 
@@ -298,6 +299,7 @@ class CommissioningDesk final : public Commissioning {
   // ------------------------------------------------ the thread
 
   void work() {
+    name_this_thread("commissioning");
     std::unique_lock<std::mutex> locked(lock_);
     while (true) {
       wakes_.wait(locked, [this] { return ending_ || job_; });

@@ -26,6 +26,7 @@
 #include "apps/live/edges.hpp"
 #include "apps/live/log.hpp"
 #include "apps/live/modbus/modbus_registers.hpp"
+#include "apps/live/thread_name.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -142,6 +143,7 @@ class ModbusServer final : public Sink {
   std::string part() const { return "sink modbus " + at_; }
 
   void run() {
+    name_this_thread("modbus-server");
     while (!ending_) {
       std::vector<pollfd> readable = {{server_.get(), POLLIN, 0}};
       for (const Client& client : clients_) readable.push_back({client.socket.get(), POLLIN, 0});

@@ -29,48 +29,45 @@ Json blank(const char* state, const char* line) {
 }
 
 // state, value and level of each; what is invalid has neither.
-Json values_of(const pose_wall_result& result) {
+Json values_of(const Newest& newest, std::int64_t now_ns) {
   Json values = Json::object();
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    const pose_wall_value& value = result.quantity[q];
+    const pose_wall_value& value = newest.result.publication.result.quantity[q];
     const bool is_told = value.state != POSE_WALL_INVALID;
     const std::string unit = q <= POSE_WALL_YAW ? "_rad" : "_m";
     values[pose_wall_quantity_name(q)] = {
         {"state", pose_wall_state_name(value.state)},
         {"value" + unit, is_told ? Json(value.value) : Json(nullptr)},
         {"protection_level" + unit, is_told ? Json(value.protection_level) : Json(nullptr)},
-        {"age_s", is_told ? Json(value.age_s) : Json(nullptr)}};
+        {"age_s", is_told ? Json(newest.value_age_s(q, now_ns)) : Json(nullptr)}};
   }
   return values;
 }
 
 }  // namespace
 
-LastValue last_value(const LiveResult* newest, std::int64_t now_ns, std::int64_t wall_ns) {
+LastValue last_value(const Newest& newest, std::int64_t now_ns, std::int64_t wall_ns) {
   Json json = blank("stale", translatable("may steer: none. Results are missing or old."));
   json["told_at_ns"] = wall_ns;
   json["valid_until_ns"] = wall_ns + kHolds_ns;
   std::string gist = "stale";
-  if (newest != nullptr) {
-    const pose_wall_publication& publication = newest->publication;
-    const std::int64_t since_ns = now_ns - publication.published_ns;
-    if (publication.age_ns < INT64_MAX - since_ns) {
-      json["age_s"] = static_cast<double>(publication.age_ns + since_ns) * 1e-9;
+  const pose_wall_publication& publication = newest.result.publication;
+  if (newest.is_there() && publication.age_ns < INT64_MAX) {
+    json["age_s"] = static_cast<double>(publication.age_ns) * 1e-9;
+  }
+  if (newest.is_fresh()) {
+    api::Config config;
+    *config.get() = newest.result.config;
+    const Steering steering = steering_of(publication.result, alert_limits_of(config));
+    gist = publication.cause == POSE_WALL_RUNTIME_FRAME ? "live" : "silent";
+    json["state"] = gist;
+    for (const SteerValue& value : steering) {
+      if (!value.may_steer()) continue;
+      json["may_steer"].push_back(pose_wall_quantity_name(value.quantity));
+      gist += fmt::format(" {}", value.quantity);
     }
-    if (since_ns <= kOldResult_ns) {
-      api::Config config;
-      *config.get() = newest->config;
-      const Steering steering = steering_of(publication.result, alert_limits_of(config));
-      gist = publication.cause == POSE_WALL_RUNTIME_FRAME ? "live" : "silent";
-      json["state"] = gist;
-      for (const SteerValue& value : steering) {
-        if (!value.may_steer()) continue;
-        json["may_steer"].push_back(pose_wall_quantity_name(value.quantity));
-        gist += fmt::format(" {}", value.quantity);
-      }
-      json["line"] = steer_line_json(steering);
-      json["values"] = values_of(publication.result);
-    }
+    json["line"] = steer_line_json(steering);
+    json["values"] = values_of(newest, now_ns);
   }
   return {json_text(json), gist};
 }

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/live/sink.hpp"
+#include "apps/live/images.hpp"
 
 namespace pose_wall::tools::live {
 
@@ -22,8 +22,8 @@ struct LastValue {
   std::string gist;  // what is told at once when it changes: state, and what may steer
 };
 
-// newest: none was published yet. now_ns by the clock of its published_ns; wall_ns by the one that people set.
-LastValue last_value(const LiveResult* newest, std::int64_t now_ns, std::int64_t wall_ns);
+// now_ns by the clock of published_ns; wall_ns by the one that people set.
+LastValue last_value(const Newest& newest, std::int64_t now_ns, std::int64_t wall_ns);
 
 // What stands there once the daemon has stopped, or is gone.
 std::string no_last_value();

@@ -4,7 +4,13 @@
 #include "apps/live/mqtt/mqtt_access.hpp"
 
 #include <fmt/format.h>
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <vector>
@@ -53,6 +59,26 @@ std::string password_of(const MqttAccess& access) {
                     access.password_file, kPasswordMost));
   }
   return password;
+}
+
+std::string connect_fault(const HostPort& broker) {
+  addrinfo wanted{}, *found = nullptr;
+  wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;  // a name server may take its time
+  wanted.ai_socktype = SOCK_STREAM;
+  if (getaddrinfo(broker.host.c_str(), std::to_string(broker.port).c_str(), &wanted, &found) != 0) return "";
+  const int file = socket(found->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  int fault = file >= 0 && connect(file, found->ai_addr, found->ai_addrlen) == 0 ? 0 : errno;
+  freeaddrinfo(found);
+  if (fault == EINPROGRESS) {
+    fault = 0;
+    pollfd waits{file, POLLOUT, 0};
+    socklen_t bytes = sizeof fault;
+    if (poll(&waits, 1, static_cast<int>(kConnectFaultMost.count())) > 0) {
+      static_cast<void>(getsockopt(file, SOL_SOCKET, SO_ERROR, &fault, &bytes));
+    }
+  }
+  if (file >= 0) close(file);
+  return fault == 0 ? "" : std::strerror(fault);
 }
 
 std::string access_text(const MqttAccess& access) {

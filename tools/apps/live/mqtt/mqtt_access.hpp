@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "io/config_file/live_settings.hpp"
@@ -24,6 +25,11 @@ MqttAccess mqtt_access(const LiveSettings& live);
 // The first line of the file; empty where none is set. Read anew for each connection, so that a password can be
 // changed. Throws as above.
 std::string password_of(const MqttAccess& access);
+
+// Why nobody can connect to it: "Connection refused", "No route to host". Empty where one can, where nobody answers
+// within kConnectFaultMost, and for a host by name. The library says "TCP/TLS connect failure" of them all.
+std::string connect_fault(const HostPort& broker);
+constexpr std::chrono::milliseconds kConnectFaultMost{200};  // a refusal comes within the way there and back
 
 // What of the way is open to others: "telemetry without password or encryption; ...". In one sentence, for the log.
 std::string access_text(const MqttAccess& access);

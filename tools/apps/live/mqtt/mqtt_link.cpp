@@ -126,9 +126,11 @@ struct MqttLink::Events {
     ++state->connections;
   }
   static void refused(void* context, MQTTAsync_failureData* why) {
-    const std::string refusal = why != nullptr ? refusal_text(why->code) : "";
-    const char* const said = why != nullptr && why->message != nullptr ? why->message : "no answer";
-    of(context)->fall_apart(refusal.empty() ? said : refusal);
+    std::string trouble = why != nullptr ? refusal_text(why->code) : "";
+    // Without a code no broker was reached.
+    if (trouble.empty()) trouble = connect_fault(of(context)->access.broker);
+    if (trouble.empty()) trouble = why != nullptr && why->message != nullptr ? why->message : "no answer";
+    of(context)->fall_apart(trouble);
   }
   // A line of OpenSSL's for each cause, the deepest first.
   static int tls_failed(const char* line, std::size_t bytes, void* context) {

@@ -8,8 +8,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <mutex>
-#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -20,6 +18,7 @@
 #include "apps/live/mqtt/last_value.hpp"
 #include "apps/live/mqtt/mqtt_link.hpp"
 #include "apps/live/result_json.hpp"
+#include "apps/live/thread_name.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -84,15 +83,10 @@ class MqttSink final : public Sink {
   }
 
   void take(const LiveResult& result) override {
-    {
-      const std::lock_guard<std::mutex> locked(newest_lock_);
-      newest_ = result;
-    }
     const std::uint64_t connection = link_.connections();
-    if (!link_.is_connected()) return;
     std::vector<std::uint32_t> states = states_of(result);
     if (!results_.is_due(states, connection)) return;
-    if (link_.publish("result", with_end(result_json(result), wall_ns()))) results_.note(std::move(states), connection);
+    if (tell(&link_, "result", with_end(result_json(result), wall_ns()))) results_.note(std::move(states), connection);
   }
 
   void stop() override {
@@ -121,13 +115,22 @@ class MqttSink final : public Sink {
 
  private:
   void run() {
+    name_this_thread("mqtt-links");
     while (!ending_) {
       link_.look();
       last_link_.look();
-      if (link_.is_connected()) tell_health();
-      if (last_link_.is_connected()) tell_last();
+      tell_health();
+      tell_last();
       std::this_thread::sleep_for(kLook);
     }
+  }
+
+  // Whether it is done with. What falls due without a broker is lost and counted by the link; the next connection is
+  // told all anew. Behind a slow broker it is tried again.
+  static bool tell(MqttLink* link, const char* name, const std::string& message, bool retained = false) {
+    const bool is_apart = !link->is_connected();
+    if (is_apart && link->connections() == 0 && link->trouble().empty()) return false;  // the first try is under way
+    return link->publish(name, message, retained) || is_apart;
   }
 
   void tell_health() {
@@ -135,19 +138,15 @@ class MqttSink final : public Sink {
     const std::vector<PartHealth> parts = board_.all();
     std::string summaries = summaries_of(parts);
     if (!health_.is_due(summaries, connection)) return;
-    if (link_.publish("health", health_json(parts))) health_.note(std::move(summaries), connection);
+    if (tell(&link_, "health", health_json(parts))) health_.note(std::move(summaries), connection);
   }
 
   // By our own thread, for a worker that hangs publishes nothing.
   void tell_last() {
     const std::uint64_t connection = last_link_.connections();
-    LastValue last;
-    {
-      const std::lock_guard<std::mutex> locked(newest_lock_);
-      last = last_value(newest_ ? &*newest_ : nullptr, monotonic_ns(), wall_ns());
-    }
+    LastValue last = last_value(board_.newest(), monotonic_ns(), wall_ns());
     if (!last_.is_due(last.gist, connection)) return;
-    if (last_link_.publish(kLast, last.json, true)) last_.note(std::move(last.gist), connection);
+    if (tell(&last_link_, kLast, last.json, true)) last_.note(std::move(last.gist), connection);
   }
 
   static constexpr const char* kLast = "last";
@@ -157,8 +156,6 @@ class MqttSink final : public Sink {
   MqttAccess access_;
   MqttLink link_;
   MqttLink last_link_;  // a connection of its own: a broker tells one message alone when it is gone
-  std::mutex newest_lock_;
-  std::optional<LiveResult> newest_;
   std::thread thread_;
   std::atomic<bool> ending_{false};
   Told<std::vector<std::uint32_t>> results_{kResultEvery};     // of the thread that takes

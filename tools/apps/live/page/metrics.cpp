@@ -2,18 +2,17 @@
 // Copyright (c) 2026 the pose_wall authors
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <map>
+#include <algorithm>
 #include <optional>
 
 #include "apps/live/page/open_metrics.hpp"
+#include "apps/live/page/part_metrics.hpp"
 #include "apps/live/page/probes.hpp"
+#include "apps/live/page/process_metrics.hpp"
 #include "io/config_file/key_table.hpp"
+#include "study/planar/stop_line.hpp"
+#include "study/planar/stop_reasons.hpp"
 #include "study/steer/steering.hpp"
 
 namespace pose_wall::tools::live {
@@ -24,6 +23,43 @@ constexpr std::uint32_t kAngles = POSE_WALL_YAW + 1;  // roll, pitch, yaw come f
 
 double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * kSecondsPerNs;
+}
+
+// As the log and a controller have it.
+std::string crc_text(std::uint32_t crc32) {
+  return fmt::format("16#{:08X}", crc32);
+}
+
+const char* cause_name(StopCause cause) {
+  switch (cause) {
+    case StopCause::kNothing:
+      return "nothing";
+    case StopCause::kNoFrame:
+      return "no_frame";
+    case StopCause::kStale:
+      return "stale";
+    case StopCause::kInvalid:
+      return "invalid";
+    case StopCause::kFrozen:
+      return "frozen";
+    case StopCause::kRestart:
+      return "restart";
+    case StopCause::kNoFloor:
+      return "no_floor";
+    case StopCause::kThing:
+      return "thing";
+    case StopCause::kNearing:
+      return "nearing";
+    case StopCause::kBlind:
+      return "blind";
+    case StopCause::kSpeed:
+      return "speed";
+    case StopCause::kMissing:
+      return "missing";
+    case StopCause::kDust:
+      return "dust";
+  }
+  return "?";
 }
 
 OpenMetrics::Labels of_value(std::uint32_t quantity) {
@@ -44,14 +80,31 @@ void add_values(OpenMetrics* metrics, const pose_wall_result* result, const char
   add("distance", "meters", kAngles, POSE_WALL_QUANTITIES);
 }
 
+void add_reasons(OpenMetrics* metrics, const pose_wall_result& result, const std::optional<Steering>& steering) {
+  metrics->family("pose_wall_value_reason", "gauge", "", "1 for each reason that stands at this moment.");
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    for (std::uint32_t bit = 0; bit < POSE_WALL_REASON_COUNT; ++bit) {
+      if ((result.quantity[q].reasons >> bit & 1U) == 0) continue;
+      metrics->count({{"value", pose_wall_quantity_name(q)}, {"reason", pose_wall_reason_name(bit)}}, 1, "");
+    }
+  }
+  metrics->family("pose_wall_value_cause", "gauge", "", "1 for what keeps a fresh value from steering first of all.");
+  for (std::uint32_t q = 0; steering && q < POSE_WALL_QUANTITIES; ++q) {
+    const SteerValue& value = (*steering)[q];
+    if (value.may_steer()) continue;
+    metrics->count({{"value", pose_wall_quantity_name(q)}, {"cause", steer_cause_name(value.cause)}}, 1, "");
+  }
+}
+
 void add_result(OpenMetrics* metrics, const Moment& moment) {
-  const pose_wall_result* result = moment.is_fresh() ? &moment.newest->publication.result : nullptr;
+  const LiveResult& newest = moment.newest.result;
+  const pose_wall_result* result = moment.newest.is_fresh() ? &newest.publication.result : nullptr;
   metrics->family("pose_wall_may_steer", "gauge", "",
                   "1: this value may steer at this moment. Without a fresh result none may.");
   std::optional<Steering> steering;
   if (result != nullptr) {
     api::Config config;
-    *config.get() = moment.newest->config;
+    *config.get() = newest.config;
     steering = steering_of(*result, alert_limits_of(config));
   }
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
@@ -66,16 +119,19 @@ void add_result(OpenMetrics* metrics, const Moment& moment) {
     const std::uint32_t state = result != nullptr ? result->quantity[q].state : std::uint32_t{POSE_WALL_INVALID};
     metrics->states(of_value(q), states, pose_wall_state_name(state));
   }
+  add_reasons(metrics, newest.publication.result, steering);
   add_values(metrics, result, "", "The value, unless it is invalid.", &pose_wall_value::value);
   add_values(metrics, result, "_protection_level", "Bound of the value's error.", &pose_wall_value::protection_level);
   add_values(metrics, result, "_sigma", "Standard deviation of the last measurement.", &pose_wall_value::sigma);
-  metrics->family("pose_wall_value_age_seconds", "gauge", "seconds", "Since the frame that the value was measured in.");
+  metrics->family("pose_wall_value_age_seconds", "gauge", "seconds",
+                  "From the frame that the value was measured in until now.");
   for (std::uint32_t q = 0; result != nullptr && q < POSE_WALL_QUANTITIES; ++q) {
-    if (result->quantity[q].state != POSE_WALL_INVALID) metrics->sample(of_value(q), result->quantity[q].age_s);
+    if (result->quantity[q].state == POSE_WALL_INVALID) continue;
+    metrics->sample(of_value(q), moment.newest.value_age_s(q, moment.now_ns));
   }
   metrics->family("pose_wall_result_age_seconds", "gauge", "seconds",
                   "Since the newest result was published, of a frame or of silence.");
-  if (moment.newest) metrics->sample({}, seconds(moment.now_ns - moment.newest->publication.published_ns));
+  if (moment.newest.is_there()) metrics->sample({}, seconds(moment.now_ns - newest.publication.published_ns));
 }
 
 void add_times(OpenMetrics* metrics, const char* name, const char* help, const pose_wall_runtime_times& times) {
@@ -106,18 +162,48 @@ void add_runtime(OpenMetrics* metrics, const pose_wall_runtime_statistics& now) 
   if (now.newest_age_ns >= 0) metrics->sample({}, seconds(now.newest_age_ns));
   metrics->family("pose_wall_frames_waiting", "gauge", "", "Frames that wait for the worker.");
   metrics->count({}, now.waiting, "");
+  add_count("pose_wall_black_box_written", "Records of the black box that were written.", now.box_written);
+  add_count("pose_wall_black_box_failed", "Records that its file refused.", now.box_failed);
+  add_count("pose_wall_black_box_lost", "Records that a slow disk left no room for.", now.box_lost);
   add_times(metrics, "pose_wall_latency_seconds", "From the reception of a frame to its result, since the start.",
             now.latency);
   add_times(metrics, "pose_wall_work_seconds", "A frame in the engine, since the start.", now.work);
 }
 
-void add_stop(OpenMetrics* metrics, const StopNews& stop) {
+void add_sums(OpenMetrics* metrics, const ResultSums& sums) {
+  metrics->family("pose_wall_value_not_steering_seconds", "counter", "seconds",
+                  "How long the value was not fit to steer by, since the start.");
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    metrics->sample(of_value(q), seconds(sums.not_steering_ns[q]), "_total");
+  }
+  metrics->family("pose_wall_result_latency_seconds", "histogram", "seconds",
+                  "From the reception of a frame to its result, since the start.");
+  std::uint64_t count = 0;
+  for (std::size_t k = 0; k < sums.latency.size(); ++k) {
+    count += sums.latency[k];
+    const bool is_last = k == ResultSums::kUpTo_s.size();
+    metrics->count({{"le", is_last ? "+Inf" : fmt::format("{}", ResultSums::kUpTo_s.at(k))}}, count, "_bucket");
+  }
+  metrics->count({}, count, "_count");
+  metrics->sample({}, seconds(sums.latency_sum_ns), "_sum");
+}
+
+void add_stop(OpenMetrics* metrics, const StopNews& stop, const std::vector<std::int64_t>& state_ns) {
   metrics->family("pose_wall_stop_state", "stateset", "", "The obstacle stop at this moment.");
   std::vector<std::string> states;
   for (std::uint32_t state = POSE_WALL_PLANAR_STOP_STOP; state <= POSE_WALL_PLANAR_STOP_GO; ++state) {
     states.emplace_back(pose_wall_planar_stop_state_name(state));
   }
   metrics->states({}, states, pose_wall_planar_stop_state_name(stop.result.state));
+  metrics->family("pose_wall_stop_seconds", "counter", "seconds", "How long it was in each state, since the start.");
+  for (std::size_t state = 0; state < std::min(states.size(), state_ns.size()); ++state) {
+    metrics->sample({{"state", states[state]}}, seconds(state_ns[state]), "_total");
+  }
+  metrics->family("pose_wall_stop_reason", "gauge", "", "1 for each reason that stands at this moment.");
+  for (const std::string& reason : stop_reason_names(stop.result.reasons)) metrics->count({{"reason", reason}}, 1, "");
+  metrics->family("pose_wall_stop_cause", "gauge", "", "1 for what a person must know of first, if there is anything.");
+  const StopCause cause = stop_cause(stop.result);
+  if (cause != StopCause::kNothing) metrics->count({{"cause", cause_name(cause)}}, 1, "");
   metrics->family("pose_wall_stop_allowed_speed_meters_per_second", "gauge", "meters_per_second",
                   "The fastest point of the machine may have this speed.");
   metrics->sample({}, stop.result.allowed_speed_m_s);
@@ -125,65 +211,21 @@ void add_stop(OpenMetrics* metrics, const StopNews& stop) {
   metrics->count({}, stop.rounds);
 }
 
-// Nothing where the text is no number as a whole.
-std::optional<double> number_in(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const bool is_whole = !text.empty() && end == text.c_str() + text.size();
-  return is_whole && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
-}
-
-void add_parts(OpenMetrics* metrics, const std::vector<PartHealth>& parts) {
-  metrics->family("pose_wall_part_grade", "stateset", "", "How each part of the daemon fares.");
-  const std::vector<std::string> grades = {grade_name(Grade::kGood), grade_name(Grade::kWarning),
-                                           grade_name(Grade::kBad), grade_name(Grade::kStale)};
-  std::map<std::string, std::map<std::string, double>> facts;  // each once, whatever a part says
-  for (const PartHealth& part : parts) {
-    const auto [facts_of, is_new] = facts.try_emplace(part.part);
-    if (!is_new) continue;
-    metrics->states({{"part", part.part}}, grades, grade_name(part.grade));
-    for (const auto& [name, value] : part.facts) {
-      if (const std::optional<double> number = number_in(value)) facts_of->second[name] = *number;
-    }
-  }
-  metrics->family("pose_wall_part_fact", "unknown", "", "Counts and numbers of each part, as /health has them.");
-  for (const auto& [part, numbers] : facts) {
-    for (const auto& [name, number] : numbers) metrics->sample({{"part", part}, {"fact", name}}, number);
-  }
-}
-
-// Under the names that all clients of Prometheus give them.
-void add_process(OpenMetrics* metrics) {
-  rusage usage{};
-  if (getrusage(RUSAGE_SELF, &usage) == 0) {
-    const auto of = [](const timeval& time) {
-      return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    metrics->family("process_cpu_seconds", "counter", "seconds", "Time of processors that the daemon took.");
-    metrics->sample({}, of(usage.ru_utime) + of(usage.ru_stime), "_total");
-  }
-  std::uint64_t pages = 0, resident = 0;
-  if (std::ifstream("/proc/self/statm") >> pages >> resident) {
-    metrics->family("process_resident_memory_bytes", "gauge", "bytes", "Memory that the daemon has in use.");
-    metrics->count({}, resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)), "");
-  }
-}
-
 }  // namespace
 
-std::string metrics_text(const Moment& moment) {
-  OpenMetrics metrics;
-  metrics.family("pose_wall_build", "info", "", "Version, and CRC of the engine's settings.");
-  OpenMetrics::Labels labels = {{"version", pose_wall_version()}};
-  if (moment.newest) {
-    labels.emplace_back("config_crc32", fmt::format("16#{:08X}", moment.newest->publication.result.config_crc32));
-  }
+std::string metrics_text(const Moment& moment, MetricsFormat format) {
+  OpenMetrics metrics(format);
+  metrics.family("pose_wall_build", "info", "", "Version, and CRCs of the settings of engine and obstacle stop.");
+  OpenMetrics::Labels labels = {{"version", pose_wall_version()}, {"config_crc32", crc_text(moment.config_crc32)}};
+  if (moment.stop) labels.emplace_back("planar_stop_crc32", crc_text(moment.stop->result.settings_crc32));
   metrics.count(labels, 1, "_info");
   add_result(&metrics, moment);
+  add_sums(&metrics, moment.sums);
   if (moment.statistics) add_runtime(&metrics, *moment.statistics);
-  if (moment.stop) add_stop(&metrics, *moment.stop);
-  add_parts(&metrics, moment.parts);
-  add_process(&metrics);
+  if (moment.stop) add_stop(&metrics, *moment.stop, moment.stop_ns);
+  add_stable_metrics(&metrics, moment.parts);
+  add_part_metrics(&metrics, moment.parts);
+  add_process_metrics(&metrics);
   return std::move(metrics).text();
 }
 

@@ -27,10 +27,37 @@ std::string escaped(const std::string& text) {
   return escaped;
 }
 
+// The older text names a family as its samples, and has no type for these.
+std::pair<std::string, const char*> as_text(const std::string& name, const std::string& type) {
+  if (type == "counter") return {name + "_total", "counter"};
+  if (type == "info") return {name + "_info", "gauge"};
+  if (type == "stateset") return {name, "gauge"};
+  return {name, type == "gauge"       ? "gauge"
+                : type == "histogram" ? "histogram"
+                : type == "summary"   ? "summary"
+                                      : "untyped"};
+}
+
 }  // namespace
+
+MetricsFormat metrics_format(const std::string& accept) {
+  const bool wants_text = accept.find("text/plain") != std::string::npos;
+  const bool knows_open = accept.find("application/openmetrics-text") != std::string::npos;
+  return wants_text && !knows_open ? MetricsFormat::kText : MetricsFormat::kOpenMetrics;
+}
+
+const char* metrics_type(MetricsFormat format) {
+  return format == MetricsFormat::kText ? "text/plain; version=0.0.4; charset=utf-8"
+                                        : "application/openmetrics-text; version=1.0.0; charset=utf-8";
+}
 
 void OpenMetrics::family(const std::string& name, const char* type, const char* unit, const char* help) {
   name_ = name;
+  if (format_ == MetricsFormat::kText) {
+    const auto [told, kind] = as_text(name, type);
+    text_ += fmt::format("# HELP {} {}\n# TYPE {} {}\n", told, escaped(help), told, kind);
+    return;
+  }
   text_ += fmt::format("# TYPE {} {}\n", name, type);
   if (*unit != '\0') text_ += fmt::format("# UNIT {} {}\n", name, unit);
   text_ += fmt::format("# HELP {} {}\n", name, escaped(help));
@@ -63,7 +90,7 @@ void OpenMetrics::line(const Labels& labels, const std::string& value, const cha
 }
 
 std::string OpenMetrics::text() && {
-  text_ += "# EOF\n";
+  if (format_ == MetricsFormat::kOpenMetrics) text_ += "# EOF\n";
   return std::move(text_);
 }
 

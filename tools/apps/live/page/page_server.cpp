@@ -42,6 +42,12 @@ WebAnswer json(int status, const std::string& content) {
   return web_answer(status, "application/json", content + "\n");
 }
 
+std::uint32_t crc_of(const pose_wall_config& config) {
+  std::uint32_t crc32 = 0;
+  static_cast<void>(pose_wall_config_crc(&config, &crc32));  // the settings are those of an engine
+  return crc32;
+}
+
 class PageServer final : public Sink {
  public:
   PageServer(const LoadedConfig& loaded, const HealthBoard& board, const StopBoard* stop, WebPart* more)
@@ -49,6 +55,7 @@ class PageServer final : public Sink {
         board_(board),
         stop_(stop),
         more_(more),
+        config_crc32_(crc_of(*loaded.config.get())),
         line_(stop_settings_of(loaded.planar), config_text(*loaded.config.get(), "forward_axis")),
         place_(*parse_host_port(loaded.live.http)),
         server_(place_, WebAccess(loaded.live, place_),
@@ -75,13 +82,6 @@ class PageServer final : public Sink {
   }
 
   void take(const LiveResult& result) override {
-    {
-      const std::lock_guard<std::mutex> locked(newest_lock_);
-      newest_ = result;
-      newest_.frame.reset();
-      newest_.points.reset();
-      has_newest_ = true;
-    }
     tell_new_config(result.config);
     if (viewers_ == 0) return;
     tell(Broadcast::kFrame, frame_event(result));
@@ -93,7 +93,7 @@ class PageServer final : public Sink {
   }
   void take_roadway(const RoadwayNews& news) override {
     {
-      const std::lock_guard<std::mutex> locked(newest_lock_);
+      const std::lock_guard<std::mutex> locked(roadway_lock_);
       newest_roadway_ = std::make_shared<const RoadwayNews>(news);
     }
     if (viewers_ == 0) return;
@@ -127,6 +127,7 @@ class PageServer final : public Sink {
   void tell_new_config(const pose_wall_config& config) {
     if (std::memcmp(&config, loaded_.config.get(), sizeof config) == 0) return;
     *loaded_.config.get() = config;
+    config_crc32_ = crc_of(config);
     tell(Broadcast::kHello, hello_event(loaded_));
   }
 
@@ -154,7 +155,10 @@ class PageServer final : public Sink {
     if (more_ != nullptr) more_->serve(server_);
     server_.get("/live", [this] { return probe("live", live_probe(moment())); });
     server_.get("/ready", [this] { return probe("ready", ready_probe(moment())); });
-    server_.get("/metrics", [this] { return web_answer(200, OpenMetrics::kType, metrics_text(moment())); });
+    server_.get("/metrics", [this](const WebRequest& request) {
+      const MetricsFormat format = metrics_format(request.accept);
+      return web_answer(200, metrics_type(format), metrics_text(moment(), format));
+    });
   }
 
   // What one viewer is sent.
@@ -209,18 +213,16 @@ class PageServer final : public Sink {
     tell(Broadcast::kHealth, health_event(board_.all()));
   }
 
-  WebAnswer state() {
-    const std::lock_guard<std::mutex> locked(newest_lock_);
-    if (!has_newest_) return json(503, R"({"error": "nothing was published yet"})");
-    // Silence is published, too: what is older was left by a worker that hangs.
-    if (monotonic_ns() - newest_.publication.published_ns > kOldResult_ns) {
-      return json(503, R"({"error": "the newest result is older than a second: nothing may steer"})");
-    }
-    return json(200, result_json(newest_));
+  // Silence is published, too: what is stale was left by a worker that is late or hangs.
+  WebAnswer state() const {
+    const Newest newest = board_.newest();
+    if (!newest.is_there()) return json(503, R"({"error": "nothing was published yet"})");
+    if (!newest.is_fresh()) return json(503, R"({"error": "the newest result is stale: nothing may steer"})");
+    return json(200, result_json(newest.result));
   }
 
   std::shared_ptr<const RoadwayNews> newest_roadway() {
-    const std::lock_guard<std::mutex> locked(newest_lock_);
+    const std::lock_guard<std::mutex> locked(roadway_lock_);
     return newest_roadway_;
   }
 
@@ -254,16 +256,18 @@ class PageServer final : public Sink {
     return json(probe.is_well ? 200 : 503, probe_json(name, probe));
   }
 
-  Moment moment() {
+  Moment moment() const {
     Moment moment;
     moment.parts = board_.all();
     moment.hung = board_.hung();
     moment.statistics = board_.statistics();
-    if (stop_ != nullptr) moment.stop = stop_->stop_now();
-    {
-      const std::lock_guard<std::mutex> locked(newest_lock_);
-      if (has_newest_) moment.newest = newest_;
+    moment.config_crc32 = config_crc32_;
+    moment.sums = board_.sums();
+    if (stop_ != nullptr) {
+      moment.stop = stop_->stop_now();
+      moment.stop_ns = stop_->state_ns();
     }
+    moment.newest = board_.newest();
     moment.now_ns = monotonic_ns();
     return moment;
   }
@@ -272,6 +276,7 @@ class PageServer final : public Sink {
   const HealthBoard& board_;
   const StopBoard* stop_;
   WebPart* more_;
+  std::atomic<std::uint32_t> config_crc32_;
   const StopLine line_;
   HostPort place_;
   Broadcast broadcast_;
@@ -280,9 +285,7 @@ class PageServer final : public Sink {
   std::int64_t health_last_ns_ = -kHealthEvery_ns;  // of the server's thread, as the picture
   std::shared_ptr<const std::string> picture_;
   std::uint64_t picture_version_ = 0;
-  std::mutex newest_lock_;
-  LiveResult newest_;
-  bool has_newest_ = false;
+  std::mutex roadway_lock_;
   std::shared_ptr<const RoadwayNews> newest_roadway_;
   std::atomic<std::uint64_t> map_told_{0};  // version that the viewers have
   WebServer server_;                        // last: its streams know the others

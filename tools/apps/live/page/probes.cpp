@@ -18,11 +18,11 @@ Probe live_probe(const Moment& moment) {
 
 Probe ready_probe(const Moment& moment) {
   Probe probe;
-  if (!moment.newest) {
+  if (!moment.newest.is_there()) {
     probe.why.emplace_back("nothing was published yet");
-  } else if (!moment.is_fresh()) {
-    probe.why.emplace_back("the newest result is older than a second");
-  } else if (moment.newest->publication.cause != POSE_WALL_RUNTIME_FRAME) {
+  } else if (!moment.newest.is_fresh()) {
+    probe.why.emplace_back("the newest result is stale");
+  } else if (moment.newest.result.publication.cause != POSE_WALL_RUNTIME_FRAME) {
     probe.why.emplace_back("no frame comes");
   }
   probe.is_well = probe.why.empty();

@@ -11,23 +11,24 @@
 #include <string>
 #include <vector>
 
-#include "apps/live/health.hpp"
+#include "apps/live/images.hpp"
+#include "apps/live/page/open_metrics.hpp"
 #include "apps/live/planar/planar_news.hpp"
-#include "apps/live/sink.hpp"
 #include "pose_wall_runtime.h"
 
 namespace pose_wall::tools::live {
 
 // All that is known at a moment.
 struct Moment {
-  std::int64_t now_ns = 0;           // by the clock that nobody sets
-  std::vector<PartHealth> parts;     // the runtime first, then the source
-  std::vector<std::string> hung;     // what hangs
-  std::optional<LiveResult> newest;  // none was published yet
-  std::optional<StopNews> stop;      // where the key `planar` is on
+  std::int64_t now_ns = 0;        // by the clock that nobody sets
+  std::vector<PartHealth> parts;  // the runtime first, then the source
+  std::vector<std::string> hung;  // what hangs
+  Newest newest;
+  ResultSums sums;
+  std::uint32_t config_crc32 = 0;     // of the engine's settings
+  std::optional<StopNews> stop;       // where the key `planar` is on
+  std::vector<std::int64_t> stop_ns;  // how long it was in each of its states
   std::optional<pose_wall_runtime_statistics> statistics;
-
-  bool is_fresh() const { return newest && now_ns - newest->publication.published_ns <= kOldResult_ns; }
 };
 
 struct Probe {
@@ -42,7 +43,7 @@ Probe ready_probe(const Moment& moment);
 // {"schema": 1, "live": false, "why": ["..."]}; name: of the member.
 std::string probe_json(const char* name, const Probe& probe);
 
-// The numbers as OpenMetrics. A result that is not fresh has no values, and nothing may steer.
-std::string metrics_text(const Moment& moment);
+// The numbers. A result that is not fresh has no values, and nothing may steer.
+std::string metrics_text(const Moment& moment, MetricsFormat format = MetricsFormat::kOpenMetrics);
 
 }  // namespace pose_wall::tools::live

@@ -45,6 +45,8 @@ class StopBoard {
 
   // Whatever was answered before: where nobody has answered for a while, the state is stop and the heartbeat stands.
   virtual StopNews stop_now() const = 0;
+  // How long each state has been told so far, by pose_wall_planar_stop_state. Without an answer it was stop.
+  virtual std::vector<std::int64_t> state_ns() const { return {}; }
   pose_wall_planar_stop_image image_now() const { return image_of(stop_now()); }
 };
 

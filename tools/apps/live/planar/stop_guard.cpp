@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "apps/live/clocks.hpp"
+#include "apps/live/thread_name.hpp"
 #include "io/config_file/key_table.hpp"
 #include "io/language/language.hpp"
 #include "study/planar/stop_reasons.hpp"
@@ -64,7 +65,8 @@ StopGuard::StopGuard(const LoadedConfig& loaded, Tell tell, CommandBoard* comman
       commands_(commands),
       line_(settings_, config_text(*loaded.config.get(), "forward_axis")),
       tell_(std::move(tell)),
-      block_(POSE_WALL_PLANAR_STOP_BLOCK_MOST) {
+      block_(POSE_WALL_PLANAR_STOP_BLOCK_MOST),
+      times_(POSE_WALL_PLANAR_STOP_GO + 1, POSE_WALL_PLANAR_STOP_STOP, monotonic_ns()) {
   if (takes_command_ && !takes_motion_) {
     settings_.speed_error_ratio = kSlip;
     settings_.turn_error_rad_s = kTurnError_rad_s;
@@ -223,6 +225,7 @@ void StopGuard::answer_silence(StopNews* news) {
 }
 
 void StopGuard::run() {
+  name_this_thread("planar-stop");
   StopNews news = newest();
   while (true) {
     std::optional<Job> job;
@@ -266,6 +269,8 @@ void StopGuard::heed_look(const StopNews& news) {
 void StopGuard::note_cause(StopNews* news) {
   const StopCause cause = stop_cause(news->result);
   if (cause != cause_) news->cause_since_ns = news->answered_ns;
+  // A frame that came meanwhile ended the silence before it.
+  if (cause == StopCause::kStale) news->cause_since_ns = std::max(news->cause_since_ns, news->result.stamp_ns);
   cause_ = cause;
 }
 
@@ -282,6 +287,7 @@ void StopGuard::put(const StopNews& news, const Job* job) {
       latency_.note(news.answered_ns - job->received_ns);
     }
     newest_ = news;
+    times_.note(news.result.state, news.answered_ns, news.answered_ns + kSilent_ns);
   }
   if (job == nullptr && !is_change && news.answered_ns - told_ns_ < kTellEvery_ns) return;
   told_ns_ = news.answered_ns;
@@ -295,10 +301,15 @@ StopNews StopGuard::newest() const {
 
 StopNews StopGuard::stop_now() const {
   StopNews news = newest();
-  if (monotonic_ns() - news.answered_ns <= kHangs_ns) return news;
+  if (monotonic_ns() - news.answered_ns <= kSilent_ns) return news;
   refuse(&news, POSE_WALL_PLANAR_STOP_R_STALE);
   news.cause_since_ns = news.answered_ns;
   return news;
+}
+
+std::vector<std::int64_t> StopGuard::state_ns() const {
+  const std::lock_guard<std::mutex> locked(lock_);
+  return times_.until(monotonic_ns());
 }
 
 bool StopGuard::is_alive() const {

@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "apps/live/delays.hpp"
 #include "apps/live/health.hpp"
@@ -22,6 +23,7 @@
 #include "apps/live/planar/planar_news.hpp"
 #include "apps/live/planar/stamp_clock.hpp"
 #include "apps/live/sink.hpp"
+#include "apps/live/state_times.hpp"
 #include "io/config_file/load_config.hpp"
 #include "study/planar/part_block.hpp"
 #include "study/planar/stop_line.hpp"
@@ -52,13 +54,14 @@ class StopGuard final : public StopBoard {
   void confirm();
 
   StopNews stop_now() const override;
-  // False where its thread hangs.
+  std::vector<std::int64_t> state_ns() const override;
+  // False where its thread hangs (kHangs_ns of health.hpp). By then the machine stands for long: see kSilent_ns.
   bool is_alive() const;
   PartHealth health() const;
 
-  // An answer comes every kTick_ns at least, and each is a beat of the heartbeat. If none came for kHangs_ns, the
-  // thread hangs, and the state is stop.
-  static constexpr std::int64_t kTick_ns = 20'000'000, kHangs_ns = 200'000'000;
+  // An answer comes every kTick_ns at least, and each is a beat of the heartbeat. If none came for kSilent_ns, the
+  // thread is held up or hangs, and the state is stop.
+  static constexpr std::int64_t kTick_ns = 20'000'000, kSilent_ns = 200'000'000;
 
  private:
   struct Job {
@@ -114,6 +117,7 @@ class StopGuard final : public StopBoard {
   std::deque<Seen> seen_;  // not yet told to the stop
   bool ending_ = false, confirmed_ = false;
   StopNews newest_;
+  mutable StateTimes times_;      // by pose_wall_planar_stop_state
   bool is_slow_ = false;          // the sensor
   std::int64_t received_ns_ = 0;  // when the newest frame came
   std::uint64_t answered_ = 0, lost_ = 0, refused_ = 0, stops_ = 0, looks_ = 0;

@@ -65,6 +65,12 @@ std::uint64_t BoundedFolder::bytes() const {
   return sum;
 }
 
+std::uint64_t BoundedFolder::free_bytes() const {
+  std::error_code fault;
+  const std::filesystem::space_info space = std::filesystem::space(folder_, fault);
+  return fault ? 0 : space.available;
+}
+
 bool BoundedFolder::make_room(std::uint64_t bytes, const std::filesystem::path& kept) const {
   std::uint64_t taken = this->bytes();
   for (const std::filesystem::path& oldest : files()) {

@@ -29,6 +29,8 @@ class BoundedFolder {
   std::vector<std::filesystem::path> files() const;
   std::uint64_t bytes() const;
   std::uint64_t room_bytes() const { return room_bytes_; }
+  // Of its disk, for others than root; 0 where nobody can say.
+  std::uint64_t free_bytes() const;
 
  private:
   std::filesystem::path folder_;

@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kBytesPerMb = 1e6;
+constexpr std::uint64_t kBytesPerMb = 1'000'000;
 constexpr std::uint64_t kFiles = 8;  // of the room: so much of it goes when the oldest file does
 // A loss of power takes at most so much, and a chunk holds no more.
 constexpr auto kChunkTime = std::chrono::seconds(1);
@@ -41,7 +41,8 @@ class Recorder final : public Sink, private ChannelOut {
       : board_(health),
         channels_(live_channels(loaded)),
         with_clouds_(loaded.live.recording_clouds),
-        folder_(loaded.live.recording, ".mcap", static_cast<std::uint64_t>(loaded.live.recording_mb * kBytesPerMb)),
+        folder_(loaded.live.recording, ".mcap",
+                static_cast<std::uint64_t>(loaded.live.recording_mb * static_cast<double>(kBytesPerMb))),
         has_planar_(loaded.planar.is_on()),
         messages_(loaded),
         part_("sink recorder " + loaded.live.recording) {}
@@ -97,6 +98,7 @@ class Recorder final : public Sink, private ChannelOut {
     health.add("results recorded", recorded_.load());
     health.add("results not recorded", not_recorded_.load());
     health.add("files", files_.load());
+    health.add("disk free MB", free_bytes_ / kBytesPerMb);
     return health;
   }
 
@@ -120,6 +122,7 @@ class Recorder final : public Sink, private ChannelOut {
     writer_ = std::make_unique<McapWriter>(folder_.next(file_bytes_most()).string(), channels_);
     chunk_began_ = Clock::now();
     ++files_;
+    free_bytes_ = folder_.free_bytes();
   }
 
   template <typename News>
@@ -158,6 +161,7 @@ class Recorder final : public Sink, private ChannelOut {
                                            writer_->path(), writer_->gathered_bytes(), folder_.room_bytes()));
     }
     writer_->flush();
+    free_bytes_ = folder_.free_bytes();
     chunk_began_ = Clock::now();
     recorded_ += std::exchange(in_chunk_, 0);
     set_trouble("");
@@ -165,6 +169,7 @@ class Recorder final : public Sink, private ChannelOut {
 
   void pause(const std::string& why) {
     writer_.reset();
+    free_bytes_ = folder_.free_bytes();
     not_recorded_ += std::exchange(in_chunk_, 0);
     try_again_ = Clock::now() + kTryAgain;
     set_trouble(why);
@@ -188,7 +193,7 @@ class Recorder final : public Sink, private ChannelOut {
   std::uint64_t in_chunk_ = 0;  // results that are not on the disk yet
   mutable std::mutex trouble_lock_;
   std::string trouble_;
-  std::atomic<std::uint64_t> recorded_{0}, not_recorded_{0}, files_{0};
+  std::atomic<std::uint64_t> recorded_{0}, not_recorded_{0}, files_{0}, free_bytes_{0};
 };
 
 }  // namespace

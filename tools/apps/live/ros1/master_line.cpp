@@ -19,6 +19,8 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/live/thread_name.hpp"
+
 namespace pose_wall::tools::live {
 namespace {
 
@@ -228,6 +230,7 @@ void MasterLine::take_call() {
 }
 
 void MasterLine::run() {
+  name_this_thread("ros1-line");
   std::vector<pollfd> polled;
   while (!closing_) {
     polled = {{listens_, POLLIN, 0}, {wakes_, POLLIN, 0}};

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "apps/live/ros1/registrations.hpp"
+#include "apps/live/thread_name.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -101,6 +102,7 @@ void Ros1Node::stop() {
 }
 
 void Ros1Node::take_messages() {
+  name_this_thread("ros1-messages");
   while (true) {
     {
       const std::lock_guard<std::mutex> locked(lock_);
@@ -111,6 +113,7 @@ void Ros1Node::take_messages() {
 }
 
 void Ros1Node::attend_master() {
+  name_this_thread("ros1-master");
   while (true) {
     has_master_ = !ended_by_ros_ && ros::master::check();
     if (has_master_ && !ros_) {

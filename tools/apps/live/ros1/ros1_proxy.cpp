@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "apps/live/log.hpp"
+#include "apps/live/thread_name.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -110,6 +111,7 @@ bool Ros1Proxy::waits(Clock::time_point until) {
 }
 
 void Ros1Proxy::attend() {
+  name_this_thread("ros1-process");
   while (true) {
     const Clock::time_point began = Clock::now();
     finish(begin() ? serve() : "");

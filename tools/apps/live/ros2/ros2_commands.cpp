@@ -15,6 +15,7 @@
 #include "apps/live/log.hpp"
 #include "apps/live/ros2/endpoint_watch.hpp"
 #include "apps/live/ros_messages/command_reader.hpp"
+#include "apps/live/thread_name.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -93,6 +94,7 @@ class Ros2Commands final : public Sink {
   }
 
   void run() {
+    name_this_thread("commands-ros2");
     while (!ending_) {
       endpoint_->wait(kLookEvery_ms);
       look();

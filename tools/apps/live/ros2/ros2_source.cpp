@@ -17,6 +17,7 @@
 #include "apps/live/log.hpp"
 #include "apps/live/ros2/endpoint_watch.hpp"
 #include "apps/live/ros_messages/ros_reader.hpp"
+#include "apps/live/thread_name.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
@@ -165,6 +166,7 @@ class Ros2Source final : public Source {
   }
 
   void run() {
+    name_this_thread("source-ros2");
     while (!ending_) {
       clouds_->wait(kLookEvery_ms);
       look();

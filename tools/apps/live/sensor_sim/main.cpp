@@ -41,6 +41,7 @@ struct Words {
   std::uint32_t frames = 70;  // they go round, and the guard of freshness knows rings of 64
   double rate_hz = 10.0, seconds = 0.0;
   double present_s = 0.0, absent_s = 2.0;
+  bool frozen = false;
 };
 
 class UdpSender {
@@ -80,7 +81,8 @@ std::vector<RangeImage> render(const sim::Setup& setup, const Words& words) {
 
 // There and back again, so that the machine never jumps; each range a millimetre off by chance, for a cloud that was
 // there before is a frozen sensor's.
-RangeImage image_of(const std::vector<RangeImage>& images, std::uint64_t turn) {
+RangeImage image_of(const std::vector<RangeImage>& images, std::uint64_t turn, bool frozen) {
+  if (frozen) return images.front();
   const std::uint64_t round = images.size() < 2 ? 1 : 2 * (images.size() - 1);
   const std::uint64_t at = turn % round;
   RangeImage image = images[at < images.size() ? at : round - at];
@@ -110,7 +112,7 @@ std::uint64_t send_turns(const std::vector<RangeImage>& images, PacketEncoder* e
     const std::string device = encoder->device_packet(std::chrono::nanoseconds(turn).count());
     if (!device.empty()) device_sender.send(device);
     const std::vector<std::string> packets =
-        encoder->packets(image_of(images, i), monotonic_ns(), std::chrono::nanoseconds(turn).count());
+        encoder->packets(image_of(images, i, words.frozen), monotonic_ns(), std::chrono::nanoseconds(turn).count());
     for (std::size_t k = 0; k < packets.size(); ++k) {
       std::this_thread::sleep_until(turn_begin +
                                     turn * static_cast<std::int64_t>(k) / static_cast<std::int64_t>(packets.size()));
@@ -121,14 +123,27 @@ std::uint64_t send_turns(const std::vector<RangeImage>& images, PacketEncoder* e
   return sent;
 }
 
+// Where the packets go, for the daemon that takes them.
+std::string port_settings(const Words& words, const PacketEncoder& encoder) {
+  constexpr std::int64_t kTurn_ns = 100'000'000;  // any
+  std::string text = "\n# Where pose_wall_sensor sends to.\n";
+  const auto add = [&text](const char* key, const std::string& to) {
+    if (const std::optional<HostPort> place = parse_host_port(to)) text += fmt::format("{}: {}\n", key, place->port);
+  };
+  add("udp_port", words.to);
+  if (!encoder.device_packet(kTurn_ns).empty()) add("udp_device_port", words.device_to);
+  return text;
+}
+
 void run(const Words& words) {
   sim::Setup setup = demo_setup(words.scene);
+  const std::unique_ptr<PacketEncoder> encoder = make_encoder(setup.sensor);
   if (!words.config_to.empty()) {
     std::ofstream file(words.config_to);
     file << sim::engine_settings(setup, "For the machine that pose_wall_sensor simulates.");
+    file << port_settings(words, *encoder);
     if (!file.flush()) throw std::runtime_error(words.config_to + ": cannot be written: " + std::strerror(errno));
   }
-  const std::unique_ptr<PacketEncoder> encoder = make_encoder(setup.sensor);
   std::unique_ptr<MetadataServer> server;
   if (!words.http.empty()) {
     const auto* ouster = dynamic_cast<const OusterEncoder*>(encoder.get());
@@ -153,8 +168,10 @@ int main_of(int argc, char** argv) {
   app.add_option("--set", words.scene.simulation, "NAME=VALUE of the simulation")->allow_extra_args(false);
   app.add_option("--seed", words.scene.seed, "Of the road");
   app.add_option("--frames", words.frames,
-                 "Turns of the road, rendered before the first is sent. They go round: up to 64 count as frozen")
+                 "Turns of the road, rendered before the first is sent. They go there and back, each range up to a "
+                 "millimetre off by chance, so that none counts as frozen; default: 70")
       ->check(CLI::Range(1, 10000));
+  app.add_flag("--frozen", words.frozen, "Sends the first turn again and again, bit for bit, as a sensor that froze");
   app.add_option("--to", words.to, "ADDRESS:PORT that listens; default 127.0.0.1:2368");
   app.add_option("--device-to", words.device_to,
                  "ADDRESS:PORT for what a RoboSense says of itself; default 127.0.0.1:7788");

@@ -19,6 +19,7 @@
 
 #include "apps/live/edges.hpp"
 #include "apps/live/log.hpp"
+#include "apps/live/thread_name.hpp"
 #include "io/frames/frame_stamps.hpp"
 #include "io/inputs/frame_sequence.hpp"
 
@@ -79,6 +80,7 @@ class ReplaySource final : public Source {
   }
 
   void run(FrameTaker& taker) {
+    name_this_thread("source-replay");
     try {
       std::uint64_t before = 0;
       do {

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/live/thread_name.hpp"
 #include "io/config_file/live_settings.hpp"
 #include "io/packets/ouster.hpp"
 
@@ -146,6 +147,7 @@ void SensorMetadata::ask_again() {
 }
 
 void SensorMetadata::ask_until_told() {
+  name_this_thread("sensor-metadata");
   while (!ending_) {
     std::string trouble, text = ask(&trouble);
     if (!text.empty()) {

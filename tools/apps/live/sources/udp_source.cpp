@@ -16,6 +16,7 @@
 #include "apps/live/sources/sensor_metadata.hpp"
 #include "apps/live/sources/sensor_watch.hpp"
 #include "apps/live/sources/udp_receiver.hpp"
+#include "apps/live/thread_name.hpp"
 #include "io/packets/one_sender.hpp"
 #include "io/packets/sensors.hpp"
 
@@ -163,6 +164,7 @@ class UdpSource final : public Source {
   }
 
   void run(FrameTaker& taker) {
+    name_this_thread("source-udp");
     while (!ending_) {
       const std::optional<Datagram> datagram = receiver_->next(kLook_ms);
       lost_ = receiver_->lost();

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/live/thread_name.hpp"
+
 namespace pose_wall::tools::live {
 namespace {
 
@@ -104,6 +106,7 @@ void EventLoop::start(const HostPort& place, unsigned connections_most, lws_cont
 }
 
 void EventLoop::serve() {
+  name_this_thread("web");
   Timer timer{{}, this};
   timer.set();
   int turns = 0;

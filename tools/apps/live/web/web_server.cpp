@@ -238,7 +238,8 @@ int WebServer::begin(lws* connection, const std::string& path) {
   std::optional<WebAnswer> refusal = refusal_of(connection, path);
   if (refusal) return give(connection, std::move(*refusal), is_post(connection) || has_body(connection));
   if (is_post(connection)) return begin_body(connection, takes_.at(path));
-  const WebRequest request{header_text(connection, WSI_TOKEN_HTTP_COOKIE), ""};
+  const WebRequest request{header_text(connection, WSI_TOKEN_HTTP_COOKIE), "",
+                           header_text(connection, WSI_TOKEN_HTTP_ACCEPT)};
   return give(connection, gives_.at(path)(request), false);
 }
 

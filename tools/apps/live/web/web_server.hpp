@@ -52,6 +52,7 @@ WebAnswer web_answer(int status, std::string type, std::string content);
 struct WebRequest {
   std::string cookies;  // as the browser sends them
   std::string body;     // of a POST: JSON
+  std::string accept;   // the types of content that are wanted; empty: it is not said
 };
 
 class WebServer {
