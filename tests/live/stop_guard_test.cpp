@@ -161,8 +161,8 @@ TEST_F(StopGuardTest, AFrameThatComesTooLateBeginsTheTimeOfTheSilenceAnew) {
   ASSERT_TRUE(is_brought_to_drive());
   ASSERT_TRUE(becomes_true([&] { return !drives(); }));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  show();  // a tenth of a second after the one before, by its stamp
   const std::uint64_t frames = guard_->stop_now().result.frames;
+  show();  // a tenth of a second after the one before, by its stamp
   ASSERT_TRUE(becomes_true([&] { return guard_->stop_now().result.frames > frames; }));
   std::size_t late = 0;
   for (const auto& news : told()) {
