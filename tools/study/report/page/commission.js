@@ -135,7 +135,8 @@ class CommissionPanel {
   // Once each: it is brought to where the reader looks.
   show_error() {
     const line = this.panel.querySelector('[role=alert]'), text = line ? line.textContent : '';
-    if (line && text !== this.told_error) line.scrollIntoView({ block: 'nearest' });
+    // Not at an edge: what stands above grows from frame to frame.
+    if (line && text !== this.told_error) line.scrollIntoView({ block: 'center' });
     this.told_error = text;
   }
 
