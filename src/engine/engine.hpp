@@ -97,7 +97,7 @@ class Engine {
   void find_walls_if_level(Random* random, FrameFindings* found);
   bool read_cloud(const pose_wall_cloud& cloud, FrameFindings* found);
   void conclude(const pose_wall_inputs* inputs, bool motion_taken_out, FrameFindings* found, pose_wall_result* result);
-  void widen_by_scan_motion(const pose_wall_inputs* inputs, bool taken_out, double since_last_s, FrameFindings* found);
+  void widen_by_scan_motion(const pose_wall_inputs* inputs, bool taken_out, const ScanStep& step, FrameFindings* found);
   void doubt_repeats(const FrameTiming& timing, FrameFindings* found);
   struct OdometryStep {
     bool sound = true;     // or not given

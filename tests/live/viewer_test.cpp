@@ -89,7 +89,7 @@ TEST_F(ViewerTalkTest, WhoSubscribesLaterMakesUpForNothing) {
     board_.put(1, "result", 1);
     for (int k = 0; k < 2; ++k) order += data() + " ";
   }
-  EXPECT_EQ(order, "1:result 2:later  1:result 2:later  1:result 2:later  ");
+  EXPECT_EQ(order, "2:later  1:result 2:later  1:result 2:later  1:result ");
 }
 
 TEST_F(ViewerTalkTest, AMapIsThereForThoseWhoComeLater) {

@@ -71,7 +71,7 @@ class ByChange {
     // motion may be, too. By the derivation above.
     constexpr double kLeast = 0.9, kMost = 1.5;  // scans
     later_ = scan_s_ > 0.0 && since_s_ >= kLeast * scan_s_;
-    one_later_ = later_ && since_s_ <= kMost * scan_s_;
+    one_later_ = later_ && time.is_step_told && since_s_ <= kMost * scan_s_;
   }
 
   bool is_known(std::uint32_t quantity) const { return one_later_ && shows(quantity); }

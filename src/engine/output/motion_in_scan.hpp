@@ -39,7 +39,8 @@ struct OwnChanges {
 struct ScanInTime {
   ScanTime scan;
   double since_last_s = 0.0;
-  bool has_times = true;  // of its points, by which an odometry could free it
+  bool has_times = true;     // of its points, by which an odometry could free it
+  bool is_step_told = true;  // since_last_s, by the stamps
 };
 
 // scan: by the times that freed it of motion; none: as long as the step from the last frame, up to

@@ -285,10 +285,10 @@ double elapsed_of(const TemporalState& state, const FrameTiming& timing) {
   return timing.still ? time_while_still(state) : timing.dt_s;
 }
 
-double scan_step_of(const TemporalState& state, const FrameTiming& timing, const Settings& settings) {
-  if (timing.first) return 0.0;
-  if (!timing.back && !timing.leap && !timing.still) return timing.dt_s;
-  return state.last_dt_s > 0.0 ? state.last_dt_s : settings.scan_max;
+ScanStep scan_step_of(const TemporalState& state, const FrameTiming& timing, const Settings& settings) {
+  if (timing.first) return {};
+  if (!timing.back && !timing.leap && !timing.still) return {timing.dt_s};
+  return {state.last_dt_s > 0.0 ? state.last_dt_s : settings.scan_max, false};
 }
 
 bool contradict(const Change& change, const Measurements& measured, const FrameTiming& timing,

@@ -285,6 +285,24 @@ TEST(MotionInScan, OfAFirstScanWithoutTimesTheOdometryIsTheOnlyWitness) {
   EXPECT_EQ(last, kInfinite);
 }
 
+// A clock that jumped may hide a long gap: what came back to its place meanwhile proves no rest.
+TEST(MotionInScan, AfterAJumpOfTheClockValuesNarrowNothing) {
+  const pose_wall_odometry hardly = with_rates(0.0, 0.5);
+  const auto added_by = [&](bool is_told) {
+    Frames frames;
+    Measurements last;
+    for (int frame = 0; frame < 4; ++frame) {
+      last = frames.measured;
+      ScanInTime time = scan_in_time({kScan_s, 0.5 * kScan_s}, kScan_s, frames.settings);
+      time.is_step_told = is_told || frame < 3;
+      MotionInScan(&hardly, frames.settings, kAxes).widen(true, time, {}, frames.walls, &frames.own, &last);
+    }
+    return added(last, POSE_WALL_YAW);
+  };
+  EXPECT_LT(added_by(true), 0.1 * added_by(false)) << "frame by frame the same values show that nothing turns";
+  EXPECT_GT(added_by(false), 0.3 * kScan_s * 0.5 - 1e-3) << "what the odometry leaves open counts whole";
+}
+
 // As the key scan_max: 0 says.
 TEST(MotionInScan, CloudsThatComeFreedOfMotionAreNotWidened) {
   Frames frames;

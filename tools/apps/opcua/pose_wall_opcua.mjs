@@ -51,7 +51,7 @@ const SESSIONS_MOST = 20;   // a plant has a few clients; each takes memory
 
 const log = (words) => console.error(`pose_wall_opcua: ${words}`);
 const fail = (status, words) => { log(words); process.exit(status); };
-const isLoopback = (host) => host === '::1' || /^127\./.test(host);
+const isLoopback = (host) => ['::1', '[::1]', 'localhost'].includes(host) || /^127\./.test(host);
 
 function content(given, option) {
   try { return readFileSync(given[option], 'utf8'); } catch (error) { return fail(2, `--${option}: ${error.message}`); }
@@ -76,6 +76,9 @@ function options() {
   if (!daemon || !/^https?:\/\//.test(given.daemon)) fail(2, `--daemon: ${given.daemon} is no address of HTTP`);
   if (given['daemon-ca'] && !given.daemon.startsWith('https://')) fail(2, '--daemon-ca: --daemon has no https');
   if (!given.user !== !given['password-file']) fail(2, '--user and --password-file go together');
+  if (given['daemon-login'] && given.daemon.startsWith('http://') && !isLoopback(new URL(given.daemon).hostname)) {
+    fail(2, '--daemon-login: beyond loopback it would be read on the way; use https');
+  }
   const login = given['daemon-login'] && firstLine(given, 'daemon-login');
   if (login && !/^[^:]+:./.test(login)) fail(2, `--daemon-login: ${given['daemon-login']} has no NAME:PASSWORD`);
   return { ...given, port, staleMs, login, ca: given['daemon-ca'] && content(given, 'daemon-ca'),

@@ -61,10 +61,10 @@ pose_wall_planar_slam_settings settings_for(pose_wall_planar_slam_settings setti
   return settings;
 }
 
-// Ctrl-C ends it after the scan at work.
 // Forty lines of one reason say no more than three.
 constexpr std::size_t kToldAlike = 3;
 
+// Ctrl-C ends it after the scan at work.
 void add_scans(const MapOptions& options, ScanSource& source, MapWork* work) {
   ProgressBar bar(source.scans(), !options.frames.quiet && is_terminal(2), translatable("scans"));
   std::map<std::string, std::size_t> refused;  // scans, by the reason

@@ -195,8 +195,13 @@ void take_limits(const std::vector<FrameOutcome>& outcomes, const std::string& i
                    input));
     return;
   }
-  (void)config->set("alert_limit_angle_deg", fmt::format("{}", found->angle_rad * kDegPerRad).c_str());
-  (void)config->set("alert_limit_distance", fmt::format("{}", found->distance_m).c_str());
+  const std::string angle = fmt::format("{}", found->angle_rad * kDegPerRad),
+                    distance = fmt::format("{}", found->distance_m);
+  if (config->set("alert_limit_angle_deg", angle.c_str()) != POSE_WALL_OK ||
+      config->set("alert_limit_distance", distance.c_str()) != POSE_WALL_OK) {
+    throw std::runtime_error(
+        say("{}: its alert limits, {} deg and {} m, are none of this version", input, angle, distance));
+  }
 }
 
 // For a table of `pose_wall run` instead of frames: what it tells, without a cloud.

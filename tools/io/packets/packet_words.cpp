@@ -174,9 +174,12 @@ class VelodyneWords : public PacketWords {
     add_oddity(sender, clock_.oddity());
   }
 
+  std::optional<ClockReading> clock() const override {
+    return last_us_ ? std::optional<ClockReading>({1000 * *last_us_, 1000 * kHourOfClock_us}) : std::nullopt;
+  }
   SensorState state() const override {
     SensorState state;
-    if (last_us_) state.clock = ClockReading{1000 * *last_us_, 1000 * kHourOfClock_us};
+    state.clock = clock();
     if (turned_deg_ >= kTurnsForView * 360.0 && hole().second < kSectorsOfHole) state.missing = missing_of(packets_);
     return state;
   }
@@ -241,10 +244,13 @@ class HesaiWords : public PacketWords {
     alerts_.describe(sender);
   }
 
+  std::optional<ClockReading> clock() const override {
+    return clock_ns_ ? std::optional<ClockReading>({*clock_ns_}) : std::nullopt;
+  }
   SensorState state() const override {
     SensorState state;
     if (tells_heat_) state.alert = alert();
-    if (clock_ns_) state.clock = ClockReading{*clock_ns_};
+    state.clock = clock();
     state.missing = missing_of(packets_);
     return state;
   }
@@ -280,10 +286,11 @@ class LivoxWords : public PacketWords {
     clock_.hear(clock_ns_, datagram.captured_ns, 0);
   }
 
+  std::optional<ClockReading> clock() const override { return ClockReading{clock_ns_}; }
   SensorState state() const override {
     SensorState state;
     if (time_type_ < kTimeSources.size()) state.is_synchronised = time_type_ > 0;
-    state.clock = ClockReading{clock_ns_};
+    state.clock = clock();
     state.missing = missing_of(packets_);
     return state;
   }
@@ -366,10 +373,11 @@ class OusterWords : public PacketWords {
     alerts_.describe(sender);
   }
 
+  std::optional<ClockReading> clock() const override { return ClockReading{clock_ns_}; }
   SensorState state() const override {
     SensorState state;
     if (metadata_.header != OusterHeader::kNone) state.alert = alert();
-    state.clock = ClockReading{clock_ns_};
+    state.clock = clock();
     state.missing = missing_of(packets_);
     return state;
   }
@@ -417,6 +425,7 @@ class RoboSenseM1Words : public PacketWords {
   }
 
   void describe(SourceSender* sender) const override { add_missing(sender, packets_); }
+  std::optional<ClockReading> clock() const override { return std::nullopt; }
   SensorState state() const override {
     SensorState state;
     state.missing = missing_of(packets_);
@@ -440,6 +449,7 @@ class LslidarWords : public PacketWords {
     add_fact(sender, "return mode", is_dual_ ? translatable("two returns") : translatable("one return"));
   }
 
+  std::optional<ClockReading> clock() const override { return std::nullopt; }
   SensorState state() const override { return {}; }
 
  private:

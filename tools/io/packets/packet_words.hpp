@@ -76,6 +76,8 @@ class PacketWords {
   virtual void describe(SourceSender* sender) const = 0;
   // Of the newest packet.
   virtual SensorState state() const = 0;
+  // state().clock, for each packet.
+  virtual std::optional<ClockReading> clock() const = 0;
 };
 
 // For the sensor whose data this is; nothing where it is of none that tells more. `metadata`: that of an Ouster, or "".

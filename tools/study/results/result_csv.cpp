@@ -197,8 +197,8 @@ std::vector<std::string> result_head(PartColumns parts) {
   for (const Column& column : result_columns()) head.push_back(column.name);
   head.insert(head.end(), {"load_ms", "processor_ms", "error"});
   for (const Column& column : level_columns()) head.push_back(column.name);
-  head.insert(head.end(), {kLimitColumns[0], kLimitColumns[1]});
   for (const Column& column : part_columns(parts)) head.push_back(column.name);
+  head.insert(head.end(), {kLimitColumns[0], kLimitColumns[1]});
   return head;
 }
 
@@ -215,9 +215,9 @@ std::vector<std::string> result_cells(const FrameOutcome& outcome, PartColumns p
   cells.insert(cells.end(), {outcome.result ? csv_number(outcome.load_ms) : "",
                              outcome.result ? csv_number(outcome.processor_ms) : "", outcome.error});
   add_cells(outcome, level_columns(), &cells);
+  add_cells(outcome, part_columns(parts), &cells);
   cells.push_back(limit_cell(outcome, outcome.limits.angle_rad));
   cells.push_back(limit_cell(outcome, outcome.limits.distance_m));
-  add_cells(outcome, part_columns(parts), &cells);
   return cells;
 }
 

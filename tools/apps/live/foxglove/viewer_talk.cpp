@@ -87,12 +87,13 @@ std::optional<SocketMessage> ViewerTalk::next() {
     return text_message(Json({{"op", "status"}, {"level", 2}, {"message", std::exchange(refusal_, "")}})
                             .dump(-1, ' ', false, Json::error_handler_t::replace));
   }
-  // Whoever had the fewest bytes: on a slow line large clouds take what small results leave, and not the other way
-  // round.
+  // Shares by bytes (start-time fair queueing): on a slow line large clouds take what small results leave. Who had
+  // nothing to say for a while, or has just come, makes up for nothing.
   Subscription* poorest = nullptr;
   std::optional<ViewerBoard::Message> message;
   for (Subscription& subscription : subscriptions_) {
-    if (poorest != nullptr && subscription.bytes >= poorest->bytes) continue;
+    const std::uint64_t due = std::max(subscription.bytes, served_);
+    if (poorest != nullptr && due >= std::max(poorest->bytes, served_)) continue;
     std::optional<ViewerBoard::Message> found = board_.behind(subscription.channel, subscription.seen);
     if (!found) continue;
     poorest = &subscription;
@@ -101,7 +102,8 @@ std::optional<SocketMessage> ViewerTalk::next() {
   if (poorest == nullptr) return std::nullopt;
   counts_.skipped += message->number - poorest->seen - 1;
   poorest->seen = message->number;
-  poorest->bytes += message->bytes->size();
+  served_ = std::max(poorest->bytes, served_);
+  poorest->bytes = served_ + message->bytes->size();
   ++counts_.sent;
   SocketMessage data{false, std::string(1, kMessageData), message->bytes};
   append_little_endian(&data.head, poorest->id);
@@ -138,10 +140,7 @@ void ViewerTalk::subscribe(std::uint64_t id, std::uint64_t channel) {
     return refuse(fmt::format("subscription {}: {} are the most", id, kSubscriptionsMost));
   }
   const auto place = static_cast<std::size_t>(channel - 1);
-  // It makes up for nothing that others had before it came.
-  std::uint64_t bytes = 0;
-  for (const Subscription& known : subscriptions_) bytes = std::max(bytes, known.bytes);
-  subscriptions_.push_back({static_cast<std::uint32_t>(id), place, board_.enter(place), bytes});
+  subscriptions_.push_back({static_cast<std::uint32_t>(id), place, board_.enter(place)});
 }
 
 void ViewerTalk::unsubscribe(std::uint64_t id) {

@@ -41,7 +41,7 @@ class ViewerTalk final : public SocketTalk {
     std::uint32_t id;
     std::size_t channel;
     std::uint64_t seen;
-    std::uint64_t bytes = 0;  // that it was sent, beside the others'
+    std::uint64_t bytes = 0;  // that were sent when its next message is due
   };
   void subscribe(std::uint64_t id, std::uint64_t channel);
   void unsubscribe(std::uint64_t id);
@@ -54,6 +54,7 @@ class ViewerTalk final : public SocketTalk {
   std::deque<std::string> greetings_;
   std::string refusal_;  // the newest one; empty: none waits
   std::vector<Subscription> subscriptions_;
+  std::uint64_t served_ = 0;  // `bytes` of the message that was sent last
 };
 
 }  // namespace pose_wall::tools::live

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -37,27 +38,31 @@ class ClockAhead {
   std::int64_t ahead_ns_ = kNone, ahead_before_ns_ = kNone;  // in this while, and in the one before
 };
 
+// 2001-09-09: no clock that was set stands before, none that counts since its start gets there.
+inline constexpr std::int64_t kFirstDate_ns = 1'000'000'000'000'000'000;
+
 class SensorWatch {
  public:
-  // Of each data packet of the sensor that is read, in one thread. `metadata`: that of an Ouster, or "".
-  void hear(const Datagram& datagram, const std::string& metadata);
-  bool knows_sensor() const { return words_ != nullptr; }
+  // Of each data packet of the sensor that is read, in one thread. metadata: gives that of an Ouster, or "".
+  void hear(const Datagram& datagram, const std::function<std::string()>& metadata);
   // When the sensor's clock began to count, by the clock of this machine that people set. 0 where it counts from a
   // date, nothing before the first packet that tells.
   std::optional<std::int64_t> started_ns() const;
   // After the sensor was silent: another one may stand there.
   void begin_anew();
 
-  // From any thread. Adds facts; an alert makes it a warning. Of a silent sensor it tells the last alert.
-  void tell(PartHealth* health) const;
+  // From any thread. Adds facts; an alert makes it a warning. Of a silent sensor it tells the last alert alone, and
+  // what was lost.
+  void tell(bool is_silent, PartHealth* health) const;
 
  private:
-  std::unique_ptr<PacketWords> words_;
   mutable std::mutex lock_;  // of all below
-  SensorState state_;
+  std::unique_ptr<PacketWords> words_;
+  std::size_t looks_ = 0;  // at packets that told nothing
   ClockAhead ahead_;
   std::uint64_t missing_before_ = 0;
-  bool was_synchronised_ = false;
+  mutable std::uint64_t missing_told_ = 0;  // a packet that comes late is missed no more, and no count goes back
+  mutable bool was_synchronised_ = false;
 };
 
 }  // namespace pose_wall::tools::live

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -113,7 +114,7 @@ class UdpSource final : public Source {
     health.add("packets lost by the kernel", lost_.load());
     if (device_) health.add("packets of the device port", device_packets_.load());
     health.add("silences", silences_.load());
-    watch_.tell(&health);
+    watch_.tell(silent, &health);
     return health;
   }
 
@@ -194,7 +195,8 @@ class UdpSource final : public Source {
     }
     last_packet_ns_ = monotonic_ns();
     read_address_ = datagram.from.address;
-    watch_.hear(datagram, watch_.knows_sensor() ? "" : metadata_.of_ouster());
+    // Until one of several is chosen, nobody knows whose packet this is.
+    if (assembler_->senders().chosen()) watch_.hear(datagram, [this] { return metadata_.of_ouster(); });
     ++packets_of_use_;
     if (assembler_->senders().chosen() && assembler_->senders().refused() > 0) are_two_ = true;
     while (std::optional<Scan> scan = assembler_->take()) hand_on(*scan, taker);
@@ -281,6 +283,13 @@ class UdpSource final : public Source {
     others_counted_.clear();
   }
 
+  // Kept, so that steps stay the sensor's; taken anew where somebody set this machine's clock.
+  std::int64_t start_of_clock_ns() {
+    const std::int64_t now_ns = watch_.started_ns().value_or(started_ns_.value_or(0));
+    if (!started_ns_ || std::abs(now_ns - *started_ns_) > kSilent_ns) started_ns_ = now_ns;
+    return *started_ns_;
+  }
+
   // The first turn began before it was listened to.
   void hand_on(const Scan& scan, FrameTaker& taker) {
     if (scan.is_complete) whole_turn_ns_ = monotonic_ns();
@@ -294,9 +303,8 @@ class UdpSource final : public Source {
     // start.
     if (assembler_->stamps_are_of_arrival()) {
       frame.stamp_ns += wall_ns() - monotonic_ns();
-    } else {
-      if (!started_ns_) started_ns_ = watch_.started_ns();
-      frame.stamp_ns += started_ns_.value_or(0);
+    } else if (scan.stamp_ns < kFirstDate_ns) {
+      frame.stamp_ns += start_of_clock_ns();
     }
     ++frames_;
     taker.take(std::move(frame));
@@ -308,7 +316,7 @@ class UdpSource final : public Source {
   std::unique_ptr<UdpReceiver> device_;  // of sensors that describe themselves by a port of its own
   std::unique_ptr<OneSender> assembler_;
   SensorWatch watch_;
-  std::optional<std::int64_t> started_ns_;  // of the sensor's clock; once a start, so that steps stay the sensor's
+  std::optional<std::int64_t> started_ns_;  // of the sensor's clock
   bool are_two_ = false;                    // another one was heard between packets of the one that is read
   std::string wanted_;                      // of two that were heard the one that was read; "": any
   std::optional<std::uint32_t> sender_;     // as the settings name it

@@ -24,9 +24,9 @@ class CommissionPanel {
   // is_retold: the same in another language.
   async ask(step, message, is_retold = false) {
     Object.assign(this, { asked: step, told_error: '' });
-    if (step === 'examine' && !is_retold) this.proposed = '';
     const answer = await fetch(`/commissioning/${step}`, { method: 'POST', headers: { 'Content-Type': 'application/json' },
       body: JSON.stringify({ language: page.language, ...message }) }).catch(() => null);
+    if (step === 'examine' && answer && answer.ok && !is_retold) this.proposed = '';
     this.refused = answer && !answer.ok ? (await answer.json().catch(() => ({ error: answer.status }))).error : '';
     const now = await fetch('/commissioning.json').catch(() => null);
     if (now && now.ok) this.take(await now.json());
@@ -37,10 +37,15 @@ class CommissionPanel {
     this.state = state;
     if (!state.open || !state.recorded) this.proposed = '';
     if (state.open && !this.draft) this.draft = this.draft_of(state.mounting);
-    if (JSON.stringify(state.recorded) !== this.recorded) this.confirmed = {};  // they were of another recording
-    this.recorded = JSON.stringify(state.recorded);
+    if (state.open && JSON.stringify(state.recorded) !== this.recorded) this.begin_anew();
     if (state.open && state.examined && state.examined.grade !== 'not') this.take_proposal(state.examined.changes);
     this.show();
+  }
+
+  // What was proposed and confirmed was of another recording.
+  begin_anew() {
+    if (this.recorded !== undefined) this.draft = this.draft_of(this.state.mounting);
+    Object.assign(this, { recorded: JSON.stringify(this.state.recorded), confirmed: {} });
   }
 
   // The same proposal in other words leaves what a person drew since.
@@ -209,7 +214,7 @@ class CommissionPanel {
   draw() {
     const w = words(), axes = element('p', `${w.commission_axis}: `, 'commission-row'), mounting = element('p', `${w.commission_mounting}: `, 'commission-row');
     for (const axis of ['+X', '-X', '+Y', '-Y']) {
-      const choice = button(axis, () => { this.draft.axis = axis; this.confirmed.ahead = false; this.note_change(true); });
+      const choice = button(axis, () => { this.draft.axis = axis; Object.assign(this.confirmed, { ahead: false, ahead_otherwise: false }); this.note_change(true); });
       choice.setAttribute('aria-pressed', String(this.draft.axis === axis));
       axes.append(choice);
     }

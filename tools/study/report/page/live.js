@@ -50,7 +50,7 @@ LiveRecording.kSeries = ['value', 'raw', 'sigma', 'level', 'raw_level', 'part', 
 
 // Silence of a sensor is told ten times a second: so long without a result is a break, or a worker that hangs. Health comes
 // from the server, whatever the worker does, and makes nothing current.
-const kLost_ms = 2000, kChartsEvery_ms = 400;
+const kLost_ms = 1000, kChartsEvery_ms = 400;
 const page = { language: 'en', frame: 0, paused: false, hello: null, told: null, heard_ms: 0, arrivals: [], drawn_charts_ms: 0, shown: 0, spoken: '' };
 let commission = null, recording = null, viewer = null, charts = null, roadway = null;
 
@@ -236,6 +236,7 @@ function take_hello(event) {
   page.hello = JSON.parse(event.data);
   if (page.hello.commissioning && !commission) commission = new CommissionPanel();
   if (page.hello.planar && !roadway) roadway = new RoadwayView(page.hello.planar);
+  if (page.hello.planar) roadway.planar = page.hello.planar;  // of a restart with other settings
   if (!recording) return;
   Object.assign(recording, { head: page.hello.head, words: page.hello.words });
   show_all();
