@@ -296,10 +296,10 @@ void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling
   }
   const ByChange by_change(*measured, time, settings_, *last);
   double added[POSE_WALL_QUANTITIES] = {}, taken_out_rate[POSE_WALL_QUANTITIES] = {};
+  const auto random_of = [&](std::uint32_t q) { return measured->quantity[q].protection[POSE_WALL_PART_RANDOM]; };
   const auto left_by_odometry = [&](std::uint32_t q, double seconds) {
     const double left_in = taken_out ? 0.0 : seconds * moves(q, *last);
-    const double random = measured->quantity[q].protection[POSE_WALL_PART_RANDOM];
-    const double by_rates = by_odometry(q, seconds, random, *last) + left_in;
+    const double by_rates = by_odometry(q, seconds, random_of(q), *last) + left_in;
     const double by_values =
         by_change.tells(q) ? by_change.added(q, seconds, taken_out_rate[q], lever_m(q)) : kNobodyKnows;
     return by_values < by_rates ? by_values : by_rates;
@@ -307,11 +307,9 @@ void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling
   const auto shown = [&](std::uint32_t q, double seconds) {
     const double by_values = by_change.without_taking_out(q, seconds, lever_m(q));
     if (!is_told_) return by_values;
-    // Of two witnesses the odometry is left where no value stands beside this one: what it leaves open counts then.
     const double moved = seconds * moves(q, *last);
-    if (!by_change.compares(q)) {
-      return moved + by_odometry(q, seconds, measured->quantity[q].protection[POSE_WALL_PART_RANDOM], *last);
-    }
+    // Where no value stands beside this one the odometry is the only witness: what it leaves open counts.
+    if (!by_change.compares(q)) return moved + by_odometry(q, seconds, random_of(q), *last);
     return larger(by_values, moved - by_odometry(q, seconds, 0.0, *last));
   };
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
@@ -325,8 +323,7 @@ void MotionInScan::widen(bool taken_out, const ScanInTime& time, const Levelling
       m.shown_motion = shown(q, seconds);
     }
   }
-  const OwnChanges kept = kept_of(*measured, by_change, *last, taken_out_rate);
-  *last = kept;
+  *last = kept_of(*measured, by_change, *last, taken_out_rate);
   last->scan_s = time.scan.whole_s;
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     measured->quantity[q].protection[POSE_WALL_PART_AGE] += added[q];
