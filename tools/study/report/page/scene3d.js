@@ -300,6 +300,7 @@ class Scene3D {
 
   // A place of base on the canvas, in pixels; null behind the camera.
   place_of(point) {
+    this.camera.updateMatrixWorld();  // it may have moved since the last picture
     const seen = new THREE.Vector3(...point).project(this.camera);
     return seen.z > 1 ? null : [(seen.x + 1) / 2 * this.canvas.clientWidth, (1 - seen.y) / 2 * this.canvas.clientHeight];
   }
