@@ -316,10 +316,9 @@ Engine::OdometryStep Engine::follow_odometry(const pose_wall_inputs* inputs, con
 void Engine::widen_by_scan_motion(const pose_wall_inputs* inputs, bool taken_out, const ScanStep& step,
                                   FrameFindings* found) {
   const bool repeats = (found->reasons & POSE_WALL_R_FROZEN) != 0;
-  ScanInTime time = scan_in_time(found->voxels.scan, step.s, settings_);
-  time.is_step_told = step.is_told;
   MotionInScan(odometry_in(inputs), settings_, axes_)
-      .widen(taken_out && !repeats, time, found->levelling, found->walls.side, &memory_.own, &found->measured);
+      .widen(taken_out && !repeats, scan_in_time(found->voxels.scan, step, settings_), found->levelling,
+             found->walls.side, &memory_.own, &found->measured);
 }
 
 // By the odometry, else by the other inputs, if they are sound and no measurement contradicts them.

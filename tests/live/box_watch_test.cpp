@@ -22,7 +22,7 @@ namespace {
 using pose_wall::test::becomes_true;
 using pose_wall::test::fact;
 
-constexpr std::int64_t kBoxSecond_ns = 1'000'000'000;
+constexpr std::int64_t kBoxSecond_ns = 1'000'000'000;  // the clock of the daemon counts in ns
 
 // A file that takes what it is given, or fails by the system's number of a fault.
 struct Disk {

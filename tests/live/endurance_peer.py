@@ -9,7 +9,6 @@ usage: endurance_peer.py ROOT POSE_WALL POSE_WALLD SENSOR ROS2_PEER [MINUTES [HZ
 The long run, of an hour: tests/live/endurance_peer.py . build/release/pose_wall build/release/pose_walld
 build/release/pose_wall_sensor build/release/tests/pose_wall_ros2_peer 60"""
 
-import base64
 import contextlib
 import json
 import os
@@ -32,6 +31,7 @@ RATE_HZ = float(sys.argv.pop(1)) if sys.argv[1:] else 20.0
 sys.path[:0] = [str(ROOT / "tests/live")]
 
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
+import viewer_socket  # noqa: E402  pylint: disable=wrong-import-position
 
 live_peer.need("mosquitto mosquitto-clients python3-rosmaster python3-rostopic python3-geometry-msgs",
                programs=("mosquitto", "mosquitto_sub", "rosmaster", "rostopic"), modules=("geometry_msgs",))
@@ -103,15 +103,10 @@ class Viewer(threading.Thread):
         self.port, self.results, self.bytes, self.link = port, 0, 0, None
 
     def run(self):
-        with contextlib.suppress(ConnectionError), socket.create_connection(("127.0.0.1", self.port)) as link:
-            key, self.link = base64.b64encode(os.urandom(16)).decode(), link
-            link.sendall(f"GET / HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\nUpgrade: websocket\r\n"
-                         f"Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n"
-                         "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n\r\n".encode())
-            stream = link.makefile("rb")
-            while stream.readline() not in (b"\r\n", b""):
-                pass
-            of_results = None
+        _, self.link = viewer_socket.handshake(self.port)
+        self.link.settimeout(None)  # as long as the daemon is there
+        with contextlib.suppress(ConnectionError), self.link:
+            stream, of_results = self.link.makefile("rb"), None
             while True:
                 kind, message = self.message(stream)
                 if kind is None:
@@ -124,7 +119,10 @@ class Viewer(threading.Thread):
                     ids = {channel["topic"]: channel["id"] for channel in told["channels"]}
                     of_results = ids.get("/pose_wall/result", of_results)
                     wanted = [{"id": number, "channelId": number} for number in ids.values()]
-                    self.say(link, json.dumps({"op": "subscribe", "subscriptions": wanted}).encode())
+                    self.say(json.dumps({"op": "subscribe", "subscriptions": wanted}).encode())
+
+    def say(self, payload, opcode=1):
+        self.link.sendall(viewer_socket.frame(payload, opcode))
 
     def message(self, stream):
         """(opcode, content) of the next whole message; (None, b"") at the end. A ping comes between pieces, too, and
@@ -138,20 +136,12 @@ class Viewer(threading.Thread):
             if length >= 126:
                 length = int.from_bytes(stream.read(2 if length == 126 else 8), "big")
             if head[0] & 0x0F == 9:
-                self.say(self.link, stream.read(length), kind=10)
+                self.say(stream.read(length), 10)
                 continue
             kind = head[0] & 0x0F or kind
             content += stream.read(length)
             if head[0] & 0x80:
                 return kind, content
-
-    @staticmethod
-    def say(link, text, kind=1):
-        """A client's frames are masked; a mask of zeros leaves the text."""
-        head = bytes([0x80 | kind, 0x80 | len(text)])
-        if len(text) > 125:
-            head = bytes([0x80 | kind, 0xFE]) + len(text).to_bytes(2, "big")
-        link.sendall(head + bytes(4) + text)
 
 
 class Scraper(threading.Thread):

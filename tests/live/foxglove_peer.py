@@ -8,13 +8,10 @@ second, and after a restart a viewer finds another session.
 
 usage: foxglove_peer.py ROOT POSE_WALL POSE_WALLD NODE_MODULES"""
 
-import base64
 import json
 import os
 import pathlib
 import shutil
-import socket
-import struct
 import subprocess
 import sys
 import tempfile
@@ -26,6 +23,7 @@ ROOT, POSE_WALL, POSE_WALLD, MODULES = (pathlib.Path(sys.argv.pop(1)).resolve() 
 sys.path[:0] = [str(ROOT / "tests/live")]
 
 import live_peer  # noqa: E402  pylint: disable=wrong-import-position
+from viewer_socket import frame, handshake  # noqa: E402  pylint: disable=wrong-import-position
 
 NAMES = ("foxglove.websocket.v1", "foxglove.sdk.v1")
 # So many messages of each channel; the place comes where the machine is in a map.
@@ -59,33 +57,6 @@ class Scripts:
         out, err = process.communicate(timeout=4 * live_peer.PATIENCE_S)
         assert out, err
         return json.loads(out.splitlines()[-1])
-
-
-def handshake(port, **headers):
-    """A raw WebSocket: (status of the answer, socket)."""
-    asked = {"Host": f"127.0.0.1:{port}", "Upgrade": "websocket", "Connection": "Upgrade",
-             "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode(),
-             "Sec-WebSocket-Protocol": NAMES[0]}
-    asked.update({name.replace("_", "-"): value for name, value in headers.items()})
-    lines = ["GET / HTTP/1.1"] + [f"{name}: {value}" for name, value in asked.items() if value]
-    connection = socket.create_connection(("127.0.0.1", port), 10)
-    connection.sendall("\r\n".join(lines + ["", ""]).encode())
-    head = b""
-    while b"\r\n" not in head:
-        more = connection.recv(4096)
-        if not more:
-            break
-        head += more
-    return int(head.split()[1]) if head else 0, connection
-
-
-def frame(payload, opcode=1, length=None):
-    """As a client sends it, masked by zeros."""
-    size = len(payload) if length is None else length
-    head = bytes([0x80 | opcode])
-    head += bytes([0x80 | size]) if size < 126 else struct.pack(">BH", 0xFE, size) if size < 65536 else struct.pack(
-        ">BQ", 0xFF, size)
-    return head + bytes(4) + payload
 
 
 class Viewers(unittest.TestCase):

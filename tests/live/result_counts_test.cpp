@@ -15,6 +15,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
+// The runtime's watchdog: pose_wall_runtime.h.
 constexpr std::int64_t kCountMs_ns = 1'000'000, kStaleAfter_ns = 300 * kCountMs_ns;
 
 TEST(StateTimes, TellHowLongEachStateWas) {

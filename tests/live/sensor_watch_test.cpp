@@ -18,7 +18,7 @@ namespace {
 
 using namespace pose_wall::test;
 
-constexpr std::int64_t kHour_ns = 3'600'000'000'000;
+constexpr std::int64_t kHour_ns = 3'600'000'000'000;         // at which a Velodyne's clock begins anew
 constexpr std::int64_t kNow_ns = 1'800'000'000'000'000'000;  // some day of 2027
 
 double ahead_ms_of(const ClockAhead& ahead) {

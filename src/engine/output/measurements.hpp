@@ -42,6 +42,14 @@ struct FrameTiming {
   std::uint32_t reasons = 0;
 };
 
+// From the last scan to this one, as the scans show motion.
+struct ScanStep {
+  double s = 0.0;  // 0 for a first frame
+  // By the stamps. Where these jumped it is the sensor's own step, and may have been longer: then what moved meanwhile
+  // counts as faster than it was, and proves nothing of how slow it is.
+  bool is_told = true;
+};
+
 // Which of the two walls a distance belongs to: 0 left, 1 right.
 inline int side_of(std::uint32_t quantity) {
   return quantity == POSE_WALL_D_LF || quantity == POSE_WALL_D_LB ? 0 : 1;

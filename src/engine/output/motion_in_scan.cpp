@@ -66,12 +66,12 @@ std::uint32_t other_end_of(std::uint32_t quantity) {
 class ByChange {
  public:
   ByChange(const Measurements& measured, const ScanInTime& time, const Settings& settings, const OwnChanges& last)
-      : measured_(measured), settings_(settings), scan_s_(time.scan.whole_s), since_s_(time.since_last_s), last_(last) {
+      : measured_(measured), settings_(settings), scan_s_(time.scan.whole_s), since_s_(time.step.s), last_(last) {
     // A change over less than a scan shows a part of the motion. If more than half a scan is between both, another
     // motion may be, too. By the derivation above.
     constexpr double kLeast = 0.9, kMost = 1.5;  // scans
     later_ = scan_s_ > 0.0 && since_s_ >= kLeast * scan_s_;
-    one_later_ = later_ && time.is_step_told && since_s_ <= kMost * scan_s_;
+    one_later_ = later_ && time.step.is_told && since_s_ <= kMost * scan_s_;
   }
 
   bool is_known(std::uint32_t quantity) const { return one_later_ && shows(quantity); }
@@ -198,11 +198,11 @@ OwnChanges kept_of(const Measurements& measured, const ByChange& by_change, cons
 
 }  // namespace
 
-ScanInTime scan_in_time(const ScanTime& scan, double since_last_s, const Settings& settings) {
-  if (scan.whole_s > 0.0) return {scan, since_last_s, true};
-  const bool is_shorter = since_last_s > 0.0 && since_last_s < settings.scan_max;
-  const double whole_s = is_shorter ? since_last_s : settings.scan_max;
-  return {{whole_s, 0.5 * whole_s}, since_last_s, false};
+ScanInTime scan_in_time(const ScanTime& scan, const ScanStep& step, const Settings& settings) {
+  if (scan.whole_s > 0.0) return {scan, step, true};
+  const bool is_shorter = step.s > 0.0 && step.s < settings.scan_max;
+  const double whole_s = is_shorter ? step.s : settings.scan_max;
+  return {{whole_s, 0.5 * whole_s}, step, false};
 }
 
 void OwnChanges::forget() {

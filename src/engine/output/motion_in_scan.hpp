@@ -35,17 +35,16 @@ struct OwnChanges {
   void forget();
 };
 
-// Of a frame: how long its scan took, and the time since the last frame.
+// Of a frame: how long its scan took, and the step from the last one.
 struct ScanInTime {
   ScanTime scan;
-  double since_last_s = 0.0;
-  bool has_times = true;     // of its points, by which an odometry could free it
-  bool is_step_told = true;  // since_last_s, by the stamps
+  ScanStep step;
+  bool has_times = true;  // of its points, by which an odometry could free it
 };
 
 // scan: by the times that freed it of motion; none: as long as the step from the last frame, up to
 // scan_max; a first frame's, too.
-ScanInTime scan_in_time(const ScanTime& scan, double since_last_s, const Settings& settings);
+ScanInTime scan_in_time(const ScanTime& scan, const ScanStep& step, const Settings& settings);
 
 // The odometry's motion in base, for walls whose normals are known there. odometry: null for none.
 class MotionInScan {

@@ -287,7 +287,7 @@ double elapsed_of(const TemporalState& state, const FrameTiming& timing) {
 
 ScanStep scan_step_of(const TemporalState& state, const FrameTiming& timing, const Settings& settings) {
   if (timing.first) return {};
-  if (!timing.back && !timing.leap && !timing.still) return {timing.dt_s};
+  if (!timing.back && !timing.leap && !timing.still) return {timing.dt_s, true};
   return {state.last_dt_s > 0.0 ? state.last_dt_s : settings.scan_max, false};
 }
 

@@ -63,13 +63,7 @@ FrameTiming time_frame(const TemporalState& state, std::int64_t stamp_ns, const 
 // Time since the last frame: by the stamps, or by the last periods if the stamp stands still.
 double elapsed_of(const TemporalState& state, const FrameTiming& timing);
 
-// From the last scan to this one, as the scans show motion.
-struct ScanStep {
-  double s = 0.0;  // 0 for a first frame
-  // By the stamps. Where these jumped it is the sensor's own step, and may have been longer: then what moved meanwhile
-  // counts as faster than it was, and proves nothing of how slow it is.
-  bool is_told = true;
-};
+// By the stamps, or the sensor's own step where these jumped.
 ScanStep scan_step_of(const TemporalState& state, const FrameTiming& timing, const Settings& settings);
 
 // True if a quantity was measured further from its allowed change than both levels bridge.

@@ -244,11 +244,12 @@ TEST(MotionInScan, OnlyTheFrameBeforeIsAWitness) {
 // No sensor takes longer for a scan than the step to the next one, and none that spins longer than 0.2 s.
 TEST(MotionInScan, AScanWithoutTimesTakesAsLongAsItsStep) {
   const Settings settings = test::settings_with();
-  EXPECT_EQ(scan_in_time({0.09, 0.05}, 0.1, settings).scan.whole_s, 0.09) << "by its times";
-  EXPECT_EQ(scan_in_time({}, 0.07, settings).scan.whole_s, 0.07);
-  EXPECT_EQ(scan_in_time({}, 0.07, settings).scan.mean_s, 0.035);
-  for (const double since_s : {0.3, 1e9}) EXPECT_EQ(scan_in_time({}, since_s, settings).scan.whole_s, 0.2) << since_s;
-  for (const double since_s : {0.0, -1.0}) EXPECT_EQ(scan_in_time({}, since_s, settings).scan.whole_s, 0.2) << since_s;
+  EXPECT_EQ(scan_in_time({0.09, 0.05}, {0.1}, settings).scan.whole_s, 0.09) << "by its times";
+  EXPECT_EQ(scan_in_time({}, {0.07}, settings).scan.whole_s, 0.07);
+  EXPECT_EQ(scan_in_time({}, {0.07}, settings).scan.mean_s, 0.035);
+  for (const double since_s : {0.3, 1e9}) EXPECT_EQ(scan_in_time({}, {since_s}, settings).scan.whole_s, 0.2) << since_s;
+  for (const double since_s : {0.0, -1.0})
+    EXPECT_EQ(scan_in_time({}, {since_s}, settings).scan.whole_s, 0.2) << since_s;
 }
 
 // As far as it tells it for sure, and not where its level allows that nothing turns.
@@ -259,7 +260,7 @@ TEST(MotionInScan, WhatAnOdometryTellsIsLeftInAScanWithoutTimes) {
     const pose_wall_odometry turns = with_rates(0.3, level);
     for (Measurements* const measured : {&before, &m}) {
       MotionInScan(&turns, frames.settings, kAxes)
-          .widen(false, scan_in_time({}, kScan_s, frames.settings), {}, frames.walls, &frames.own, measured);
+          .widen(false, scan_in_time({}, {kScan_s}, frames.settings), {}, frames.walls, &frames.own, measured);
     }
     const double sure = std::max(0.0, 0.3 - level);
     EXPECT_NEAR(m.quantity[POSE_WALL_YAW].shown_motion, kActs * kScan_s * sure, 1e-6) << level;
@@ -275,7 +276,7 @@ TEST(MotionInScan, OfAFirstScanWithoutTimesTheOdometryIsTheOnlyWitness) {
     Measurements m = frames.measured;
     const pose_wall_odometry turns = with_rates(0.3, level);
     MotionInScan(&turns, frames.settings, kAxes)
-        .widen(false, scan_in_time({}, 0.0, frames.settings), {}, frames.walls, &frames.own, &m);
+        .widen(false, scan_in_time({}, {0.0}, frames.settings), {}, frames.walls, &frames.own, &m);
     const Measurement& yaw = m.quantity[POSE_WALL_YAW];
     EXPECT_GE(yaw.shown_motion, kActs * frames.settings.scan_max * 0.3 - 1e-6) << "what it tells for sure, and more";
     EXPECT_TRUE(level == 0.0 || yaw.shown_motion > last) << level;
@@ -293,8 +294,8 @@ TEST(MotionInScan, AfterAJumpOfTheClockValuesNarrowNothing) {
     Measurements last;
     for (int frame = 0; frame < 4; ++frame) {
       last = frames.measured;
-      ScanInTime time = scan_in_time({kScan_s, 0.5 * kScan_s}, kScan_s, frames.settings);
-      time.is_step_told = is_told || frame < 3;
+      const ScanStep step{kScan_s, is_told || frame < 3};
+      const ScanInTime time = scan_in_time({kScan_s, 0.5 * kScan_s}, step, frames.settings);
       MotionInScan(&hardly, frames.settings, kAxes).widen(true, time, {}, frames.walls, &frames.own, &last);
     }
     return added(last, POSE_WALL_YAW);
@@ -312,7 +313,7 @@ TEST(MotionInScan, CloudsThatComeFreedOfMotionAreNotWidened) {
       Measurements m = frames.measured;
       m.quantity[POSE_WALL_YAW].raw = 0.1 * frame;
       MotionInScan(told, frames.settings, kAxes)
-          .widen(false, scan_in_time({}, 0.1, frames.settings), {}, frames.walls, &frames.own, &m);
+          .widen(false, scan_in_time({}, {0.1}, frames.settings), {}, frames.walls, &frames.own, &m);
       for (const Measurement& q : m.quantity) EXPECT_EQ(q.shown_motion + q.protection[POSE_WALL_PART_AGE], 0.0);
     }
   }
@@ -330,7 +331,7 @@ struct Untold {
     Measurements m = frames.measured;
     m.quantity[POSE_WALL_YAW].raw = yaw_rad + error_rad;
     MotionInScan(nullptr, frames.settings, kAxes)
-        .widen(false, scan_in_time({}, since_s, frames.settings), {}, frames.walls, &frames.own, &m);
+        .widen(false, scan_in_time({}, {since_s}, frames.settings), {}, frames.walls, &frames.own, &m);
     return m.quantity[POSE_WALL_YAW].shown_motion;
   }
 };

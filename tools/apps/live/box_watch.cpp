@@ -7,12 +7,13 @@
 
 #include <cstring>
 
+#include "io/config_file/live_settings.hpp"
+
 namespace pose_wall::tools::live {
 namespace {
 
 // A disk that lost no record for so long keeps up: a hundred frames, of which it is given each.
 constexpr std::int64_t kBehind_ns = 10'000'000'000;
-constexpr std::uint64_t kBytesPerMb = 1'000'000;  // as black_box_mb
 
 }  // namespace
 
@@ -35,7 +36,7 @@ void BoxWatch::tell(const BlackBox& box, const pose_wall_runtime_statistics& now
   health->add("black box written", now.box_written);
   health->add("black box lost", now.box_lost);
   health->add("black box failed", now.box_failed);
-  if (box.state) health->add("black box disk free MB", box.state->free_bytes / kBytesPerMb);
+  if (box.state) health->add("black box disk free MB", whole_mb(box.state->free_bytes));
 }
 
 }  // namespace pose_wall::tools::live

@@ -9,7 +9,7 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr double kMillisecondsPerMicrosecond = 1e-3;
+constexpr double kMillisecondsPerMicrosecond = 1e-3;  // timex counts in microseconds (adjtimex(2))
 
 }  // namespace
 

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "study/steer/steering.hpp"
+#include "study/steer/steer_cause.hpp"
 
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr std::size_t kNotSteering = 0, kSteering = 1, kStates = 2;
+constexpr std::size_t kNotSteering = 0, kSteering = 1, kStates = 2;  // numbers of StateTimes, and how many
 
 }  // namespace
 
@@ -19,15 +19,13 @@ ResultCounts::ResultCounts(std::int64_t watchdog_ns, std::int64_t now_ns)
 
 void ResultCounts::note(const LiveResult& result) {
   const pose_wall_publication& told = result.publication;
-  api::Config config;
-  *config.get() = result.config;
-  const Steering steering = steering_of(told.result, alert_limits_of(config));
   const bool is_frame = told.cause == POSE_WALL_RUNTIME_FRAME;
   // As the runtime has it (pose_wall_runtime.h, FRESHNESS).
   const std::int64_t stale_ns = (is_frame ? told.received_ns : told.published_ns) + watchdog_ns_;
   const std::lock_guard<std::mutex> locked(lock_);
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-    steering_[q].note(steering[q].may_steer() ? kSteering : kNotSteering, told.published_ns, stale_ns);
+    const bool may_steer = steer_cause(told.result.quantity[q]) == kMaySteer;
+    steering_[q].note(may_steer ? kSteering : kNotSteering, told.published_ns, stale_ns);
   }
   if (!is_frame) return;
   const std::int64_t latency_ns = std::max<std::int64_t>(told.published_ns - told.received_ns, 0);

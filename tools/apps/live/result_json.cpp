@@ -29,9 +29,7 @@ std::string result_json(const LiveResult& result) {
   outcome.source = result.frame_id;
   outcome.stamp_ns = publication.result.stamp_ns;
   outcome.result = publication.result;
-  api::Config config;
-  *config.get() = result.config;
-  outcome.limits = alert_limits_of(config);
+  outcome.limits = alert_limits_of(result.config);
   Json line = result_as_json(outcome);
   line.erase("times_ms");
   line.erase("error");

@@ -158,11 +158,9 @@ void print_stop_prospect(const LoadedConfig& loaded) {
 
 // What a controller compares with the image's config_crc32.
 void print_crc(const LoadedConfig& loaded) {
-  std::uint32_t crc = 0;
-  pose_wall_config_crc(loaded.config.get(), &crc);
-  fmt::print(
-      "{}",
-      say("CRC of the settings: 16#{:08X} (dwConfigCrc of FB_PoseWall, config_crc32 of the process image)\n\n", crc));
+  fmt::print("{}",
+             say("CRC of the settings: 16#{:08X} (dwConfigCrc of FB_PoseWall, config_crc32 of the process image)\n\n",
+                 config_crc(*loaded.config.get())));
 }
 
 // Headings of the manual, as config/README.md has them; other groups name themselves.

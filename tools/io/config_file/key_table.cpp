@@ -89,10 +89,14 @@ std::string config_text(const pose_wall_config& config, const char* key) {
   return text;
 }
 
-std::string config_crc_text(const pose_wall_config& config) {
+std::uint32_t config_crc(const pose_wall_config& config) {
   std::uint32_t crc = 0;
-  pose_wall_config_crc(&config, &crc);
-  return say("settings' CRC: 16#{:08X}", crc);
+  static_cast<void>(pose_wall_config_crc(&config, &crc));  // it refuses NULL alone
+  return crc;
+}
+
+std::string config_crc_text(const pose_wall_config& config) {
+  return say("settings' CRC: 16#{:08X}", config_crc(config));
 }
 
 std::string config_written_text(const pose_wall_config& config, const pose_wall_key_info& key) {

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,9 @@ std::string config_text(const pose_wall_config& config, const char* key);
 // The same where people read it: nothing as it is written, too, in a file or behind --set ("[]": no box).
 std::string config_written_text(const pose_wall_config& config, const pose_wall_key_info& key);
 
-// "settings' CRC: 16#D5FB5C72": what a controller compares with the image's config_crc32.
+// What a controller compares with the image's config_crc32.
+std::uint32_t config_crc(const pose_wall_config& config);
+// "settings' CRC: 16#D5FB5C72".
 std::string config_crc_text(const pose_wall_config& config);
 
 }  // namespace pose_wall::tools

@@ -14,6 +14,12 @@
 
 namespace pose_wall::tools {
 
+// Of recording_mb and black_box_mb, and of what the health tells.
+inline constexpr double kBytesPerMb = 1e6;
+inline std::uint64_t whole_mb(std::uint64_t bytes) {
+  return static_cast<std::uint64_t>(static_cast<double>(bytes) / kBytesPerMb);
+}
+
 struct LiveSettings {
   std::string source = "udp";
   std::string extrinsic_from = "config";

@@ -9,13 +9,12 @@
 #include <numeric>
 
 #include "io/language/language.hpp"
-#include "io/numbers/angles.hpp"
 #include "io/numbers/quantile.hpp"
-#include "io/numbers/quantities.hpp"
 #include "study/explain/amounts.hpp"
 #include "study/explain/gate_list.hpp"
 #include "study/explain/notes.hpp"
 #include "study/explain/prose.hpp"
+#include "study/truth/alert_limits.hpp"
 
 namespace pose_wall::tools::explain {
 namespace {
@@ -26,12 +25,6 @@ constexpr std::size_t kStretchesKept = 2000;
 // Tracing a frame takes as long as measuring it.
 constexpr std::size_t kTracedMax = 40;
 constexpr std::size_t kStoriesToSee = 4;
-
-double alert_limit(const pose_wall_config& config, std::uint32_t quantity) {
-  double limit = 0.0;
-  pose_wall_config_get_number(&config, is_angle(quantity) ? "alert_limit_angle_deg" : "alert_limit_distance", &limit);
-  return is_angle(quantity) ? limit * kRadPerDeg : limit;
-}
 
 // A level above it means that there is no bound, in rad or m.
 bool is_level(double level) {
@@ -85,7 +78,8 @@ bool Badness::is_worse_than(const Badness& other) const {
 }
 
 RecordingSummary::RecordingSummary(const pose_wall_config& config) : alert_limit_{} {
-  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) alert_limit_[q] = alert_limit(config, q);
+  const AlertLimits limits = alert_limits_of(config);
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) alert_limit_[q] = limit_of(q, limits);
 }
 
 Badness RecordingSummary::badness_of(const pose_wall_result& result) const {

@@ -18,8 +18,17 @@ struct AlertLimits {
   double distance_m = 0.0;
 };
 
+inline AlertLimits alert_limits_of(const pose_wall_config& config) {
+  AlertLimits limits;
+  double angle_deg = 0.0;  // both keys are there: the calls cannot fail
+  static_cast<void>(pose_wall_config_get_number(&config, "alert_limit_angle_deg", &angle_deg));
+  static_cast<void>(pose_wall_config_get_number(&config, "alert_limit_distance", &limits.distance_m));
+  limits.angle_rad = angle_deg * kRadPerDeg;
+  return limits;
+}
+
 inline AlertLimits alert_limits_of(const api::Config& config) {
-  return {config.number("alert_limit_angle_deg") * kRadPerDeg, config.number("alert_limit_distance")};
+  return alert_limits_of(*config.get());
 }
 
 // In the quantity's own unit.

@@ -23,12 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::uint32_t crc_of(const LoadedConfig& loaded) {
-  std::uint32_t crc = 0;
-  pose_wall_config_crc(loaded.config.get(), &crc);
-  return crc;
-}
-
 // As `doctor --help` tells them: usable, and not usable. Both come with all that it found.
 constexpr int kDone = 0, kNotUsable = 3;
 
@@ -190,7 +184,7 @@ Json CommissioningSteps::check(const Changes& changes, const std::string& langua
       run_errand(joined(joined({"report", "--quiet", "-o", report_file()}, words), recordings()), given_up);
   require_done(report, "report");
   return {{"changes", changes},
-          {"config_crc32", crc_of(trial)},
+          {"config_crc32", config_crc(*trial.config.get())},
           {"forward_axis", config_text(*trial.config.get(), "forward_axis")},
           {"told", lines_of(run.errors)}};
 }
@@ -203,7 +197,7 @@ Json CommissioningSteps::save(const Json& who, const Json& examined, const Json&
   again.push_back("commissioned=" + trial.string());
   const LoadedConfig saved = load_config(loaded_.asked_files, again);
   const bool is_as_checked = whole_settings(saved) == read_whole_file(trial / "whole.yaml");
-  if (!is_as_checked || crc_of(saved) != checked.at("config_crc32").get<std::uint32_t>()) {
+  if (!is_as_checked || config_crc(*saved.config.get()) != checked.at("config_crc32").get<std::uint32_t>()) {
     throw std::runtime_error("the settings have changed since they were checked: check again");
   }
   fs::remove_all(evidence);

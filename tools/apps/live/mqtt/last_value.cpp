@@ -56,9 +56,7 @@ LastValue last_value(const Newest& newest, std::int64_t now_ns, std::int64_t wal
     json["age_s"] = static_cast<double>(publication.age_ns) * 1e-9;
   }
   if (newest.is_fresh()) {
-    api::Config config;
-    *config.get() = newest.result.config;
-    const Steering steering = steering_of(publication.result, alert_limits_of(config));
+    const Steering steering = steering_of(publication.result, alert_limits_of(newest.result.config));
     gist = publication.cause == POSE_WALL_RUNTIME_FRAME ? "live" : "silent";
     json["state"] = gist;
     for (const SteerValue& value : steering) {

@@ -103,9 +103,7 @@ void add_result(OpenMetrics* metrics, const Moment& moment) {
                   "1: this value may steer at this moment. Without a fresh result none may.");
   std::optional<Steering> steering;
   if (result != nullptr) {
-    api::Config config;
-    *config.get() = newest.config;
-    steering = steering_of(*result, alert_limits_of(config));
+    steering = steering_of(*result, alert_limits_of(newest.config));
   }
   for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
     metrics->count(of_value(q), steering && (*steering)[q].may_steer() ? 1 : 0, "");

@@ -42,12 +42,6 @@ WebAnswer json(int status, const std::string& content) {
   return web_answer(status, "application/json", content + "\n");
 }
 
-std::uint32_t crc_of(const pose_wall_config& config) {
-  std::uint32_t crc32 = 0;
-  static_cast<void>(pose_wall_config_crc(&config, &crc32));  // the settings are those of an engine
-  return crc32;
-}
-
 class PageServer final : public Sink {
  public:
   PageServer(const LoadedConfig& loaded, const HealthBoard& board, const StopBoard* stop, WebPart* more)
@@ -55,7 +49,7 @@ class PageServer final : public Sink {
         board_(board),
         stop_(stop),
         more_(more),
-        config_crc32_(crc_of(*loaded.config.get())),
+        config_crc32_(config_crc(*loaded.config.get())),
         line_(stop_settings_of(loaded.planar), config_text(*loaded.config.get(), "forward_axis")),
         place_(*parse_host_port(loaded.live.http)),
         server_(place_, WebAccess(loaded.live, place_),
@@ -127,7 +121,7 @@ class PageServer final : public Sink {
   void tell_new_config(const pose_wall_config& config) {
     if (std::memcmp(&config, loaded_.config.get(), sizeof config) == 0) return;
     *loaded_.config.get() = config;
-    config_crc32_ = crc_of(config);
+    config_crc32_ = config_crc(config);
     tell(Broadcast::kHello, hello_event(loaded_));
   }
 

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "io/config_file/live_settings.hpp"
+
 namespace pose_wall::tools::live {
 namespace {
 
@@ -19,7 +21,6 @@ struct Stable {
   double factor = 1.0;
 };
 
-constexpr double kBytesPerMb = 1e6;  // as recording_mb
 constexpr Stable kStable[] = {
     {"packets", "pose_wall_packets_received", "counter", "Packets that came by UDP, of whatever sender."},
     {"packets of no use", "pose_wall_packets_useless", "counter", "Packets that are none of the sensor's."},

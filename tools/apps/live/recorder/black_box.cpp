@@ -17,7 +17,6 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr double kBytesPerMb = 1e6;
 // So that three earlier starts stay: an incident, the restart after it, and what somebody tried then.
 constexpr std::uint64_t kFilesKept = 4;
 constexpr std::uint64_t kAlignment = 64;               // pose_wall_runtime_options.box_bytes

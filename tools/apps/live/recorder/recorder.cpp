@@ -28,7 +28,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kBytesPerMb = 1'000'000;
 constexpr std::uint64_t kFiles = 8;  // of the room: so much of it goes when the oldest file does
 // A loss of power takes at most so much, and a chunk holds no more.
 constexpr auto kChunkTime = std::chrono::seconds(1);
@@ -41,8 +40,7 @@ class Recorder final : public Sink, private ChannelOut {
       : board_(health),
         channels_(live_channels(loaded)),
         with_clouds_(loaded.live.recording_clouds),
-        folder_(loaded.live.recording, ".mcap",
-                static_cast<std::uint64_t>(loaded.live.recording_mb * static_cast<double>(kBytesPerMb))),
+        folder_(loaded.live.recording, ".mcap", static_cast<std::uint64_t>(loaded.live.recording_mb * kBytesPerMb)),
         has_planar_(loaded.planar.is_on()),
         messages_(loaded),
         part_("sink recorder " + loaded.live.recording) {}
@@ -98,7 +96,7 @@ class Recorder final : public Sink, private ChannelOut {
     health.add("results recorded", recorded_.load());
     health.add("results not recorded", not_recorded_.load());
     health.add("files", files_.load());
-    health.add("disk free MB", free_bytes_ / kBytesPerMb);
+    health.add("disk free MB", whole_mb(free_bytes_));
     return health;
   }
 
