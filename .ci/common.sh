@@ -46,6 +46,8 @@ summary() {
   for log in build/logs/Testing*.log; do
     line=$(grep -hoE '[0-9]+% tests passed, .*' "$log" 2> /dev/null | tail -n 1) || continue
     [ -n "$line" ] || continue
+    # What a failed test said: a log's end holds names alone, and its middle is long.
+    grep -hE '^(FAIL|ERROR): |^[A-Za-z_.]*Error: |: Failure$|\*\*\*(Failed|Timeout|Exception)' "$log" | tail -n 20 || true
     bad=$(sed -E 's/.*passed, ([0-9]+) tests? failed.*/\1/' <<< "$line")
     all=${line##* }
     failed=$((failed + bad)) passed=$((passed + all - bad))

@@ -173,20 +173,25 @@ class Mqtt(Brokered):
         self.assertTrue(live_peer.becomes_true(lambda: subscriber.messages("status")[-1][2] == "online"), again.log())
 
     def last(self, subscriber):
-        """(retained, what it says) of the newest last value."""
-        _, retained, text = subscriber.messages("last")[-1]
-        return retained, json.loads(text)
+        """What the newest last value says."""
+        return json.loads(subscriber.messages("last")[-1][2])
+
+    def live(self, subscriber):
+        """The last values that said they are current."""
+        told = [json.loads(text) for _, _, text in subscriber.messages("last")]
+        return [last for last in told if last["state"] == "live"]
 
     def test_the_last_value_never_looks_current_when_it_is_not(self):
         self.broker()
         early, daemon = self.subscriber(), self.daemon()
         self.assertTrue(live_peer.becomes_true(
-            lambda: early.messages("last") and len(self.last(early)[1]["may_steer"]) == 7), daemon.log())
+            lambda: early.messages("last") and len(self.last(early)["may_steer"]) == 7), daemon.log())
         late = self.subscriber()
         self.assertTrue(late.gets("last"), daemon.log())
-        retained, last = self.last(late)
-        self.assertEqual((retained, last["state"]), (1, "live"))
-        now_ns = time.time_ns()
+        self.assertEqual(late.messages("last")[0][1], 1, "the first is what the broker keeps")
+        # On a machine under load a scan may be late, and the value is rightly stale then: one that is live comes.
+        self.assertTrue(live_peer.becomes_true(lambda: self.live(late)), daemon.log())
+        last, now_ns = self.live(late)[-1], time.time_ns()
         self.assertLess(abs(last["told_at_ns"] - now_ns), 5e9)
         self.assertEqual(last["valid_until_ns"] - last["told_at_ns"], 3_000_000_000)
         self.assertLess(last["age_s"], 5)
@@ -197,12 +202,12 @@ class Mqtt(Brokered):
         daemon.kill()
         for subscriber in (late, self.subscriber()):  # who listens, and who comes later
             self.assertTrue(live_peer.becomes_true(
-                lambda who=subscriber: who.messages("last") and self.last(who)[1]["state"] == "gone"))
-            self.assertEqual(self.last(subscriber)[1]["may_steer"], [])
+                lambda who=subscriber: who.messages("last") and self.last(who)["state"] == "gone"))
+            self.assertEqual(self.last(subscriber)["may_steer"], [])
         again = self.daemon()
-        self.assertTrue(live_peer.becomes_true(lambda: self.last(late)[1]["state"] == "live"), again.log())
+        self.assertTrue(live_peer.becomes_true(lambda: self.last(late)["state"] == "live"), again.log())
         self.assert_stops_cleanly(again)
-        self.assertTrue(live_peer.becomes_true(lambda: self.last(late)[1]["state"] == "gone"))
+        self.assertTrue(live_peer.becomes_true(lambda: self.last(late)["state"] == "gone"))
 
     def test_a_broker_that_is_started_anew_is_found_again(self):
         broker, daemon = self.broker(), self.daemon()
