@@ -14,7 +14,7 @@ namespace pose_wall {
 namespace {
 
 // Definition: 'pose-m' in ASCII and a count. Raise it with each change of visit().
-constexpr std::uint64_t kVersion = 0x706F73652D6D000AULL;
+constexpr std::uint64_t kVersion = 0x706F73652D6D000BULL;
 constexpr std::uint64_t kHeadWords = 2;  // version and checksum stand first
 
 // A member is a word of eight bytes; small numbers and rounded ones share a word.
@@ -183,8 +183,14 @@ void visit(Way* way, RoadMemory* r) {
 }
 
 template <typename Way>
+void visit_rock(Way* way, SeenSurface* surface) {
+  visit_all(way, &surface->rock_m, &surface->waves[0], &surface->waves[1]);
+}
+
+template <typename Way>
 void visit_wall(Way* way, SeenSurface* wall) {
   visit_all(way, &wall->normal, &wall->along, &wall->from_m, &wall->to_m, &wall->slope_level);
+  visit_rock(way, wall);
 }
 
 template <typename Way>
@@ -196,6 +202,7 @@ void visit(Way* way, OdometryMemory* m) {
   for (double& drift : m->drift) visit(way, &drift);
   visit_bits(way, flag(&m->floor.exists), flag(&m->wall[0].exists), flag(&m->wall[1].exists), flag(&m->has_up));
   visit_all(way, &m->up, &m->floor.normal, &m->floor.centre_m, &m->floor.radius_m, &m->floor.slope_level);
+  visit_rock(way, &m->floor);
   visit_wall(way, &m->wall[0]);
   visit_wall(way, &m->wall[1]);
 }

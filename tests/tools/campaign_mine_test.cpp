@@ -104,7 +104,7 @@ TEST(MineTruths, ARecordKeepsBoth) {
   EXPECT_EQ(back.measured.raw, 2.45);
 }
 
-TEST(MineTruths, MeasuredRunsOfMinesHaveBothAndOthersOne) {
+TEST(MineTruths, MeasuredRunsHaveBothAndWithoutRegionsThoseOfMinesAlone) {
   PlanRequest request;
   request.scenes = {"mine_cut", "clean"};
   request.sensors = {"vlp16"};
@@ -112,10 +112,13 @@ TEST(MineTruths, MeasuredRunsOfMinesHaveBothAndOthersOne) {
   request.frames = 1;
   const Instrument nothing = {[](const LoadedConfig&) { return std::int32_t{POSE_WALL_OK}; },
                               [](const pose_wall_cloud&, pose_wall_result&) { return std::int32_t{POSE_WALL_OK}; }};
-  for (const auto& run : make_plan(request)) {
-    const QuantityRecord q = measure(run, {}, nothing, [] {}).frames.front().quantity[POSE_WALL_D_LF];
-    EXPECT_TRUE(std::isfinite(q.truth)) << run.scene;
-    EXPECT_EQ(std::isfinite(q.surveyed), run.scene == "mine_cut") << run.scene;
+  for (const bool regions : {true, false}) {
+    const EngineChoice choice = {"", {regions ? "region=on" : "region=off"}};
+    for (const auto& run : make_plan(request)) {
+      const QuantityRecord q = measure(run, choice, nothing, [] {}).frames.front().quantity[POSE_WALL_D_LF];
+      EXPECT_TRUE(std::isfinite(q.truth)) << run.scene;
+      EXPECT_EQ(std::isfinite(q.surveyed), regions || run.scene == "mine_cut") << run.scene;
+    }
   }
 }
 

@@ -58,15 +58,15 @@ FloorResult floor_of(const Region& region, const RegionPlane& found, const Setti
   return floor;
 }
 
-// An endless floor as that of the region.
+// An endless floor as that of the region. Further on the region has other waves.
 void widen_by_waves(const Region& region, const RegionPlane& found, FloorResult* floor) {
   const RollPitchGradients gradients(floor->fit.plane.n);
-  const auto widen = [&](const Eigen::Vector3d& gradient, double* sigma_rad) {
-    const double waves_rad = found.sigma_about_endless(of(gradient, region));
-    *sigma_rad = std::sqrt(*sigma_rad * *sigma_rad + waves_rad * waves_rad);
+  const auto widen = [&](const Eigen::Vector3d& gradient, double* sigma_rad, double* waves_rad) {
+    *waves_rad = found.sigma_about_endless(of(gradient, region));
+    *sigma_rad = std::sqrt(*sigma_rad * *sigma_rad + *waves_rad * *waves_rad);
   };
-  widen(gradients.roll, &floor->roll_sigma_rad);
-  widen(gradients.pitch, &floor->pitch_sigma_rad);
+  widen(gradients.roll, &floor->roll_sigma_rad, &floor->roll_waves_rad);
+  widen(gradients.pitch, &floor->pitch_sigma_rad, &floor->pitch_waves_rad);
 }
 
 }  // namespace

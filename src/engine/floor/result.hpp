@@ -16,6 +16,9 @@ struct FloorResult {
   PlaneFit fit;
   double roll_sigma_rad = 0.0;
   double pitch_sigma_rad = 0.0;
+  // By which other rock beside the machine moves the two: standard deviations. None of an endless floor.
+  double roll_waves_rad = 0.0;
+  double pitch_waves_rad = 0.0;
   // Systematic part of the protection level: range bias, unevenness, rival floors, walls that lean.
   ProtectionParts roll_bound_rad;
   ProtectionParts pitch_bound_rad;

@@ -149,14 +149,13 @@ double by_way(std::uint32_t quantity, const SeenSurface& surface, const Place& f
   return surface.slope_level * std::fabs(surface.along.dot(to_m - from_m));
 }
 
-// Over which rock that was in view is replaced by other rock: half of what is seen of the surface along the road. Of
-// long ones the rock nearby counts most.
-double rock_length_m(std::uint32_t quantity, const SeenSurface& surface) {
+// Over which the rock behind a value is replaced by other rock, by half of its length along the road. Of long ones the
+// rock nearby counts most.
+double rock_length_m(double half_m) {
   // Raw values 1, 2, 3 and 5 m apart have errors in common: correlations of 0.4 to 0.8, 0.35 to 0.6, 0.2 to 0.45 and at
   // most 0.35. Scenes were nominal, steel_sets, humps and mine_cut by its survey, with five sensors (2026-11-29). This
   // length tells 0.8, 0.67, 0.55 and 0.37.
   constexpr double kMost_m = 5.0;
-  const double half_m = quantity < POSE_WALL_YAW ? surface.radius_m : 0.5 * (surface.to_m - surface.from_m);
   return half_m < kMost_m ? half_m : kMost_m;
 }
 
@@ -167,6 +166,9 @@ void see_floor(const FloorResult& floor, const Place& at, const Settings& s, See
   seen->radius_m = floor.roi_radius_m;
   seen->slope_level = larger(floor.roll_bound_rad.sum(), floor.pitch_bound_rad.sum()) +
                       s.protection_sigmas * larger(floor.roll_sigma_rad, floor.pitch_sigma_rad);
+  seen->rock_m = rock_length_m(seen->radius_m);
+  seen->waves[0] = floor.roll_waves_rad;
+  seen->waves[1] = floor.pitch_waves_rad;
 }
 
 void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levelling, const Settings& s,
@@ -176,10 +178,19 @@ void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levellin
   seen->normal = R_run_level * wall.fit.plane.n;
   seen->along = R_run_level * wall.along_level;
   const double here_m = seen->along.dot(at.position_m);
-  seen->from_m = here_m + wall.along_min_m;
-  seen->to_m = here_m + wall.along_max_m;
+  seen->from_m = here_m + wall.seen_min_m;
+  seen->to_m = here_m + wall.seen_max_m;
   seen->slope_level = wall.yaw_bound_rad.sum() + s.protection_sigmas * wall.yaw_sigma_rad +
                       s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
+  seen->rock_m = rock_length_m(0.5 * (wall.along_max_m - wall.along_min_m));
+  seen->waves[0] = wall.distance_waves_m;
+  seen->waves[1] = wall.yaw_waves_rad;
+}
+
+// Of values that are of the rock beside the machine: two such values at places far apart differ by the waves of both.
+double waves_variance(std::uint32_t quantity, const SeenSurface& surface, double new_rock) {
+  const double waves = surface.waves[quantity == POSE_WALL_PITCH || quantity == POSE_WALL_YAW ? 1 : 0];
+  return 2.0 * new_rock * waves * waves;
 }
 
 }  // namespace
@@ -221,11 +232,12 @@ bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
     change->carry[q] = change_between(q, from, to, memory.up, wall_normal, s, axes);
     change->by_way[q] = by_way(q, *surface, from, to, view.point_m(q), s, axes);
     change->growth[q] = response.level(drift) + change->by_way[q];
-    change->new_rock[q] = 1.0 - exponential(-way_m / rock_length_m(q, *surface));
+    change->new_rock[q] = 1.0 - exponential(-way_m / surface->rock_m);
     change->by_places[q] = true;
     change->place_level_before[q] = memory.place_level[q];
     change->place_level[q] = level;
-    change->drift2[q] = s.protection_sigmas * s.protection_sigmas * response.variance(variance);
+    const double unknown = response.variance(variance) + waves_variance(q, *surface, change->new_rock[q]);
+    change->drift2[q] = s.protection_sigmas * s.protection_sigmas * unknown;
   }
   return true;
 }

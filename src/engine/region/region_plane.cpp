@@ -52,6 +52,10 @@ double off(const RegionCell& c, const Eigen::Vector3d& plane) {
   return (c.h - plane.dot(row_of(c))) / kWidth_m;
 }
 
+double first_off(const RegionCell& c, const Eigen::Vector3d& plane) {
+  return (c.first_h - plane.dot(row_of(c))) / kWidth_m;
+}
+
 bool is_singular(const Eigen::Matrix3d& A) {
   return !(A.determinant() > kSingular * A(0, 0) * A(1, 1) * A(2, 2));
 }
@@ -348,7 +352,8 @@ double RegionFit::step_at(double u_m, const Eigen::Vector3d& plane) const {
   double count = 0.0, weights = 0.0, sum_m = 0.0;
   for (const RegionCell& c : cells_.all()) {
     if (!c.seen || !c.inside || std::fabs(c.u - u_m) > kAbout_m) continue;
-    const double t = c.open ? kMost_m / kWidth_m : off(c, plane), weight = weight_of(t);
+    // Where rays pass beside a pillar, what they meet behind it may be more.
+    const double t = c.open ? kMost_m / kWidth_m : first_off(c, plane), weight = weight_of(t);
     const double off_m = std::fabs(kWidth_m * t);
     count += 1.0;
     weights += weight;

@@ -46,16 +46,18 @@ Region region_of(const WallScene& scene, int side, const JudgedWall& endless) {
   return region;
 }
 
-// Pipes one above the other, all along the wall.
+// Pipes one above the other, all along the region. Further along an uncertain direction takes its plane off the wall:
+// there the endless wall tells.
 bool is_grooved(const WallScene& scene, const Plane& plane, const Eigen::Vector3d& along_level) {
   constexpr float kNear_m = 0.3F;  // twice the formula's width
-  GrooveProfile profile(scene.z_min_level_m, scene.z_max_level_m, along_level.dot(scene.sensor_level_m));
+  GrooveProfile profile(scene.z_min_level_m, scene.z_max_level_m, 0.0);
   const Eigen::Vector3f n = plane.n.cast<float>(), along = along_level.cast<float>();
   const auto d = static_cast<float>(plane.d);
   for_each_four_points(
       scene.band_level, [&](std::uint32_t, FourFloats x, FourFloats y, FourFloats z, FourTruths counts) {
-        const FourFloats off = n.x() * x + n.y() * y + n.z() * z + d;
-        profile.add(along.x() * x + along.y() * y, z, off, counts & (magnitude_of(off) < all_four(kNear_m)));
+        const FourFloats off = n.x() * x + n.y() * y + n.z() * z + d, u = along.x() * x + along.y() * y;
+        const FourTruths inside = magnitude_of(u) < all_four(static_cast<float>(kAlong_m));
+        profile.add(u, z, off, counts & inside & (magnitude_of(off) < all_four(kNear_m)));
       });
   return profile.is_grooved();
 }
@@ -63,7 +65,8 @@ bool is_grooved(const WallScene& scene, const Plane& plane, const Eigen::Vector3
 // A thing that hides the wall is none. The gates are those of an endless plane, but for rays through gaps: an opening
 // is no wall and weighs little in the region's plane. A row of props has gaps that show nothing, so what is seen
 // through lowers the region's weight.
-bool is_wall(const WallScene& scene, const JudgedWall& wall, WallsScratch* scratch, RegionPlane* region) {
+bool is_wall(const WallScene& scene, const JudgedWall& wall, const JudgedWall& endless, WallsScratch* scratch,
+             RegionPlane* region) {
   POSE_WALL_NOTE(const trace::Silence silence);  // a plane that fails is not taken, and its gates stop nothing else
   const Settings& s = scene.settings;
   Verdict verdict;
@@ -73,7 +76,7 @@ bool is_wall(const WallScene& scene, const JudgedWall& wall, WallsScratch* scrat
   demand<gate::WALL_YAW>(&verdict, std::fabs(wall.yaw_rad), s);
   if (verdict.refused) return false;
   const Plane& plane = wall.fit.plane;
-  demand<gate::WALL_GROOVES>(&verdict, !is_grooved(scene, plane, wall.along_level));
+  demand<gate::WALL_GROOVES>(&verdict, !endless.grooved && !is_grooved(scene, plane, wall.along_level));
   scratch->fit.work.add(steps::kWallLookedAt);
   scratch->fit.work.add(scene.band_level.count, steps::kPointLookedAt);
   const WallSight sight = look_at(scene, plane, wall.along_level, kWellBehind_m, &scratch->sight);
@@ -144,8 +147,8 @@ JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPla
   wall.along_level = along_of(wall.fit.plane, scene.forward_level);
   wall.lean_rad = lean_of(wall.fit.plane);
   wall.area_m2 = found.area_m2;
-  wall.along_min_m = -kAlong_m;
-  wall.along_max_m = kAlong_m;
+  wall.along_min_m = wall.seen_min_m = -kAlong_m;
+  wall.along_max_m = wall.seen_max_m = kAlong_m;
   wall.yaw_rad = yaw_of(wall.along_level, scene.forward_level);
   wall.yaw_sigma_rad = found.sigma(of_yaw(found.at));
   wall.yaw_bound_rad = found.bound(of_yaw(found.at), s.range_bias_max);
@@ -184,13 +187,15 @@ RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless,
     out.wall.extrapolated[end] = step_m > 0.0;
     out.wall.distance_bound_m[end][POSE_WALL_PART_EXTRAPOLATION] += step_m;
   }
-  if (!is_wall(scene, out.wall, scratch, &found)) return out;
+  if (!is_wall(scene, out.wall, *endless, scratch, &found)) return out;
   out.kind = found.is_there() ? Kind::kWall : Kind::kDoubtful;
-  out.yaw_waves_rad = found.sigma_about_endless(of_yaw(found.at));
+  endless->yaw_waves_rad = out.wall.yaw_waves_rad = found.sigma_about_endless(of_yaw(found.at));
   for (int end = 0; end < 2; ++end) {
-    const Eigen::Vector3d of = of_distance(scene, region, found.at, side, end);
-    widen(found.sigma_about_endless(of), &endless->distance_sigma_m[end]);
+    const double waves_m = found.sigma_about_endless(of_distance(scene, region, found.at, side, end));
+    widen(waves_m, &endless->distance_sigma_m[end]);
+    out.wall.distance_waves_m = larger(out.wall.distance_waves_m, waves_m);
   }
+  endless->distance_waves_m = out.wall.distance_waves_m;
   return out;
 }
 
@@ -199,19 +204,25 @@ void choose(const RegionWall& region, const Settings& s, JudgedWall* wall) {
   if (!region.has_plane()) return;
   if (region.kind == RegionWall::Kind::kDoubtful) {
     if (!wall->fit.refused) reach_to(region.wall, s, wall);
-  } else if (wall->fit.refused || !agree(*wall, region.wall, s) || worse_of(region.wall, s) < worse_of(*wall, s)) {
-    *wall = region.wall;
-    POSE_WALL_NOTE(trace::answered(POSE_WALL_TRACE_REFUSES));
+    return;
   }
+  const JudgedWall endless = *wall;
+  const bool is_same = !endless.fit.refused && agree(endless, region.wall, s);
+  if (is_same && !(worse_of(region.wall, s) < worse_of(endless, s))) return;
+  *wall = region.wall;
+  POSE_WALL_NOTE(trace::answered(POSE_WALL_TRACE_REFUSES));
+  if (!is_same) return;
+  wall->seen_min_m = -larger(-wall->seen_min_m, -endless.seen_min_m);
+  wall->seen_max_m = larger(wall->seen_max_m, endless.seen_max_m);
 }
 
 // Endless walls tell the direction of the regions' as well as their waves allow, on an unknown side those of the other.
 // By the definition a side that is none tells nothing where the other one is a wall.
 void let_direct(const RegionWall& region, const RegionWall& other, JudgedWall* endless) {
   if (region.has_plane()) {
-    widen(region.yaw_waves_rad, &endless->yaw_sigma_rad);
+    widen(region.wall.yaw_waves_rad, &endless->yaw_sigma_rad);
   } else if (other.has_plane()) {
-    widen(other.yaw_waves_rad, &endless->yaw_sigma_rad);
+    widen(other.wall.yaw_waves_rad, &endless->yaw_sigma_rad);
     if (region.kind == RegionWall::Kind::kNone) endless->fit.refused = true;
   }
 }

@@ -38,6 +38,12 @@ struct FittedWall {
   Eigen::Vector3d at_sample[2];  // of the plane's errors: 1, u, v
   double along_min_m = 0.0;
   double along_max_m = 0.0;
+  // The stretch in which it was seen: of a region's wall, as far as the endless one goes on.
+  double seen_min_m = 0.0;
+  double seen_max_m = 0.0;
+  // By which other rock beside the machine turns and shifts it: standard deviations. None of an endless wall.
+  double yaw_waves_rad = 0.0;
+  double distance_waves_m = 0.0;
   double area_m2 = 0.0;
   bool straight = false;  // over its height, as far as it shows: its long waves are no bend
   bool grooved = false;   // its surface lies in two depths along its length, like pipes one above the other
@@ -73,8 +79,7 @@ struct JudgedWall : FittedWall {
 struct RegionWall {
   enum class Kind { kUnknown, kNone, kDoubtful, kWall };
   Kind kind = Kind::kUnknown;
-  JudgedWall wall;             // of a wall, and of a doubtful one
-  double yaw_waves_rad = 0.0;  // how its waves turn it about an endless wall: standard deviation
+  JudgedWall wall;  // of a wall, and of a doubtful one
 
   bool is_known() const { return kind != Kind::kUnknown; }
   bool is_sure() const { return kind == Kind::kNone || kind == Kind::kWall; }

@@ -14,8 +14,15 @@
 namespace pose_wall::planar {
 namespace {
 
-constexpr double kEndless_m = 1e6;   // longer than any range, and a float
-constexpr double kTiltSigmas = 3.0;  // the floor's tilt is within so many of its standard deviations
+constexpr double kEndless_m = 1e6;  // longer than any range, and a float
+// The floor's tilt is within so many of its standard deviations, where its protection level is within a degree, the
+// engine's alert limit. Beyond, other readings of the floor weigh more than noise, and the whole level counts: heights
+// are then less sure the further away, and fewer beams know a thing from the ground.
+constexpr double kTiltSigmas = 3.0, kByNoise_rad = 0.0175;
+
+double tilt_of(const pose_wall_planar_floor& floor) {
+  return floor.tilt_level_rad > kByNoise_rad ? floor.tilt_level_rad : kTiltSigmas * floor.tilt_sigma_rad;
+}
 
 }  // namespace
 
@@ -70,7 +77,7 @@ std::uint32_t Scanner::take_floor(const pose_wall_planar_floor* floor, std::int6
     floor_.R_level_base = level_rotation(up);
     floor_.base_height_m = floor->height_m;
     floor_.reach_m = floor->reach_m < kEndless_m ? floor->reach_m : kEndless_m;
-    tilt_measured_rad_ = floor_.tilt_rad = kTiltSigmas * floor->tilt_sigma_rad;
+    tilt_measured_rad_ = floor_.tilt_rad = tilt_of(*floor);
     floor_stamp_ns_ = stamp_ns;
     has_floor_ = true;
     return POSE_WALL_PLANAR_FLOOR_MEASURED;

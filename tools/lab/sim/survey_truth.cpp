@@ -36,7 +36,7 @@ double height_over(const Plane3& plane, const Probe& p) {
 struct Weighted {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  double weights = 0.0, loss = 0.0;
+  double weights = 0.0;
 
   void add(const Probe& p, double weight) {
     const Plane3 row(1.0, p.a, p.b);
@@ -51,21 +51,29 @@ struct Settled {
   double near = 0.0, loss = 0.0;  // sums of weights and of log(1 + (h / c)²)
 };
 
+// In widths of the formula, with its factor before the plane.
+double square_of(double t) {
+  return (t < 0.0 ? kBefore : 1.0) * t * t;
+}
+
+double loss_of(const Plane3& plane, const std::vector<Probe>& probes) {
+  double loss = 0.0;
+  for (const Probe& p : probes) loss += std::log1p(square_of(height_over(plane, p) / kWidth_m));
+  return loss;
+}
+
 // Narrows c step by step, so that no start decides alone (graduated non-convexity: Blake and Zisserman 1987).
 std::optional<Settled> settle(const std::vector<Probe>& probes, Plane3 plane, double c_m) {
   for (int round = 0; round < kRounds; ++round) {
     Weighted sums;
     for (const Probe& p : probes) {
-      const double t = height_over(plane, p) / c_m;
-      const double before = t < 0.0 ? kBefore : 1.0;
-      sums.add(p, 1.0 / (1.0 + before * t * t));
-      sums.loss += std::log1p(before * t * t);
+      sums.add(p, 1.0 / (1.0 + square_of(height_over(plane, p) / c_m)));
     }
     const Plane3 before = plane;
     plane = sums.A.ldlt().solve(sums.b);
     if (!plane.allFinite()) return std::nullopt;
     if (c_m == kWidth_m && ((plane - before).norm() < kSettled_m || round + 1 == kRounds))
-      return Settled{plane, sums.weights, sums.loss};
+      return Settled{plane, sums.weights, loss_of(before, probes)};
     c_m = std::max(c_m * kNarrower, kWidth_m);
   }
   return std::nullopt;

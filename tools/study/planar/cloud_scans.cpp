@@ -29,6 +29,13 @@ bool is_motion_on(const LoadedConfig& loaded) {
          std::strcmp(motion, "on") == 0;
 }
 
+// A scan reaches further than the ground beside the machine, whose own waves would tilt its heights from frame to
+// frame.
+LoadedConfig with_floor_in_view(LoadedConfig loaded) {
+  require_ok(pose_wall_config_set(loaded.config.get(), "region", "off"), translatable("the settings of the scan"));
+  return loaded;
+}
+
 // Seconds with all digits.
 std::string seconds_of(std::int64_t stamp_ns) {
   constexpr std::int64_t kNsPerS = 1'000'000'000;
@@ -75,7 +82,7 @@ pose_wall_planar_scanner_settings take_scanner_settings(std::vector<std::string>
 }
 
 CloudScans::CloudScans(const FrameOptions& options, const pose_wall_planar_scanner_settings& settings)
-    : CloudScans(options, settings, options.load()) {}
+    : CloudScans(options, settings, with_floor_in_view(options.load())) {}
 
 CloudScans::CloudScans(const FrameOptions& options, const pose_wall_planar_scanner_settings& settings,
                        LoadedConfig loaded)

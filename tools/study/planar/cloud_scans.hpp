@@ -31,8 +31,9 @@ std::optional<pose_wall_planar_pose> plane_odometry(const pose_wall_motion_resul
 
 class CloudScans : public ScanSource {
  public:
-  // Settings of the engine are those of the options. With the key `motion` on, each scan has the motion's pose as its
-  // odometry. Throws ConfigError, std::invalid_argument, PlanarError.
+  // Settings of the engine are those of the options; its floor is all floor in view, whatever the key region. With the
+  // key `motion` on, each scan has the motion's pose as its odometry. Throws ConfigError, std::invalid_argument,
+  // PlanarError.
   CloudScans(const FrameOptions& options, const pose_wall_planar_scanner_settings& settings);
 
   std::optional<SourcedScan> next() override;
