@@ -76,7 +76,7 @@ TEST(ScanScanner, AFloorThatIsTooUncertainDoesNotCount) {
   const SeenScene seen = seen_road();
   ScannerUnderTest scanner(config_with());
   pose_wall_planar_floor floor = level_floor();
-  floor.tilt_level_rad = 0.05;
+  floor.tilt_level_rad = 0.051;
   scanner.process(cloud_of(seen.points, 0), &floor);
   EXPECT_EQ(scanner.view().floor_state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_FLOOR_NONE));
   floor.tilt_level_rad = 0.01;
@@ -85,6 +85,20 @@ TEST(ScanScanner, AFloorThatIsTooUncertainDoesNotCount) {
   EXPECT_EQ(pose_wall_planar_scanner_reset(scanner.get()), POSE_WALL_OK);
   scanner.process(cloud_of(seen.points, 2), nullptr);
   EXPECT_EQ(scanner.view().floor_state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_FLOOR_NONE));
+}
+
+// Beyond a degree the whole level counts as tilt, and a better floor of a moment ago is kept.
+TEST(ScanScanner, AnUncertainFloorCountsWithItsWholeLevel) {
+  const SeenScene seen = seen_road();
+  ScannerUnderTest sure(config_with()), unsure(config_with());
+  pose_wall_planar_floor floor = level_floor();
+  sure.process(cloud_of(seen.points, 0), &floor);
+  floor.tilt_level_rad = 0.03;
+  unsure.process(cloud_of(seen.points, 0), &floor);
+  EXPECT_EQ(unsure.view().floor_state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_FLOOR_MEASURED));
+  EXPECT_LT(unsure.view().low_reach_m, sure.view().low_reach_m);
+  sure.process(cloud_of(seen.points, 1), &floor);
+  EXPECT_EQ(sure.view().floor_state, static_cast<std::uint32_t>(POSE_WALL_PLANAR_FLOOR_HELD));
 }
 
 TEST(ScanScanner, ARefusedCallChangesNothing) {

@@ -16,7 +16,7 @@ struct FloorResult {
   PlaneFit fit;
   double roll_sigma_rad = 0.0;
   double pitch_sigma_rad = 0.0;
-  // By which other rock beside the machine moves the two: standard deviations. None of an endless floor.
+  // By which other rock beside the machine moves the two: standard deviations. None without a region's plane.
   double roll_waves_rad = 0.0;
   double pitch_waves_rad = 0.0;
   // Systematic part of the protection level: range bias, unevenness, rival floors, walls that lean.

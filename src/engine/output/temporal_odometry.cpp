@@ -174,22 +174,25 @@ void see_floor(const FloorResult& floor, const Place& at, const Settings& s, See
 void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levelling, const Settings& s,
               SeenSurface* seen) {
   const Eigen::Matrix3d R_run_level = at.R * levelling.R_level_base.transpose();
+  const WallAhead ahead = ahead_of(wall, s);
   seen->exists = true;
-  seen->normal = R_run_level * wall.fit.plane.n;
-  seen->along = R_run_level * wall.along_level;
+  seen->normal = R_run_level * ahead.normal_level;
+  seen->along = R_run_level * ahead.along_level;
   const double here_m = seen->along.dot(at.position_m);
-  seen->from_m = here_m + wall.seen_min_m;
-  seen->to_m = here_m + wall.seen_max_m;
-  seen->slope_level = wall.yaw_bound_rad.sum() + s.protection_sigmas * wall.yaw_sigma_rad +
-                      s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
+  seen->from_m = here_m + ahead.from_m;
+  seen->to_m = here_m + ahead.to_m;
+  seen->slope_level = ahead.slope_level;
   seen->rock_m = rock_length_m(0.5 * (wall.along_max_m - wall.along_min_m));
   seen->waves[0] = wall.distance_waves_m;
   seen->waves[1] = wall.yaw_waves_rad;
 }
 
 // Of values that are of the rock beside the machine: two such values at places far apart differ by the waves of both.
-double waves_variance(std::uint32_t quantity, const SeenSurface& surface, double new_rock) {
-  const double waves = surface.waves[quantity == POSE_WALL_PITCH || quantity == POSE_WALL_YAW ? 1 : 0];
+// Yaw is of both walls, whichever is remembered for it.
+double waves_variance(std::uint32_t quantity, const SeenSurface& surface, const OdometryMemory& memory,
+                      double new_rock) {
+  double waves = surface.waves[quantity == POSE_WALL_PITCH || quantity == POSE_WALL_YAW ? 1 : 0];
+  if (quantity == POSE_WALL_YAW) waves = larger(memory.wall[0].waves[1], memory.wall[1].waves[1]);
   return 2.0 * new_rock * waves * waves;
 }
 
@@ -236,7 +239,7 @@ bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
     change->by_places[q] = true;
     change->place_level_before[q] = memory.place_level[q];
     change->place_level[q] = level;
-    const double unknown = response.variance(variance) + waves_variance(q, *surface, change->new_rock[q]);
+    const double unknown = response.variance(variance) + waves_variance(q, *surface, memory, change->new_rock[q]);
     change->drift2[q] = s.protection_sigmas * s.protection_sigmas * unknown;
   }
   return true;

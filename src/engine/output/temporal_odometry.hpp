@@ -29,7 +29,7 @@ struct SeenSurface {
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  // of a floor, with the radius within which it was seen
   double radius_m = 0.0;
   double slope_level = 0.0;  // level of its direction: rad, or metres a metre
-  double rock_m = 1.0;       // after such a way a third of the rock beside the machine is still that of then
+  double rock_m = 1.0;       // after such a way a third of the rock behind a value is still that of then
   // By which other rock moves the values: of a floor roll and pitch, of a wall distance and yaw. Standard deviations.
   double waves[2] = {0.0, 0.0};
 };

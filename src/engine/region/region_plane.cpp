@@ -352,9 +352,10 @@ double RegionFit::step_at(double u_m, const Eigen::Vector3d& plane) const {
   double count = 0.0, weights = 0.0, sum_m = 0.0;
   for (const RegionCell& c : cells_.all()) {
     if (!c.seen || !c.inside || std::fabs(c.u - u_m) > kAbout_m) continue;
-    // Where rays pass beside a pillar, what they meet behind it may be more.
-    const double t = c.open ? kMost_m / kWidth_m : first_off(c, plane), weight = weight_of(t);
-    const double off_m = std::fabs(kWidth_m * t);
+    // Rays that pass beside a pillar may meet more behind it, and a mesh hangs before a void: the worse layer counts.
+    double t = c.open ? kMost_m / kWidth_m : off(c, plane);
+    if (!c.open && weight_of(first_off(c, plane)) < weight_of(t)) t = first_off(c, plane);
+    const double weight = weight_of(t), off_m = std::fabs(kWidth_m * t);
     count += 1.0;
     weights += weight;
     sum_m += (1.0 - weight) * (off_m < kMost_m ? off_m : kMost_m);

@@ -147,8 +147,8 @@ JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPla
   wall.along_level = along_of(wall.fit.plane, scene.forward_level);
   wall.lean_rad = lean_of(wall.fit.plane);
   wall.area_m2 = found.area_m2;
-  wall.along_min_m = wall.seen_min_m = -kAlong_m;
-  wall.along_max_m = wall.seen_max_m = kAlong_m;
+  wall.along_min_m = -kAlong_m;
+  wall.along_max_m = kAlong_m;
   wall.yaw_rad = yaw_of(wall.along_level, scene.forward_level);
   wall.yaw_sigma_rad = found.sigma(of_yaw(found.at));
   wall.yaw_bound_rad = found.bound(of_yaw(found.at), s.range_bias_max);
@@ -206,14 +206,12 @@ void choose(const RegionWall& region, const Settings& s, JudgedWall* wall) {
     if (!wall->fit.refused) reach_to(region.wall, s, wall);
     return;
   }
-  const JudgedWall endless = *wall;
-  const bool is_same = !endless.fit.refused && agree(endless, region.wall, s);
-  if (is_same && !(worse_of(region.wall, s) < worse_of(endless, s))) return;
+  const bool is_same = !wall->fit.refused && agree(*wall, region.wall, s);
+  if (is_same && !(worse_of(region.wall, s) < worse_of(*wall, s))) return;
+  const WallAhead ahead = is_same ? ahead_of(*wall, s) : WallAhead{};
   *wall = region.wall;
+  wall->ahead = ahead;
   POSE_WALL_NOTE(trace::answered(POSE_WALL_TRACE_REFUSES));
-  if (!is_same) return;
-  wall->seen_min_m = -larger(-wall->seen_min_m, -endless.seen_min_m);
-  wall->seen_max_m = larger(wall->seen_max_m, endless.seen_max_m);
 }
 
 // Endless walls tell the direction of the regions' as well as their waves allow, on an unknown side those of the other.

@@ -6,9 +6,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "base/estimation/patch_fit.hpp"
 #include "base/math/finite.hpp"
+#include "engine/config.hpp"
 #include "engine/types.hpp"
 
 namespace pose_wall {
@@ -38,10 +40,8 @@ struct FittedWall {
   Eigen::Vector3d at_sample[2];  // of the plane's errors: 1, u, v
   double along_min_m = 0.0;
   double along_max_m = 0.0;
-  // The stretch in which it was seen: of a region's wall, as far as the endless one goes on.
-  double seen_min_m = 0.0;
-  double seen_max_m = 0.0;
-  // By which other rock beside the machine turns and shifts it: standard deviations. None of an endless wall.
+  // By which other rock beside the machine turns and shifts what is measured there: standard deviations. None without a
+  // region's plane.
   double yaw_waves_rad = 0.0;
   double distance_waves_m = 0.0;
   double area_m2 = 0.0;
@@ -57,8 +57,17 @@ struct Doubt : Verdict {
   bool may_be_no_wall = false;    // but a curtain, a vehicle or pipes: the direction is then that of a thing
 };
 
+// How a wall goes on along the road.
+struct WallAhead {
+  bool exists = false;  // else as it is itself
+  Eigen::Vector3d normal_level = Eigen::Vector3d::UnitY(), along_level = Eigen::Vector3d::UnitX();
+  double from_m = 0.0, to_m = 0.0;  // the stretch in which it was seen
+  double slope_level = 0.0;         // of its direction
+};
+
 // The wall with all doubts in its bounds.
 struct JudgedWall : FittedWall {
+  WallAhead ahead;                // of a region's wall, as the endless one of the same surface
   double yaw_to_rival_rad = 0.0;  // if its rival is the wall, or the road bends before it
   bool may_be_no_wall = false;    // but a curtain, a vehicle or pipes
 
@@ -73,6 +82,13 @@ struct JudgedWall : FittedWall {
     may_be_no_wall = may_be_no_wall || doubt.may_be_no_wall;
   }
 };
+
+inline WallAhead ahead_of(const JudgedWall& wall, const Settings& s) {
+  if (wall.ahead.exists) return wall.ahead;
+  const double slope_level = wall.yaw_bound_rad.sum() + s.protection_sigmas * wall.yaw_sigma_rad +
+                             s.range_bias_max * std::fabs(wall.yaw_bias_rad_per_m);
+  return {true, wall.fit.plane.n, wall.along_level, wall.along_min_m, wall.along_max_m, slope_level};
+}
 
 // What the region beside the machine shows of a side (walls/region). Of a doubtful wall most or little less may be
 // none.

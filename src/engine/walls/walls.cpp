@@ -35,8 +35,8 @@ FittedWall fit_wall(const WallScene& scene, const WallCandidate& chosen, int sid
   work.add(scene.band_level.count, steps::kPointLookedAt);
   FittedWall wall = measure_wall(scene, surface, side, scratch->grid, &scratch->errors[side]);
   wall.area_m2 = chosen.evidence.area_m2;
-  wall.along_min_m = wall.seen_min_m = chosen.evidence.along_min_m;
-  wall.along_max_m = wall.seen_max_m = chosen.evidence.along_max_m;
+  wall.along_min_m = chosen.evidence.along_min_m;
+  wall.along_max_m = chosen.evidence.along_max_m;
   return wall;
 }
 

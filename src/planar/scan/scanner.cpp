@@ -16,12 +16,13 @@ namespace {
 
 constexpr double kEndless_m = 1e6;  // longer than any range, and a float
 // The floor's tilt is within so many of its standard deviations, where its protection level is within a degree, the
-// engine's alert limit. Beyond, other readings of the floor weigh more than noise, and the whole level counts: heights
-// are then less sure the further away, and fewer beams know a thing from the ground.
+// default of the engine's alert limit. Beyond, other readings of the floor weigh more than noise, and the whole level
+// counts: heights are then less sure the further away, and fewer beams know a thing from the ground.
 constexpr double kTiltSigmas = 3.0, kByNoise_rad = 0.0175;
 
 double tilt_of(const pose_wall_planar_floor& floor) {
-  return floor.tilt_level_rad > kByNoise_rad ? floor.tilt_level_rad : kTiltSigmas * floor.tilt_sigma_rad;
+  const double by_noise_rad = kTiltSigmas * floor.tilt_sigma_rad;
+  return floor.tilt_level_rad > kByNoise_rad ? larger(floor.tilt_level_rad, by_noise_rad) : by_noise_rad;
 }
 
 }  // namespace
@@ -72,7 +73,13 @@ void Scanner::process(const pose_wall_cloud& cloud, const pose_wall_planar_floor
 
 std::uint32_t Scanner::take_floor(const pose_wall_planar_floor* floor, std::int64_t stamp_ns) {
   const bool counts = floor != nullptr && floor->measured != 0 && floor->tilt_level_rad <= settings_.tilt_level_max_rad;
-  if (counts) {
+  // By unsigned numbers: stamps may be anything, and what went back is as old as can be.
+  const std::uint64_t age_ns = static_cast<std::uint64_t>(stamp_ns) - static_cast<std::uint64_t>(floor_stamp_ns_);
+  const double age_s = static_cast<double>(age_ns) * kNanosecond_s;
+  const bool can_hold = has_floor_ && age_s <= settings_.hold_max_s;
+  const double held_rad = tilt_measured_rad_ + settings_.hold_rate_rad_s * age_s;
+  const bool held_is_better = can_hold && counts && floor->tilt_level_rad > kByNoise_rad && held_rad < tilt_of(*floor);
+  if (counts && !held_is_better) {
     const Eigen::Vector3d up(floor->normal[0], floor->normal[1], floor->normal[2]);
     floor_.R_level_base = level_rotation(up);
     floor_.base_height_m = floor->height_m;
@@ -82,14 +89,11 @@ std::uint32_t Scanner::take_floor(const pose_wall_planar_floor* floor, std::int6
     has_floor_ = true;
     return POSE_WALL_PLANAR_FLOOR_MEASURED;
   }
-  // By unsigned numbers: stamps may be anything, and what went back is as old as can be.
-  const std::uint64_t age_ns = static_cast<std::uint64_t>(stamp_ns) - static_cast<std::uint64_t>(floor_stamp_ns_);
-  const double age_s = static_cast<double>(age_ns) * kNanosecond_s;
-  if (!(has_floor_ && age_s <= settings_.hold_max_s)) {
+  if (!can_hold) {
     has_floor_ = false;
     return POSE_WALL_PLANAR_FLOOR_NONE;
   }
-  floor_.tilt_rad = tilt_measured_rad_ + settings_.hold_rate_rad_s * age_s;
+  floor_.tilt_rad = held_rad;
   return POSE_WALL_PLANAR_FLOOR_HELD;
 }
 
