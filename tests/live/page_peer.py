@@ -492,6 +492,12 @@ return out;""")
             touch("touchMove", (x, y + 60 - 10 * step))
         touch("touchEnd")
         self.assertTrue(live_peer.becomes_true(lambda: scrolled() > before[2] + 40), "a swipe scrolls the page")
+
+        def rests():
+            here = scrolled()
+            time.sleep(0.3)
+            return scrolled() == here
+        self.assertTrue(live_peer.becomes_true(rests), "the page comes to rest")
         self.assertEqual((metres(), centre()), before[:2], "and leaves the picture")
         y -= scrolled() - before[2]
         before = (metres(), centre(), scrolled())
