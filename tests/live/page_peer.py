@@ -499,8 +499,10 @@ return out;""")
             return scrolled() == here
         self.assertTrue(live_peer.becomes_true(rests), "the page comes to rest")
         self.assertEqual((metres(), centre()), before[:2], "and leaves the picture")
-        y -= scrolled() - before[2]
-        before = (metres(), centre(), scrolled())
+        # Where the picture is on the screen: a text above it may grow meanwhile, and the browser scrolls by as much.
+        top = lambda: browser.run("return document.getElementById('top').getBoundingClientRect().top")
+        y = top() + box[3] / 2
+        before = (metres(), centre(), top())
         touch("touchStart", (x - 20, y))
         touch("touchStart", (x - 20, y), (x + 20, y))
         for step in range(1, 11):
@@ -508,7 +510,7 @@ return out;""")
         touch("touchEnd")
         self.assertAlmostEqual(metres(), before[0] / 3, delta=0.1 * before[0], msg="two fingers zoom")
         self.assertNotEqual(centre(), before[1], "and move")
-        self.assertEqual(scrolled(), before[2], "and leave the page")
+        self.assertAlmostEqual(top(), before[2], delta=1, msg="and leave the page")
 
     def test_nothing_is_cut_on_small_screens(self):
         for width in (390, 768, 1280):
