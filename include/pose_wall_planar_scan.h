@@ -53,8 +53,9 @@
  *           has it either way, and behind_m the next return. Nothing is dropped.
  * FLOOR     the frame's floor counts if its level of tilt is within tilt_level_max_rad. Up to one degree its tilt may
  *           be off by three standard deviations, beyond by the whole level: then beams know a thing from the ground
- *           less far. Otherwise the last one is held for hold_max_s of the stamps, its tilt growing by the config's
- *           hold_rate_angle. After that every beam is unknown.
+ *           less far. Without such a floor, or where that is better than this one of more than a degree, the last one
+ *           is held for hold_max_s of the stamps, its tilt growing by the config's hold_rate_angle. After that every
+ *           beam is unknown.
  * CONFIG    of pose_wall_config: the extrinsic, range_min, body_box_1 to 4 (and body_box of cloud.inputs), range_noise,
  *           hold_rate_angle. A ray that ends on the machine itself shows nothing.
  * LIMITS    the floor is one plane: where the ground rises further than HEIGHTS allows for, it is a thing. The motion

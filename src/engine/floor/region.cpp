@@ -63,7 +63,7 @@ void widen_by_waves(const Region& region, const RegionPlane& found, FloorResult*
   const RollPitchGradients gradients(floor->fit.plane.n);
   const auto widen = [&](const Eigen::Vector3d& gradient, double* sigma_rad, double* waves_rad) {
     *waves_rad = found.sigma_about_endless(of(gradient, region));
-    *sigma_rad = std::sqrt(*sigma_rad * *sigma_rad + *waves_rad * *waves_rad);
+    *sigma_rad = with_waves(*sigma_rad, *waves_rad);
   };
   widen(gradients.roll, &floor->roll_sigma_rad, &floor->roll_waves_rad);
   widen(gradients.pitch, &floor->pitch_sigma_rad, &floor->pitch_waves_rad);

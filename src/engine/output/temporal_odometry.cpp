@@ -187,13 +187,10 @@ void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levellin
   seen->waves[1] = wall.yaw_waves_rad;
 }
 
-// Of values that are of the rock beside the machine: two such values at places far apart differ by the waves of both.
-// Yaw is of both walls, whichever is remembered for it.
-double waves_variance(std::uint32_t quantity, const SeenSurface& surface, const OdometryMemory& memory,
-                      double new_rock) {
-  double waves = surface.waves[quantity == POSE_WALL_PITCH || quantity == POSE_WALL_YAW ? 1 : 0];
-  if (quantity == POSE_WALL_YAW) waves = larger(memory.wall[0].waves[1], memory.wall[1].waves[1]);
-  return 2.0 * new_rock * waves * waves;
+// By which other rock moves a value. Yaw is of both walls, whichever is remembered for it.
+double waves_of(std::uint32_t quantity, const SeenSurface& surface, const OdometryMemory& memory) {
+  if (quantity == POSE_WALL_YAW) return larger(memory.wall[0].waves[1], memory.wall[1].waves[1]);
+  return surface.waves[quantity == POSE_WALL_PITCH ? 1 : 0];
 }
 
 }  // namespace
@@ -239,7 +236,9 @@ bool change_by_odometry(const pose_wall_odometry& o, const OdometryMemory& memor
     change->by_places[q] = true;
     change->place_level_before[q] = memory.place_level[q];
     change->place_level[q] = level;
-    const double unknown = response.variance(variance) + waves_variance(q, *surface, memory, change->new_rock[q]);
+    // Values of the rock beside the machine differ by the waves of both places, where these are far apart.
+    const double waves = waves_of(q, *surface, memory);
+    const double unknown = response.variance(variance) + 2.0 * change->new_rock[q] * waves * waves;
     change->drift2[q] = s.protection_sigmas * s.protection_sigmas * unknown;
   }
   return true;

@@ -47,13 +47,13 @@ Eigen::Vector3d row_of(const RegionCell& c) {
   return {1.0, c.u, c.v};
 }
 
-// Behind the plane, in widths.
-double off(const RegionCell& c, const Eigen::Vector3d& plane) {
-  return (c.h - plane.dot(row_of(c))) / kWidth_m;
+// How far one of its layers lies behind the plane, in widths; by default that which most points lie in.
+double off(float layer_m, const RegionCell& c, const Eigen::Vector3d& plane) {
+  return (layer_m - plane.dot(row_of(c))) / kWidth_m;
 }
 
-double first_off(const RegionCell& c, const Eigen::Vector3d& plane) {
-  return (c.first_h - plane.dot(row_of(c))) / kWidth_m;
+double off(const RegionCell& c, const Eigen::Vector3d& plane) {
+  return off(c.h, c, plane);
 }
 
 bool is_singular(const Eigen::Matrix3d& A) {
@@ -353,8 +353,8 @@ double RegionFit::step_at(double u_m, const Eigen::Vector3d& plane) const {
   for (const RegionCell& c : cells_.all()) {
     if (!c.seen || !c.inside || std::fabs(c.u - u_m) > kAbout_m) continue;
     // Rays that pass beside a pillar may meet more behind it, and a mesh hangs before a void: the worse layer counts.
-    double t = c.open ? kMost_m / kWidth_m : off(c, plane);
-    if (!c.open && weight_of(first_off(c, plane)) < weight_of(t)) t = first_off(c, plane);
+    const double most = c.open ? kMost_m / kWidth_m : off(c, plane), first = c.open ? most : off(c.first_h, c, plane);
+    const double t = weight_of(first) < weight_of(most) ? first : most;
     const double weight = weight_of(t), off_m = std::fabs(kWidth_m * t);
     count += 1.0;
     weights += weight;

@@ -62,6 +62,11 @@ struct RegionPlane {
   std::uint32_t count_ = 0;
 };
 
+// Standard deviation of an endless plane as a region's, by sigma_about_endless().
+inline double with_waves(double sigma, double waves) {
+  return std::sqrt(sigma * sigma + waves * waves);
+}
+
 // A value, and what bounds its error.
 struct Known {
   double value, level;

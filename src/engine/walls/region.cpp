@@ -130,10 +130,6 @@ Eigen::Vector3d of_yaw(const Eigen::Vector3d& at) {
   return {0.0, 1.0 / (1.0 + at[1] * at[1]), 0.0};
 }
 
-void widen(double waves, double* sigma) {
-  *sigma = std::sqrt(*sigma * *sigma + waves * waves);
-}
-
 JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPlane& found, int side,
                    const JudgedWall& before) {
   const Settings& s = scene.settings;
@@ -192,7 +188,7 @@ RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless,
   endless->yaw_waves_rad = out.wall.yaw_waves_rad = found.sigma_about_endless(of_yaw(found.at));
   for (int end = 0; end < 2; ++end) {
     const double waves_m = found.sigma_about_endless(of_distance(scene, region, found.at, side, end));
-    widen(waves_m, &endless->distance_sigma_m[end]);
+    endless->distance_sigma_m[end] = with_waves(endless->distance_sigma_m[end], waves_m);
     out.wall.distance_waves_m = larger(out.wall.distance_waves_m, waves_m);
   }
   endless->distance_waves_m = out.wall.distance_waves_m;
@@ -218,9 +214,9 @@ void choose(const RegionWall& region, const Settings& s, JudgedWall* wall) {
 // By the definition a side that is none tells nothing where the other one is a wall.
 void let_direct(const RegionWall& region, const RegionWall& other, JudgedWall* endless) {
   if (region.has_plane()) {
-    widen(region.wall.yaw_waves_rad, &endless->yaw_sigma_rad);
+    endless->yaw_sigma_rad = with_waves(endless->yaw_sigma_rad, region.wall.yaw_waves_rad);
   } else if (other.has_plane()) {
-    widen(other.wall.yaw_waves_rad, &endless->yaw_sigma_rad);
+    endless->yaw_sigma_rad = with_waves(endless->yaw_sigma_rad, other.wall.yaw_waves_rad);
     if (region.kind == RegionWall::Kind::kNone) endless->fit.refused = true;
   }
 }
