@@ -124,8 +124,8 @@ POSE_WALL_WRAP(FloorResult, find_floor, (const FloorScene& scene, Random* random
     refuse(&r.fit, POSE_WALL_R_FLOOR_NOT_FOUND);
   }
   if (fails(Fault::kFloorNan)) {
-    r.roll_sigma_rad = r.pitch_sigma_rad = kNan;
-    r.roll_bound_rad[POSE_WALL_PART_BEND] = r.pitch_bound_rad[POSE_WALL_PART_BEND] = kNan;
+    r.roll.sigma_rad = r.pitch.sigma_rad = kNan;
+    r.roll.bound_rad[POSE_WALL_PART_BEND] = r.pitch.bound_rad[POSE_WALL_PART_BEND] = kNan;
   }
   if (fails(Fault::kFloorPlaneNan)) spoil(&r.fit.plane);
   return r;
@@ -318,9 +318,9 @@ POSE_WALL_WRAP(void, measure_wall_regions, (const WallScene& scene, WallsScratch
 
 POSE_WALL_WRAP_METHOD(RegionPlane, region_plane, RegionFit::fit,
                       (RegionFit * self, const BoundedPoints& points, const Region& region, const Settings& settings,
-                       UnevenPlane* waves, Work* work)) {
+                       UnevenPlane* waves, Work* work, const UnevenFit& endless, RegionPlane* by_endless)) {
   if (fails(Fault::kRegionsNotFound)) return {};
-  RegionPlane r = region_plane_for_real(self, points, region, settings, waves, work);
+  RegionPlane r = region_plane_for_real(self, points, region, settings, waves, work, endless, by_endless);
   if (fails(Fault::kRegionsNan)) r.at.fill(kNan);
   if (fails(Fault::kRegionsUnweighed)) r.near = kNan;
   if (fails(Fault::kRegionsNone)) r.near = 0.0;
@@ -337,9 +337,9 @@ POSE_WALL_WRAP_METHOD(double, region_step, RegionFit::step_at,
 
 POSE_WALL_WRAP_METHOD(PredictedPlane, region_waves, UnevenPlane::predict,
                       (UnevenPlane * self, Span<const SurfacePatch> patches, std::uint32_t seen,
-                       Span<const Eigen::Vector3d> responses, double sigmas)) {
+                       Span<const Eigen::Vector3d> responses, const UnevenFit& endless, double sigmas)) {
   if (fails(Fault::kRegionWavesUnsolved)) return {};
-  PredictedPlane r = region_waves_for_real(self, patches, seen, responses, sigmas);
+  PredictedPlane r = region_waves_for_real(self, patches, seen, responses, endless, sigmas);
   if (fails(Fault::kRegionWavesNan)) r.correction.fill(kNan);
   if (fails(Fault::kRegionWavesUnbounded)) r.covariance.fill(kNan);
   if (fails(Fault::kRegionTurnNan)) r.about_endless.fill(kNan);

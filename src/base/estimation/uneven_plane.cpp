@@ -40,14 +40,28 @@ double unevenness(Span<const SurfacePatch> patches) {
   return excess > 0.0 ? excess / information : 0.0;
 }
 
+// Variance of both slopes together.
+double slopes_of(const Eigen::Matrix3d& covariance) {
+  return covariance(1, 1) + covariance(2, 2);
+}
+
 }  // namespace
 
 struct UnevenPlane::Model {
   Eigen::Vector3d correction, bias_response;
   Eigen::Matrix3d covariance;
   double log_likelihood;
-  double scale;                   // of the variances
-  Eigen::Matrix3d about_endless;  // of predict()
+  double scale;  // of the variances
+  // Of predict(): the region's plane is of_seen + of_endless times the endless one, with what else is unknown.
+  Eigen::Vector3d of_seen, bias_of_seen;
+  Eigen::Matrix3d of_endless, unknown, about_endless;
+
+  template <typename EndlessPlane>
+  void stand_on(const EndlessPlane& endless) {
+    correction = of_seen + of_endless * endless.correction;
+    bias_response = bias_of_seen + of_endless * endless.bias_response;
+    covariance = unknown + of_endless * endless.covariance * of_endless.transpose();
+  }
 };
 
 // By the number of the model: without waves, then wave by wave.
@@ -60,7 +74,7 @@ struct UnevenPlane::Models {
     evidence.log_likelihood[number] = static_cast<float>(of[number].log_likelihood);
   }
   UnevenFit average(double freedom, double sigmas) const;
-  Eigen::Matrix3d about_endless() const;
+  Eigen::Matrix3d average(Eigen::Matrix3d Model::*of_model) const;
 };
 
 UnevenFit UnevenPlane::Models::average(double freedom, double sigmas) const {
@@ -73,7 +87,7 @@ UnevenFit UnevenPlane::Models::average(double freedom, double sigmas) const {
     out.correction += weights[k] * of[k].correction;
     out.bias_response += weights[k] * of[k].bias_response;
     out.covariance += weights[k] * of[k].covariance;
-    slopes[k] = of[k].covariance(1, 1) + of[k].covariance(2, 2);
+    slopes[k] = slopes_of(of[k].covariance);
   }
   for (std::uint32_t k = 0; k < kWaveModels; ++k) {
     if (!evidence.solved[k]) continue;
@@ -84,12 +98,12 @@ UnevenFit UnevenPlane::Models::average(double freedom, double sigmas) const {
   return out;
 }
 
-Eigen::Matrix3d UnevenPlane::Models::about_endless() const {
+Eigen::Matrix3d UnevenPlane::Models::average(Eigen::Matrix3d Model::*of_model) const {
   Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
   double weights[kWaveModels];
   if (!weigh_models(evidence, WaveEvidence{}, &weights)) return out;
   for (std::uint32_t k = 0; k < kWaveModels; ++k) {
-    if (evidence.solved[k]) out += weights[k] * of[k].about_endless;
+    if (evidence.solved[k]) out += weights[k] * of[k].*of_model;
   }
   return out;
 }
@@ -413,25 +427,26 @@ void UnevenPlane::complete(Span<const SurfacePatch> patches, std::uint32_t seen,
                            const std::uint32_t* wave, double tau2, Model* model) {
   model->about_endless = model->scale * passed_on(wave, tau2, responses);
   pass_on(seen, responses, wave);
-  Eigen::Matrix3d unknown = Eigen::Matrix3d::Zero(), by_plane = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d value = Eigen::Vector3d::Zero(), bias = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d unknown = Eigen::Matrix3d::Zero();
+  model->of_endless.setZero();
+  model->of_seen.setZero();
+  model->bias_of_seen.setZero();
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
     const SurfacePatch& p = patches[i];
     const Eigen::Vector3d by_waves = passed(i);
     const Eigen::RowVector3d row(1.0, p.u, p.v);
     if (i >= seen) {
       unknown += left_of(wave, tau2, i) * by_waves * by_waves.transpose();
-      by_plane += responses[i] * row;
+      model->of_endless += responses[i] * row;
       continue;
     }
-    by_plane -= by_waves * row;
-    value += p.residual * (responses[i] + by_waves);
-    bias += p.bias * (responses[i] + by_waves);
+    model->of_endless -= by_waves * row;
+    model->of_seen += p.residual * (responses[i] + by_waves);
+    model->bias_of_seen += p.bias * (responses[i] + by_waves);
     unknown += p.noise_variance * responses[i] * responses[i].transpose();
   }
-  model->correction = value + by_plane * model->correction;
-  model->bias_response = bias + by_plane * model->bias_response;
-  model->covariance = model->scale * unknown + by_plane * model->covariance * by_plane.transpose();
+  model->unknown = model->scale * unknown;
+  model->stand_on(Model(*model));
 }
 
 // The region's plane through such a surface, less what is predicted of it. After pass_on().
@@ -475,7 +490,7 @@ Eigen::Matrix<double, 3, 2> UnevenPlane::missing_of_bend(Span<const SurfacePatch
 }
 
 PredictedPlane UnevenPlane::predict(Span<const SurfacePatch> patches, std::uint32_t seen,
-                                    Span<const Eigen::Vector3d> responses, double sigmas) {
+                                    Span<const Eigen::Vector3d> responses, const UnevenFit& endless, double sigmas) {
   PredictedPlane out;
   Models models;
   const Span<const SurfacePatch> of_seen(patches.data(), seen);
@@ -501,11 +516,20 @@ PredictedPlane UnevenPlane::predict(Span<const SurfacePatch> patches, std::uint3
     }
   }
   static_cast<UnevenFit&>(out) = models.average(freedom, sigmas);
-  out.about_endless = models.about_endless();
   if (!out.solved) return out;
+  out.about_endless = models.average(&Model::about_endless);
+  out.of_endless = models.average(&Model::of_endless);
   const std::uint32_t wave = likeliest - 1;
   pass_on(seen, responses, likeliest > 0 ? &wave : nullptr);
   out.missing_of_bend = missing_of_bend(patches, seen, responses, likeliest > 0 ? &wave : nullptr);
+  if (!endless.solved) return out;
+  for (std::uint32_t k = 0; k < kWaveModels; ++k) {
+    if (models.evidence.solved[k]) models.of[k].stand_on(endless);
+  }
+  out.by_endless = models.average(freedom, sigmas);
+  const double of_endless = slopes_of(out.of_endless * endless.covariance * out.of_endless.transpose());
+  const double of_rest = larger(slopes_of(out.by_endless.covariance) - of_endless, 0.0);
+  out.by_endless.dof = sum_of({of_rest, out.by_endless.dof}, {of_endless, endless.dof}).dof;
   return out;
 }
 

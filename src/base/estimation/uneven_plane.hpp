@@ -30,9 +30,12 @@ struct UnevenFit {
   double dof = 0.0;  // the variance is known as well as from so many independent pieces
 };
 
-// The plane of a region.
+// The plane of a region, by what is seen of it alone.
 struct PredictedPlane : UnevenFit {
-  // How the waves turn and shift it about the endless plane that they ride on.
+  // The same, where the endless plane that the waves ride on is known from elsewhere, and its change by that plane.
+  UnevenFit by_endless;
+  Eigen::Matrix3d of_endless = Eigen::Matrix3d::Zero();
+  // How the waves turn and shift it about the endless plane.
   Eigen::Matrix3d about_endless = Eigen::Matrix3d::Zero();
   // What is missing of the correction where the surface bends by u² or v², in 1 / m: none where all is seen.
   Eigen::Matrix<double, 3, 2> missing_of_bend = Eigen::Matrix<double, 3, 2>::Zero();
@@ -45,8 +48,9 @@ class UnevenPlane {
   UnevenFit fit(Span<const SurfacePatch> patches, double sigmas);
   // The plane of a region, which is linear in its heights: what is seen of them, and what the waves predict of the
   // rest. The first patches are seen; of the others u and v count. responses: of offset and slopes to each height.
+  // endless: what is known from elsewhere of the plane below all heights, or nothing (not solved).
   PredictedPlane predict(Span<const SurfacePatch> patches, std::uint32_t seen, Span<const Eigen::Vector3d> responses,
-                         double sigmas);
+                         const UnevenFit& endless, double sigmas);
   // How an estimator errs that is linear in the patches' residuals, on the surface that they show. responses: of its
   // offset and slopes to each residual.
   LinearErrors errors_of(Span<const SurfacePatch> patches, Span<const Eigen::Vector3d> responses);

@@ -25,6 +25,11 @@ RollPitch roll_pitch_of_up(const Eigen::Vector3d& up_base) {
   return {arc_tangent2(up_base.y(), up_base.z()), arc_tangent2(-up_base.x(), in_yz)};
 }
 
+Eigen::Vector3d up_of_roll_pitch(const RollPitch& angles) {
+  const double cp = cosine(angles.pitch_rad);
+  return {-sine(angles.pitch_rad), cp * sine(angles.roll_rad), cp * cosine(angles.roll_rad)};
+}
+
 double tilt_of_up(const Eigen::Vector3d& up_base) {
   return arc_tangent2(std::sqrt(up_base.x() * up_base.x() + up_base.y() * up_base.y()), up_base.z());
 }

@@ -20,6 +20,9 @@ struct RollPitch {
 // roll = atan2(n_y, n_z), pitch = atan2(-n_x, sqrt(n_y^2 + n_z^2)) of the floor's upward normal.
 RollPitch roll_pitch_of_up(const Eigen::Vector3d& up_base);
 
+// The floor's upward normal by them.
+Eigen::Vector3d up_of_roll_pitch(const RollPitch& angles);
+
 // Angle between up and +Z, whichever way it leans.
 double tilt_of_up(const Eigen::Vector3d& up_base);
 

@@ -138,19 +138,21 @@ void set_uncertainty(const UnevenFit& uneven, const PatchFit& bend, Span<const S
                      const TangentFrame& f, const Plane& plane, const Settings& s, FloorResult* out) {
   const RollPitchGradients gradients(plane.n);
   const Eigen::Vector3d roll = response(gradients.roll, f), pitch = response(gradients.pitch, f);
-  out->roll_sigma_rad = std::sqrt(roll.dot(uneven.covariance * roll));
-  out->pitch_sigma_rad = std::sqrt(pitch.dot(uneven.covariance * pitch));
+  out->roll.sigma_rad = std::sqrt(roll.dot(uneven.covariance * roll));
+  out->pitch.sigma_rad = std::sqrt(pitch.dot(uneven.covariance * pitch));
   // If the floor bends, the tilt under the machine (u = v = 0) differs from that of the whole fit.
   const Eigen::Vector3d here(0.0, bend.bend_slope_u_at(0.0, 0.0), bend.bend_slope_v_at(0.0, 0.0));
   // A bend absorbs part of a kerb, and a kerb part of a bend.
   const auto not_a_plane = [&](const Eigen::Vector3d& of) {
     return std::fabs(of.dot(here)) + reach_of_halves(patches, uneven.correction, of);
   };
-  out->roll_bound_rad[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(roll.dot(uneven.bias_response));
-  out->pitch_bound_rad[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(pitch.dot(uneven.bias_response));
-  out->roll_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(roll);
-  out->pitch_bound_rad[POSE_WALL_PART_BEND] = not_a_plane(pitch);
-  out->dof = uneven.dof;
+  out->roll.bound_rad[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(roll.dot(uneven.bias_response));
+  out->pitch.bound_rad[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(pitch.dot(uneven.bias_response));
+  out->roll.bound_rad[POSE_WALL_PART_BEND] = not_a_plane(roll);
+  out->pitch.bound_rad[POSE_WALL_PART_BEND] = not_a_plane(pitch);
+  out->roll.dof = out->pitch.dof = uneven.dof;
+  out->frame = f;
+  out->uneven = uneven;
 }
 
 // Fits the plane to the points about it and selects again until it settles. The points stay in the scratch.

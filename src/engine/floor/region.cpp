@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kAcross_m = 1.125;  // of the definition, in whole cells
 constexpr double kNearest_m = 0.2;   // below base: what is nearer is the machine
+// A floor whose waves turn the region's plane by more is no such floor in one frame of 370.
+constexpr double kByWavesInSigmas = 3.0;
 // How steep the floor may have become against the machine's where the region ends: 17 degrees, as a ramp begins; and
 // half the second derivative across, a camber of 6 cm over the lane.
 constexpr double kRamp = 0.3, kCamber_per_m = 0.05;
@@ -41,32 +43,91 @@ Eigen::Vector3d of(const Eigen::Vector3d& gradient, const Region& region) {
   return {0.0, gradient.dot(region.u), gradient.dot(region.v)};
 }
 
-FloorResult floor_of(const Region& region, const RegionPlane& found, const Settings& s, const FloorResult& before) {
-  FloorResult floor = before;
-  floor.fit.reasons &= ~static_cast<std::uint32_t>(POSE_WALL_R_FLOOR_AMBIGUOUS);  // of what lies elsewhere
-  floor.fit.plane = found.plane_in(region);
-  floor.area_m2 = found.area_m2;
-  floor.roi_radius_m = region.u_to_m;
-  const RollPitchGradients gradients(floor.fit.plane.n);
-  const auto set = [&](const Eigen::Vector3d& gradient, double* sigma_rad, ProtectionParts* bound_rad) {
-    *sigma_rad = found.sigma(of(gradient, region));
-    *bound_rad = found.bound(of(gradient, region), s.range_bias_max);
-  };
-  set(gradients.roll, &floor.roll_sigma_rad, &floor.roll_bound_rad);
-  set(gradients.pitch, &floor.pitch_sigma_rad, &floor.pitch_bound_rad);
-  floor.dof = found.dof;
-  return floor;
+// The endless floor as height and slopes over the region's axes. Its own heights are upwards, those of a region
+// downwards.
+UnevenFit endless_in(const Region& region, const FloorResult& floor) {
+  const TangentFrame& f = floor.frame;
+  Eigen::Matrix3d to;
+  to << 1.0, -f.u.dot(f.origin), -f.v.dot(f.origin),  //
+      0.0, f.u.dot(region.u), f.v.dot(region.u),      //
+      0.0, f.u.dot(region.v), f.v.dot(region.v);
+  UnevenFit out = floor.uneven;
+  out.correction = {floor.fit.plane.d, 0.0, 0.0};
+  out.covariance = to * out.covariance * to.transpose();
+  out.bias_response = -(to * out.bias_response);
+  return out;
 }
 
-// An endless floor as that of the region. Further on the region has other waves.
-void widen_by_waves(const Region& region, const RegionPlane& found, FloorResult* floor) {
-  const RollPitchGradients gradients(floor->fit.plane.n);
-  const auto widen = [&](const Eigen::Vector3d& gradient, double* sigma_rad, double* waves_rad) {
-    *waves_rad = found.sigma_about_endless(of(gradient, region));
-    *sigma_rad = with_waves(*sigma_rad, *waves_rad);
+// Roll or pitch by one plane.
+struct Angle : AngleErrors {
+  double rad = 0.0;
+
+  Angle() = default;
+  Angle(double angle_rad, const AngleErrors& errors) : AngleErrors(errors), rad(angle_rad) {}
+  Known known(const Settings& s) const { return {rad, level_rad(s)}; }
+};
+
+struct Angles {
+  Angle roll, pitch;
+};
+
+Angles angles_of(const Region& region, const RegionPlane& found, const Settings& s) {
+  const Eigen::Vector3d n = found.plane_in(region).n;
+  const RollPitch at = roll_pitch_of_up(n);
+  const RollPitchGradients gradients(n);
+  const auto angle = [&](double rad, const Eigen::Vector3d& gradient) {
+    const Eigen::Vector3d by = of(gradient, region);
+    return Angle(rad, {found.sigma(by), found.dof, found.bound(by, s), found.sigma_about_endless(by)});
   };
-  widen(gradients.roll, &floor->roll_sigma_rad, &floor->roll_waves_rad);
-  widen(gradients.pitch, &floor->pitch_sigma_rad, &floor->pitch_waves_rad);
+  return {angle(at.roll_rad, gradients.roll), angle(at.pitch_rad, gradients.pitch)};
+}
+
+// The endless floor's angles as those of the region: the waves turn the region's about it.
+Angles widened_by_waves(const FloorResult& endless, const Angles& region) {
+  const RollPitch at = roll_pitch_of_up(endless.fit.plane.n);
+  Angles out{{at.roll_rad, endless.roll}, {at.pitch_rad, endless.pitch}};
+  const auto widen = [](const Angle& by, Angle* angle) {
+    angle->waves_rad = by.waves_rad;
+    angle->sigma_rad = with_waves(angle->sigma_rad, by.waves_rad);
+  };
+  widen(region.roll, &out.roll);
+  widen(region.pitch, &out.pitch);
+  return out;
+}
+
+// What may be wrong with the endless floor moves what is predicted from it, as far as that follows it.
+void reach_by_share(const Region& region, const RegionPlane& found, const FloorResult& endless, Angles* angles) {
+  const RollPitchGradients gradients(found.plane_in(region).n);
+  const Eigen::Vector3d roll = of(gradients.roll, region), pitch = of(gradients.pitch, region);
+  Eigen::Matrix2d by_slopes;
+  by_slopes << roll.tail<2>().transpose(), pitch.tail<2>().transpose();
+  const Eigen::Matrix2d slopes = by_slopes.inverse();
+  const auto reach = [&](const Eigen::Vector3d& by, ProtectionParts* bound_rad) {
+    const Eigen::Vector2d share = slopes.transpose() * found.share_of_endless(by).tail<2>();
+    ProtectionParts of_endless;
+    of_endless.add(endless.roll.bound_rad, std::fabs(share[0]));
+    of_endless.add(endless.pitch.bound_rad, std::fabs(share[1]));
+    of_endless[POSE_WALL_PART_RANGE_BIAS] = 0.0;  // its response is known, with its sign
+    bound_rad->add(of_endless);
+  };
+  reach(roll, &angles->roll.bound_rad);
+  reach(pitch, &angles->pitch.bound_rad);
+}
+
+// The waves and what is not known of both planes explain how far they lie apart. Else part of the region is another
+// surface: a wall's foot, a bench.
+bool rides_on(const Angle& endless, const Angle& region) {
+  return std::fabs(endless.rad - region.rad) <= kByWavesInSigmas * with_waves(endless.sigma_rad, region.sigma_rad);
+}
+
+void take_narrower(const Angles& other, const Settings& s, Angles* best) {
+  if (other.roll.known(s).level < best->roll.known(s).level) best->roll = other.roll;
+  if (other.pitch.known(s).level < best->pitch.known(s).level) best->pitch = other.pitch;
+}
+
+void set(const Angles& angles, FloorResult* floor) {
+  floor->roll = angles.roll;
+  floor->pitch = angles.pitch;
 }
 
 }  // namespace
@@ -79,25 +140,36 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
     return;
   }
   const Region region = region_of(scene, floor->fit.plane);
-  const RegionPlane found = scratch->region.fit(scene.cloud_base, region, s, &scratch->patches.waves(), &scratch->work);
+  RegionPlane by_endless;
+  const RegionPlane found = scratch->region.fit(scene.cloud_base, region, s, &scratch->patches.waves(), &scratch->work,
+                                                endless_in(region, *floor), &by_endless);
   if (!found.found || found.is_none() || !(found.seen_at_ends >= kSeenAtEnds)) return;
-  widen_by_waves(region, found, floor);
-  const FloorResult near = floor_of(region, found, s, *floor);
-  const RollPitch at = roll_pitch_of_up(floor->fit.plane.n), to = roll_pitch_of_up(near.fit.plane.n);
-  const Protections before = protections_of(*floor, s), known = protections_of(near, s);
-  const bool both_agree = agree({at.roll_rad, before.roll_rad}, {to.roll_rad, known.roll_rad}) &&
-                          agree({at.pitch_rad, before.pitch_rad}, {to.pitch_rad, known.pitch_rad});
+  const Angles near = angles_of(region, found, s), endless = widened_by_waves(*floor, near);
   const bool is_same = std::fabs(found.at[0] - floor->fit.plane.d) < kStep_m;
-  if (found.is_there() && is_same) {
-    if (both_agree && !(known.worse() < before.worse())) return;
-    *floor = near;
-    POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_FLOOR));
-    POSE_WALL_NOTE(trace::answered(POSE_WALL_TRACE_DOUBTS));
+  if (!found.is_there() || !is_same) {
+    // Most of it may be no floor, or another one. Then either plane may be the right one.
+    set(endless, floor);
+    floor->reach_to_rival(std::fabs(endless.roll.rad - near.roll.rad) + near.roll.level_rad(s),
+                          std::fabs(endless.pitch.rad - near.pitch.rad) + near.pitch.level_rad(s));
     return;
   }
-  // Most of it may be no floor, or another one. Then either plane may be the right one.
-  floor->reach_to_rival(std::fabs(at.roll_rad - to.roll_rad) + known.roll_rad,
-                        std::fabs(at.pitch_rad - to.pitch_rad) + known.pitch_rad);
+  Angles best = near;
+  if (by_endless.found && rides_on(endless.roll, near.roll) && rides_on(endless.pitch, near.pitch)) {
+    Angles predicted = angles_of(region, by_endless, s);
+    reach_by_share(region, by_endless, *floor, &predicted);
+    take_narrower(predicted, s, &best);
+  }
+  if (agree(endless.roll.known(s), near.roll.known(s)) && agree(endless.pitch.known(s), near.pitch.known(s))) {
+    take_narrower(endless, s, &best);
+  }
+  set(best, floor);
+  floor->fit.plane = found.plane_in(region);
+  floor->fit.plane.n = up_of_roll_pitch({best.roll.rad, best.pitch.rad});
+  floor->fit.reasons &= ~static_cast<std::uint32_t>(POSE_WALL_R_FLOOR_AMBIGUOUS);  // of what lies elsewhere
+  floor->area_m2 = found.area_m2;
+  floor->roi_radius_m = region.u_to_m;
+  POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_FLOOR));
+  POSE_WALL_NOTE(trace::answered(POSE_WALL_TRACE_DOUBTS));
 }
 
 }  // namespace pose_wall

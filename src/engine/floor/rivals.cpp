@@ -227,8 +227,8 @@ void reach_to_other_look(const FloorResult& other, const Settings& s, FloorResul
   const Protections known = protections_of(*floor, s);
   // A refused floor has no level of its own, but its bound covers its rivals.
   const auto of_rivals = [&](const ProtectionParts& bound) { return other.fit.refused ? bound.sum() : 0.0; };
-  const double roll = kBeyond * std::fabs(a.roll_rad - b.roll_rad) + of_rivals(other.roll_bound_rad);
-  const double pitch = kBeyond * std::fabs(a.pitch_rad - b.pitch_rad) + of_rivals(other.pitch_bound_rad);
+  const double roll = kBeyond * std::fabs(a.roll_rad - b.roll_rad) + of_rivals(other.roll.bound_rad);
+  const double pitch = kBeyond * std::fabs(a.pitch_rad - b.pitch_rad) + of_rivals(other.pitch.bound_rad);
   floor->reach_to_rival(larger(0.0, roll - known.roll_rad), larger(0.0, pitch - known.pitch_rad));
 }
 
@@ -270,8 +270,8 @@ void reach_to_floors_beside(const FloorScene& scene, Random* random, FloorScratc
     const auto reach_to = [](double apart_rad, ProtectionParts* bound_rad) {
       bound_rad->reach(kStretch * std::fabs(apart_rad) + kMargin_rad, POSE_WALL_PART_RIVAL);
     };
-    reach_to(roll_rad, &floor->roll_bound_rad);
-    reach_to(pitch_rad, &floor->pitch_bound_rad);
+    reach_to(roll_rad, &floor->roll.bound_rad);
+    reach_to(pitch_rad, &floor->pitch.bound_rad);
   }
 }
 

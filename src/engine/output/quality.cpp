@@ -53,10 +53,10 @@ Measurement measurement(double raw, double sigma, const ProtectionParts& bound, 
 void measure_floor(const FloorResult& floor, const Levelling& levelling, const Settings& s, Measurement* roll,
                    Measurement* pitch) {
   if (!floor.fit.refused) {
-    *roll = measurement(levelling.roll_rad, with_floor(floor.roll_sigma_rad, kSigmaMinAngle_rad), floor.roll_bound_rad,
-                        floor.dof, s);
-    *pitch = measurement(levelling.pitch_rad, with_floor(floor.pitch_sigma_rad, kSigmaMinAngle_rad),
-                         floor.pitch_bound_rad, floor.dof, s);
+    *roll = measurement(levelling.roll_rad, with_floor(floor.roll.sigma_rad, kSigmaMinAngle_rad), floor.roll.bound_rad,
+                        floor.roll.dof, s);
+    *pitch = measurement(levelling.pitch_rad, with_floor(floor.pitch.sigma_rad, kSigmaMinAngle_rad),
+                         floor.pitch.bound_rad, floor.pitch.dof, s);
   }
   for (Measurement* m : {roll, pitch}) m->reasons |= floor.fit.reasons;
 }
@@ -87,19 +87,20 @@ double tilt_to_yaw(const JudgedWall& wall, const Levelling& levelling) {
 
 // A wall's own bound and the larger one of the floor.
 ProtectionParts yaw_bound_of(const JudgedWall& wall, const FloorResult& floor, const Levelling& levelling) {
-  const bool by_roll = floor.roll_bound_rad.sum() > floor.pitch_bound_rad.sum();
+  const bool by_roll = floor.roll.bound_rad.sum() > floor.pitch.bound_rad.sum();
   ProtectionParts bound = wall.yaw_bound_rad;
-  bound.add(by_roll ? floor.roll_bound_rad : floor.pitch_bound_rad, tilt_to_yaw(wall, levelling));
+  bound.add(by_roll ? floor.roll.bound_rad : floor.pitch.bound_rad, tilt_to_yaw(wall, levelling));
   return bound;
 }
 
 // Adds the floor's tilt error as yaw: one error, whatever the number of walls.
 Measurement yaw_measurement(double raw, double walls_variance, const ProtectionParts& bound, double dof,
                             double tilt_share, const FloorResult& floor, const Settings& s) {
-  const double tilt = larger(floor.roll_sigma_rad, floor.pitch_sigma_rad) * tilt_share;
+  const AngleErrors& worse = floor.roll.sigma_rad > floor.pitch.sigma_rad ? floor.roll : floor.pitch;
+  const double tilt = worse.sigma_rad * tilt_share;
   const double variance = walls_variance + tilt * tilt;
   // Welch and Satterthwaite: the degrees of freedom of a sum of variances.
-  const double both = walls_variance * walls_variance / dof + tilt * tilt * tilt * tilt / floor.dof;
+  const double both = walls_variance * walls_variance / dof + tilt * tilt * tilt * tilt / worse.dof;
   // NaN stays NaN: without the degrees of freedom of the floor, yaw has no bound.
   const double dof_of_sum = both == 0.0 ? dof : variance * variance / both;
   return measurement(raw, with_floor(std::sqrt(variance), kSigmaMinAngle_rad), bound, dof_of_sum, s);

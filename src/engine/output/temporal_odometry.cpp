@@ -164,11 +164,11 @@ void see_floor(const FloorResult& floor, const Place& at, const Settings& s, See
   seen->normal = at.R * floor.fit.plane.n;
   seen->centre_m = at.position_m;
   seen->radius_m = floor.roi_radius_m;
-  seen->slope_level = larger(floor.roll_bound_rad.sum(), floor.pitch_bound_rad.sum()) +
-                      s.protection_sigmas * larger(floor.roll_sigma_rad, floor.pitch_sigma_rad);
+  seen->slope_level = larger(floor.roll.bound_rad.sum(), floor.pitch.bound_rad.sum()) +
+                      s.protection_sigmas * larger(floor.roll.sigma_rad, floor.pitch.sigma_rad);
   seen->rock_m = rock_length_m(seen->radius_m);
-  seen->waves[0] = floor.roll_waves_rad;
-  seen->waves[1] = floor.pitch_waves_rad;
+  seen->waves[0] = floor.roll.waves_rad;
+  seen->waves[1] = floor.pitch.waves_rad;
 }
 
 void see_wall(const JudgedWall& wall, const Place& at, const Levelling& levelling, const Settings& s,

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "base/estimation/protection.hpp"
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
 
@@ -76,20 +77,42 @@ bool is_in(int part, const Eigen::Vector2d& from_middle) {
 
 }  // namespace
 
-double RegionPlane::sigma(const Eigen::Vector3d& of) const {
+double RegionPlane::sigma_of_seen(const Eigen::Vector3d& of) const {
   const double model_m = kModelShare * rough_m + kModel_m;
   const double per_m = kModelPerMetre * model_m;
-  const double model2 = model_m * model_m * of[0] * of[0] + per_m * per_m * (of[1] * of[1] + of[2] * of[2]);
-  return std::sqrt(of.dot(covariance_ * of) + model2);
+  return std::sqrt(model_m * model_m * of[0] * of[0] + per_m * per_m * (of[1] * of[1] + of[2] * of[2]));
 }
 
-ProtectionParts RegionPlane::bound(const Eigen::Vector3d& of, double range_bias_max_m) const {
+double RegionPlane::sigma(const Eigen::Vector3d& of) const {
+  const double of_seen = sigma_of_seen(of);
+  return std::sqrt(of.dot(covariance_ * of) + of_seen * of_seen);
+}
+
+ProtectionParts RegionPlane::bound(const Eigen::Vector3d& of, const Settings& s) const {
   ProtectionParts out;
-  out[POSE_WALL_PART_RANGE_BIAS] = range_bias_max_m * std::fabs(of.dot(bias_response_));
+  out[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(of.dot(bias_response_));
   out[POSE_WALL_PART_BEND] = (missing_of_bend_.transpose() * of).cwiseProduct(bend_per_m_).norm();
-  double most = 0.0;
-  for (std::uint32_t k = 0; k < count_; ++k) most = larger(most, std::fabs(of.dot(readings_[k])));
+  // The seen cells alone need nothing of what is not seen.
+  const double not_seen = protection_factor(s.protection_sigmas, dof) * (sigma(of) - sigma_of_seen(of));
+  double most = larger(std::fabs(of.dot(readings_[0])) - not_seen, 0.0);
+  for (std::uint32_t k = 1; k < count_; ++k) most = larger(most, std::fabs(of.dot(readings_[k])));
   out[POSE_WALL_PART_RIVAL] = most;
+  return out;
+}
+
+void RegionPlane::take(const UnevenFit& fit) {
+  at = fit.correction;
+  covariance_ = fit.covariance;
+  bias_response_ = fit.bias_response;
+  dof = fit.dof;
+}
+
+// The first reading is that of the seen cells alone. How the surface may bend is seen elsewhere.
+RegionPlane RegionPlane::standing_on_endless(const UnevenFit& fit) const {
+  RegionPlane out = *this;
+  out.readings_[0] += at - fit.correction;
+  out.take(fit);
+  out.missing_of_bend_.setZero();
   return out;
 }
 
@@ -272,7 +295,8 @@ RegionFit::Taken RegionFit::take_cells(Span<const PatchSums> sums, const Eigen::
 
 // What is not seen moves the settled plane as far as the waves predict, and no model knows it better.
 bool RegionFit::predict(const BoundedPoints& points, const Region& region, const Settings& settings,
-                        const Eigen::Vector3d& settled, UnevenPlane* waves, RegionPlane* out) {
+                        const Eigen::Vector3d& settled, UnevenPlane* waves, const UnevenFit& endless, RegionPlane* out,
+                        UnevenFit* by_endless) {
   const Span<const PatchSums> sums = cells_.sums_near(points, region, settled, kWidth_m, kReach, weights_of);
   const Taken taken = take_cells(sums, settled, settings.range_noise * settings.range_noise, out);
   if (taken.seen < kCellsMin || is_singular(taken.A)) return false;
@@ -282,16 +306,19 @@ bool RegionFit::predict(const BoundedPoints& points, const Region& region, const
     responses_[k] = inverse * responses_[k];
     if (k < taken.seen) of_seen += responses_[k] * patches_[k].residual;
   }
-  const PredictedPlane predicted =
+  UnevenFit below = endless;  // the residuals
+  below.correction -= settled;
+  PredictedPlane predicted =
       waves->predict(Span<const SurfacePatch>(patches_.data(), taken.all), taken.seen,
-                     Span<const Eigen::Vector3d>(responses_.data(), taken.all), settings.protection_sigmas);
+                     Span<const Eigen::Vector3d>(responses_.data(), taken.all), below, settings.protection_sigmas);
   if (!predicted.solved) return false;
-  out->at = settled + predicted.correction - of_seen;
-  out->covariance_ = predicted.covariance;
+  predicted.correction += settled - of_seen;
+  predicted.by_endless.correction += settled - of_seen;
+  out->take(predicted);
   out->about_endless_ = predicted.about_endless;
-  out->bias_response_ = predicted.bias_response;
   out->missing_of_bend_ = predicted.missing_of_bend;
-  out->dof = predicted.dof;
+  *by_endless = predicted.by_endless;
+  out->of_endless_ = predicted.of_endless;
   return true;
 }
 
@@ -364,7 +391,7 @@ double RegionFit::step_at(double u_m, const Eigen::Vector3d& plane) const {
 }
 
 RegionPlane RegionFit::fit(const BoundedPoints& points, const Region& region, const Settings& settings,
-                           UnevenPlane* waves, Work* work) {
+                           UnevenPlane* waves, Work* work, const UnevenFit& endless, RegionPlane* by_endless) {
   RegionPlane out;
   out.bend_per_m_ = region.bend_per_m;
   work->add(2ULL * points.count, steps::kPointSided);
@@ -377,8 +404,11 @@ RegionPlane RegionFit::fit(const BoundedPoints& points, const Region& region, co
   if (best < 0) return out;
   describe(settled[best].plane, &out);
   work->add(cells_.all().size(), steps::kPatchWaved);
-  out.found = predict(points, region, settings, settled[best].plane, waves, &out);
-  if (out.found) read_otherwise(settled, best, &out);
+  UnevenFit with;
+  out.found = predict(points, region, settings, settled[best].plane, waves, endless, &out, &with);
+  if (!out.found) return out;
+  read_otherwise(settled, best, &out);
+  if (with.solved) *by_endless = out.standing_on_endless(with);
   return out;
 }
 

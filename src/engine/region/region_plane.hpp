@@ -39,7 +39,9 @@ struct RegionPlane {
 
   // Of a linear function of the plane: standard deviation, and bounds by range bias, bends and other readings.
   double sigma(const Eigen::Vector3d& of) const;
-  ProtectionParts bound(const Eigen::Vector3d& of, double range_bias_max_m) const;
+  ProtectionParts bound(const Eigen::Vector3d& of, const Settings& settings) const;
+  // By how much the endless plane that it was predicted from moves it: of offset and slopes.
+  Eigen::Vector3d share_of_endless(const Eigen::Vector3d& of) const { return of_endless_.transpose() * of; }
   // By how much an endless plane is uncertain as this one: the waves turn and shift this one about it.
   double sigma_about_endless(const Eigen::Vector3d& of) const { return std::sqrt(of.dot(about_endless_ * of)); }
   bool is_there() const { return found && near >= kHalf + kDoubt; }
@@ -49,12 +51,15 @@ struct RegionPlane {
 
  private:
   friend class RegionFit;
+  double sigma_of_seen(const Eigen::Vector3d& of) const;
+  void take(const UnevenFit& fit);
+  RegionPlane standing_on_endless(const UnevenFit& fit) const;
   static constexpr double kHalf = 0.5;  // of the definition
   // The sensor sees other parts than the surveyor. With walls from 0.42 on, 14 of 2,688 values of mine scenes were
   // misleading, all where the surveyor saw none; from 0.58 on none was (campaign seed 90210, 2026-11-28).
   static constexpr double kDoubt = 0.08;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d about_endless_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d of_endless_ = Eigen::Matrix3d::Zero(), about_endless_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d bias_response_ = Eigen::Vector3d::Zero();  // change per metre of range bias
   Eigen::Matrix<double, 3, 2> missing_of_bend_ = Eigen::Matrix<double, 3, 2>::Zero();
   Eigen::Vector2d bend_per_m_ = Eigen::Vector2d::Zero();
@@ -81,8 +86,10 @@ inline bool agree(const Known& endless, const Known& region) {
 class RegionFit {
  public:
   void lay_out(Arena& arena);
+  // endless: the plane h = correction · (1, u, v) that all of the surface in view shows, or nothing. Then also writes
+  // what it predicts of the region with what is seen there; found if it does.
   RegionPlane fit(const BoundedPoints& points, const Region& region, const Settings& settings, UnevenPlane* waves,
-                  Work* work);
+                  Work* work, const UnevenFit& endless = {}, RegionPlane* by_endless = nullptr);
   // Of the last fit: how far the surface about u lies from this plane, where most of it is another surface; else 0.
   double step_at(double u_m, const Eigen::Vector3d& plane) const;
 
@@ -122,7 +129,8 @@ class RegionFit {
   double loss_without_things(const Eigen::Vector3d& plane) const;
   Taken take_cells(Span<const PatchSums> sums, const Eigen::Vector3d& settled, double noise2, RegionPlane* out);
   bool predict(const BoundedPoints& points, const Region& region, const Settings& settings,
-               const Eigen::Vector3d& settled, UnevenPlane* waves, RegionPlane* out);
+               const Eigen::Vector3d& settled, UnevenPlane* waves, const UnevenFit& endless, RegionPlane* out,
+               UnevenFit* by_endless);
   double weight_near(const RegionCell& place) const;
   double seen_behind_at_edges(const Eigen::Vector3d& plane) const;
   void read_otherwise(const Settled (&settled)[kStarts], int best, RegionPlane* out);

@@ -147,13 +147,13 @@ JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPla
   wall.along_max_m = kAlong_m;
   wall.yaw_rad = yaw_of(wall.along_level, scene.forward_level);
   wall.yaw_sigma_rad = found.sigma(of_yaw(found.at));
-  wall.yaw_bound_rad = found.bound(of_yaw(found.at), s.range_bias_max);
+  wall.yaw_bound_rad = found.bound(of_yaw(found.at), s);
   wall.yaw_dof = found.dof;
   for (int end = 0; end < 2; ++end) {
     const Eigen::Vector3d of = of_distance(scene, region, found.at, side, end);
     wall.distance_m[end] = distance_at(wall.fit.plane, scene.sample_level_m[side][end]);
     wall.distance_sigma_m[end] = found.sigma(of);
-    wall.distance_bound_m[end] = found.bound(of, s.range_bias_max);
+    wall.distance_bound_m[end] = found.bound(of, s);
     wall.distance_dof[end] = found.dof;
     // A distance has no sign: a point in the rock has that of one before it.
     const bool in_rock = wall.fit.plane.signed_distance(scene.sample_level_m[side][end]) < 0.0;

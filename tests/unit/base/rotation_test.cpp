@@ -50,6 +50,7 @@ TEST(Rotation, LevelTakesTheNormalUpAndHasNoTurnAboutZ) {
       const Eigen::Matrix3d expected = about(Eigen::Vector3d::UnitY(), pitch) * about(Eigen::Vector3d::UnitX(), roll);
       const Eigen::Vector3d up = expected.transpose() * Eigen::Vector3d::UnitZ();
       const RollPitch angles = roll_pitch_of_up(up);
+      ASSERT_LT((up_of_roll_pitch({roll, pitch}) - up).norm(), kTolerance);
       ASSERT_NEAR(angles.roll_rad, roll, kTolerance);
       ASSERT_NEAR(angles.pitch_rad, pitch, kTolerance);
       const Eigen::Matrix3d level = level_rotation(up);

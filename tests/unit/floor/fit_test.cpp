@@ -50,8 +50,8 @@ TEST(FloorFit, TheErrorsAreWhatTheStandardDeviationSays) {
     const FloorResult f = fit(&g, near_floor());
     ASSERT_TRUE(f.fit.found && !f.fit.refused);
     const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
-    roll_z2 += std::pow(angles.roll_rad / f.roll_sigma_rad, 2) / kRuns;
-    pitch_z2 += std::pow(angles.pitch_rad / f.pitch_sigma_rad, 2) / kRuns;
+    roll_z2 += std::pow(angles.roll_rad / f.roll.sigma_rad, 2) / kRuns;
+    pitch_z2 += std::pow(angles.pitch_rad / f.pitch.sigma_rad, 2) / kRuns;
     EXPECT_NEAR(f.fit.plane.d, test::kFloorBelow_m, 0.002);
     EXPECT_NEAR(f.fit.rms_m, 0.01, 0.002);
   }
@@ -74,7 +74,7 @@ TEST(FloorFit, TheLevelOfABentFloorHoldsTheTiltUnderTheMachine) {
   const FloorResult f = fit(&g, near_floor());
   ASSERT_TRUE(f.fit.found);
   const double pitch = roll_pitch_of_up(f.fit.plane.n).pitch_rad;
-  EXPECT_LE(std::fabs(pitch), f.pitch_bound_rad.sum() + protection_factor(5.0, f.dof) * f.pitch_sigma_rad);
+  EXPECT_LE(std::fabs(pitch), f.pitch.bound_rad.sum() + protection_factor(5.0, f.roll.dof) * f.pitch.sigma_rad);
 }
 
 TEST(FloorFit, TheFootOfAWallDoesNotTiltTheFloor) {
@@ -113,7 +113,7 @@ TEST(FloorFit, SpecksOverTheFloorLeaveItToTheFit) {
   const FloorResult f = fit(&g, near_floor());
   ASSERT_TRUE(f.fit.found);
   EXPECT_LT(std::fabs(roll_pitch_of_up(f.fit.plane.n).roll_rad), 0.0005);
-  EXPECT_LT(f.roll_sigma_rad, 0.0005);
+  EXPECT_LT(f.roll.sigma_rad, 0.0005);
 }
 
 // Waves of 6 cm over 2 m: the plane through what is seen is off by up to a degree, and says so.
@@ -132,9 +132,9 @@ TEST(FloorFit, TheLevelOfAWavyFloorHoldsItsMeanPlane) {
     const FloorResult f = fit(&g, near_floor());
     ASSERT_TRUE(f.fit.found);
     const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
-    const double factor = protection_factor(5.0, f.dof);
-    outside += std::fabs(angles.roll_rad) > f.roll_bound_rad.sum() + factor * f.roll_sigma_rad ? 1 : 0;
-    outside += std::fabs(angles.pitch_rad) > f.pitch_bound_rad.sum() + factor * f.pitch_sigma_rad ? 1 : 0;
+    const double factor = protection_factor(5.0, f.roll.dof);
+    outside += std::fabs(angles.roll_rad) > f.roll.bound_rad.sum() + factor * f.roll.sigma_rad ? 1 : 0;
+    outside += std::fabs(angles.pitch_rad) > f.pitch.bound_rad.sum() + factor * f.pitch.sigma_rad ? 1 : 0;
   }
   EXPECT_EQ(outside, 0);
 }
@@ -175,7 +175,7 @@ TEST(FloorFit, OfMoreThanAFitTakesNoSideGoesShort) {
     for (const Eigen::Vector3d& p : points) g.add(p.x(), p.y(), p.z());
     const FloorResult f = fit(&g, near_floor());
     ASSERT_TRUE(f.fit.found && !f.fit.refused);
-    sigma[in_order ? 1 : 0] = f.roll_sigma_rad;
+    sigma[in_order ? 1 : 0] = f.roll.sigma_rad;
   }
   EXPECT_LT(sigma[1], 1.5 * sigma[0]) << "on a strip of two fifths of the width it would be 2.4 times as much";
 }
@@ -195,8 +195,8 @@ TEST(FloorFit, AnyCountOfPointsAndAnyPlaceOfTheSensor) {
       ASSERT_TRUE(f.fit.found && !f.fit.refused) << count;
       EXPECT_EQ(f.fit.inliers, static_cast<std::uint32_t>(count));
       const Eigen::Vector3d up = Eigen::Vector3d(0.0, -slope, 1.0).normalized();
-      EXPECT_LT((f.fit.plane.n - up).norm(), 5.0 * (f.roll_sigma_rad + f.pitch_sigma_rad)) << count;
-      EXPECT_LT(f.roll_sigma_rad, 0.005 / std::sqrt(0.3 * count)) << "the points that were taken count";
+      EXPECT_LT((f.fit.plane.n - up).norm(), 5.0 * (f.roll.sigma_rad + f.pitch.sigma_rad)) << count;
+      EXPECT_LT(f.roll.sigma_rad, 0.005 / std::sqrt(0.3 * count)) << "the points that were taken count";
     }
   }
 }

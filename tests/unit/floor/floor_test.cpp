@@ -28,8 +28,8 @@ void expect_floor(const FloorResult& f, double roll, double pitch) {
   EXPECT_NEAR(angles.roll_rad, roll, kAngle_rad);
   EXPECT_NEAR(angles.pitch_rad, pitch, kAngle_rad);
   EXPECT_NEAR(f.fit.plane.d, test::kFloorBelow_m, kHeight_m);
-  EXPECT_LT(std::fabs(angles.roll_rad - roll), 5.0 * f.roll_sigma_rad + f.roll_bound_rad.sum() + 5e-5);
-  EXPECT_LT(std::fabs(angles.pitch_rad - pitch), 5.0 * f.pitch_sigma_rad + f.pitch_bound_rad.sum() + 5e-5);
+  EXPECT_LT(std::fabs(angles.roll_rad - roll), 5.0 * f.roll.sigma_rad + f.roll.bound_rad.sum() + 5e-5);
+  EXPECT_LT(std::fabs(angles.pitch_rad - pitch), 5.0 * f.pitch.sigma_rad + f.pitch.bound_rad.sum() + 5e-5);
 }
 
 TEST(Floor, LevelAndTilted) {
@@ -76,8 +76,8 @@ TEST(Floor, AWiderRadiusIsLookedAtWhereItHoldsMore) {
     EXPECT_EQ(narrow.roi_radius_m, 3.0);
     EXPECT_EQ(wide.roi_radius_m, more ? 6.75 : 3.0);
     const bool the_same = wide.fit.plane.n == narrow.fit.plane.n &&
-                          wide.roll_bound_rad.sum() == narrow.roll_bound_rad.sum() &&
-                          wide.pitch_bound_rad.sum() == narrow.pitch_bound_rad.sum();
+                          wide.roll.bound_rad.sum() == narrow.roll.bound_rad.sum() &&
+                          wide.pitch.bound_rad.sum() == narrow.pitch.bound_rad.sum();
     EXPECT_EQ(the_same, !more);
   }
 }
@@ -166,11 +166,11 @@ struct Valley {
     constexpr double kOfRival_rad = 0.01;  // a rival is not fitted in full
     const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
     const double found_rad = across ? angles.pitch_rad : -angles.roll_rad;  // positive where left or ahead is high
-    const double bound_rad = across ? f.pitch_bound_rad.sum() : f.roll_bound_rad.sum();
+    const double bound_rad = across ? f.pitch.bound_rad.sum() : f.roll.bound_rad.sum();
     const double farthest_rad = std::max(std::fabs(found_rad - left_slope_rad), std::fabs(found_rad + right_slope_rad));
     EXPECT_GE(bound_rad, farthest_rad);
     EXPECT_LE(bound_rad, kMuch * farthest_rad + kOfRival_rad);
-    EXPECT_LT(across ? f.roll_bound_rad.sum() : f.pitch_bound_rad.sum(), 0.03) << "about the other axis they agree";
+    EXPECT_LT(across ? f.roll.bound_rad.sum() : f.pitch.bound_rad.sum(), 0.03) << "about the other axis they agree";
   }
 
  private:
@@ -216,7 +216,7 @@ TEST(Floor, ASteepFloorWithoutRivalsKeepsItsBounds) {
   g.add_road();
   const FloorResult f = g.floor();
   ASSERT_TRUE(f.fit.found && !f.fit.refused);
-  EXPECT_LT(std::max(f.roll_bound_rad.sum(), f.pitch_bound_rad.sum()), 0.01);
+  EXPECT_LT(std::max(f.roll.bound_rad.sum(), f.pitch.bound_rad.sum()), 0.01);
 }
 
 // Two flanks of one heap, and nothing level: the floor under the machine is neither.
@@ -231,8 +231,8 @@ TEST(Floor, WhereAllThatMayBeTheFloorIsSteepTheBoundsReachToUpright) {
       ASSERT_NE(f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS, 0U);
       const double tilt_rad = tilt_of_up(f.fit.plane.n);
       EXPECT_GT(tilt_rad, 0.17);
-      EXPECT_GE(f.roll_bound_rad.sum(), tilt_rad);
-      EXPECT_GE(f.pitch_bound_rad.sum(), tilt_rad);
+      EXPECT_GE(f.roll.bound_rad.sum(), tilt_rad);
+      EXPECT_GE(f.pitch.bound_rad.sum(), tilt_rad);
     }
   }
 }
@@ -242,7 +242,7 @@ TEST(Floor, ASlopeOfAThirdOfTheFloorIsNoRival) {
     const FloorResult f = Valley{2.5, 0.14, 0.0, across}.floor();
     ASSERT_TRUE(f.fit.found && !f.fit.refused);
     EXPECT_EQ(f.fit.reasons & POSE_WALL_R_FLOOR_AMBIGUOUS, 0U);
-    EXPECT_LT(std::max(f.roll_bound_rad.sum(), f.pitch_bound_rad.sum()), 0.03);
+    EXPECT_LT(std::max(f.roll.bound_rad.sum(), f.pitch.bound_rad.sum()), 0.03);
   }
 }
 

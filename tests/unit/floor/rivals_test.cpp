@@ -65,9 +65,9 @@ void expect_reaches_upright(const FloorResult& f) {
   const RollPitch angles = roll_pitch_of_up(f.fit.plane.n);
   const double tilt_rad = tilt_of_up(f.fit.plane.n);
   EXPECT_TRUE(is_ambiguous(f));
-  EXPECT_GE(f.roll_bound_rad.sum(), std::fabs(angles.roll_rad));
-  EXPECT_GE(f.pitch_bound_rad.sum(), std::fabs(angles.pitch_rad));
-  EXPECT_LE(std::hypot(f.roll_bound_rad.sum(), f.pitch_bound_rad.sum()), 2.5 * tilt_rad + 0.1);
+  EXPECT_GE(f.roll.bound_rad.sum(), std::fabs(angles.roll_rad));
+  EXPECT_GE(f.pitch.bound_rad.sum(), std::fabs(angles.pitch_rad));
+  EXPECT_LE(std::hypot(f.roll.bound_rad.sum(), f.pitch.bound_rad.sum()), 2.5 * tilt_rad + 0.1);
 }
 
 TEST(FloorBeside, BeforeARampTheLevelsReachToTheFlatFloor) {
@@ -158,11 +158,11 @@ TEST(FloorBeside, TheSideOfTheLineTellsOnWhichOfTwoPlanesTheMachineStands) {
     const FloorResult on_other = TwoPlanes{slope_rad, 2.0}.reached();
     const FloorResult on_floor = TwoPlanes{slope_rad, -3.0, 0.0, -12.0, -8.0}.reached();
     EXPECT_TRUE(is_ambiguous(on_other));
-    EXPECT_GE(on_other.pitch_bound_rad.sum(), 0.12 + 0.02) << "the other plane, and some for how well it is known";
-    EXPECT_LT(on_other.pitch_bound_rad.sum(), 0.25);
-    EXPECT_LT(on_other.roll_bound_rad.sum(), 0.05);
+    EXPECT_GE(on_other.pitch.bound_rad.sum(), 0.12 + 0.02) << "the other plane, and some for how well it is known";
+    EXPECT_LT(on_other.pitch.bound_rad.sum(), 0.25);
+    EXPECT_LT(on_other.roll.bound_rad.sum(), 0.05);
     EXPECT_FALSE(is_ambiguous(on_floor));
-    EXPECT_EQ(on_floor.pitch_bound_rad.sum(), 0.0);
+    EXPECT_EQ(on_floor.pitch.bound_rad.sum(), 0.0);
   }
 }
 
@@ -176,8 +176,8 @@ TEST(FloorBeside, NearGroundSpeaksForTheFloorOnlyWhereNothingElseIsSeen) {
   for (const double height_m : {-0.3, -0.2, 0.2, 0.3}) {
     const FloorResult floor = TwoPlanes{0.0, 0.0, height_m}.reached();
     EXPECT_TRUE(is_ambiguous(floor)) << height_m;
-    EXPECT_GT(floor.pitch_bound_rad.sum(), 0.1) << height_m;
-    EXPECT_GT(floor.roll_bound_rad.sum(), 0.1) << height_m;
+    EXPECT_GT(floor.pitch.bound_rad.sum(), 0.1) << height_m;
+    EXPECT_GT(floor.roll.bound_rad.sum(), 0.1) << height_m;
   }
   TwoPlanes alone;
   alone.other_to_m = alone.other_from_m - 1.0;  // nothing
@@ -217,14 +217,14 @@ FloorResult reached_on(std::initializer_list<FloorFixture::Area> seen, const cha
 void expect_may_be_a_ramp(const FloorResult& f) {
   constexpr double kAsTheRampsWere_rad = 0.082;  // 4.7 degrees, on a hard campaign
   EXPECT_TRUE(is_ambiguous(f));
-  EXPECT_GT(f.roll_bound_rad.sum(), 2.0 * kAsTheRampsWere_rad);
-  EXPECT_GT(f.pitch_bound_rad.sum(), 2.0 * kAsTheRampsWere_rad);
+  EXPECT_GT(f.roll.bound_rad.sum(), 2.0 * kAsTheRampsWere_rad);
+  EXPECT_GT(f.pitch.bound_rad.sum(), 2.0 * kAsTheRampsWere_rad);
 }
 
 void expect_carries_the_machine(const FloorResult& f) {
   EXPECT_FALSE(is_ambiguous(f));
-  EXPECT_EQ(f.roll_bound_rad.sum(), 0.0);
-  EXPECT_EQ(f.pitch_bound_rad.sum(), 0.0);
+  EXPECT_EQ(f.roll.bound_rad.sum(), 0.0);
+  EXPECT_EQ(f.pitch.bound_rad.sum(), 0.0);
 }
 
 TEST(FloorUnseen, SeenAheadOnlyAndNotNearItMayBeARamp) {
@@ -261,7 +261,7 @@ TEST(FloorBeside, AFloorToAllSidesIsNotDoubtedForARampFurtherOn) {
   ASSERT_TRUE(f.fit.found && !f.fit.refused);
   EXPECT_LT(tilt_of_up(f.fit.plane.n), 0.01);
   EXPECT_FALSE(is_ambiguous(f));
-  EXPECT_LT(std::max(f.roll_bound_rad.sum(), f.pitch_bound_rad.sum()), 0.03);
+  EXPECT_LT(std::max(f.roll.bound_rad.sum(), f.pitch.bound_rad.sum()), 0.03);
 }
 
 // The floor's fit, level, and a plane through its middle that rises to the left. Both as weighed candidates.
@@ -314,7 +314,7 @@ TEST(FloorRivals, ATiltedPlaneThroughTheFloorsOwnRoughGroundIsNone) {
   readings.add_ground(0.035, 100.0);
   const FloorResult f = readings.reached();
   EXPECT_FALSE(is_ambiguous(f));
-  EXPECT_EQ(f.roll_bound_rad.sum(), 0.0);
+  EXPECT_EQ(f.roll.bound_rad.sum(), 0.0);
 }
 
 TEST(FloorRivals, APlaneThatShowsGroundTheFloorLeavesOutIsOne) {
@@ -323,8 +323,8 @@ TEST(FloorRivals, APlaneThatShowsGroundTheFloorLeavesOutIsOne) {
     readings.add_ground(0.01, 0.7);
     const FloorResult f = readings.reached();
     EXPECT_TRUE(is_ambiguous(f)) << rise_rad;
-    EXPECT_GE(f.roll_bound_rad.sum(), std::fabs(rise_rad)) << rise_rad;
-    EXPECT_LE(f.roll_bound_rad.sum(), std::fabs(rise_rad) + 0.01) << rise_rad << ": half a degree for the rival itself";
+    EXPECT_GE(f.roll.bound_rad.sum(), std::fabs(rise_rad)) << rise_rad;
+    EXPECT_LE(f.roll.bound_rad.sum(), std::fabs(rise_rad) + 0.01) << rise_rad << ": half a degree for the rival itself";
   }
 }
 

@@ -20,9 +20,9 @@ namespace {
 FloorResult good_floor() {
   FloorResult f;
   f.fit.found = true;
-  f.roll_sigma_rad = 0.0004;
-  f.pitch_sigma_rad = 0.0006;
-  f.dof = 40.0;
+  f.roll.sigma_rad = 0.0004;
+  f.pitch.sigma_rad = 0.0006;
+  f.roll.dof = f.pitch.dof = 40.0;
   return f;
 }
 
@@ -268,7 +268,7 @@ TEST(Quality, ADoubtOfAWallComesWithItsReasonAndSoDoesYaw) {
 TEST(Quality, BoundsAddToTheLevel) {
   Scene plain, bound;
   bound.walls[0].distance_bound_m[0][POSE_WALL_PART_BEND] = 0.05;
-  bound.floor.roll_bound_rad[POSE_WALL_PART_RIVAL] = 0.01;
+  bound.floor.roll.bound_rad[POSE_WALL_PART_RIVAL] = 0.01;
   EXPECT_NEAR(bound.measured().quantity[POSE_WALL_D_LF].protection.sum() -
                   plain.measured().quantity[POSE_WALL_D_LF].protection.sum(),
               0.05, 1e-12);

@@ -47,7 +47,7 @@ struct Road {
     for (Measurement& m : measured.quantity) m.measured = true;
     floor.fit.plane = {Eigen::Vector3d::UnitZ(), 1.0};
     floor.roi_radius_m = 3.0;
-    floor.roll_sigma_rad = floor.pitch_sigma_rad = 0.001;
+    floor.roll.sigma_rad = floor.pitch.sigma_rad = 0.001;
     for (int side = 0; side < 2; ++side) {
       walls[side].fit.plane = {side == 0 ? Eigen::Vector3d(0.0, -1.0, 0.0) : Eigen::Vector3d(0.0, 1.0, 0.0),
                                side == 0 ? 2.0 : 3.0};

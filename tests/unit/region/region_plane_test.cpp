@@ -45,9 +45,11 @@ Region region_beside() {
 struct Fitted {
   RegionPlane plane;
   double step_ahead_m, step_behind_m;  // about two metres away
+  RegionPlane by_endless;
 };
 
-Fitted fitted(const Surface& surface, test::Noise* noise, const Region& region = region_beside()) {
+Fitted fitted(const Surface& surface, test::Noise* noise, const Region& region = region_beside(),
+              const UnevenFit& endless = {}) {
   test::OwnedPoints points(32768);
   for (double u = -region.u_to_m - 0.46; u < region.u_to_m + 0.5; u += 0.08) {
     for (double v = -1.56; v < 1.6; v += 0.08) {
@@ -58,17 +60,25 @@ Fitted fitted(const Surface& surface, test::Noise* noise, const Region& region =
   test::Placed<RegionFit> fit;
   test::Placed<UnevenPlane> waves;
   Work work;
-  const RegionPlane plane = fit->fit(points.set(), region, test::settings_with(), waves.get(), &work);
-  return {plane, fit->step_at(2.0, plane.at), fit->step_at(-2.0, plane.at)};
+  RegionPlane by_endless;
+  const RegionPlane plane =
+      fit->fit(points.set(), region, test::settings_with(), waves.get(), &work, endless, &by_endless);
+  return {plane, fit->step_at(2.0, plane.at), fit->step_at(-2.0, plane.at), by_endless};
 }
 
 RegionPlane plane_of(const Surface& surface, test::Noise* noise) {
   return fitted(surface, noise).plane;
 }
 
+Settings without_bias() {
+  Settings s = test::settings_with();
+  s.range_bias_max = 0.0;
+  return s;
+}
+
 double level(const RegionPlane& plane, const Eigen::Vector3d& of) {
-  const Settings s = test::settings_with();
-  return protection_factor(s.protection_sigmas, plane.dof) * plane.sigma(of) + plane.bound(of, 0.0).sum();
+  const Settings s = without_bias();
+  return protection_factor(s.protection_sigmas, plane.dof) * plane.sigma(of) + plane.bound(of, s).sum();
 }
 
 // Smooth and random: hills of one width at random places.
@@ -157,16 +167,56 @@ TEST(RegionPlane, IsAsFarOffAsItSaysWhereHalfOfAWavingSurfaceIsSeen) {
   EXPECT_GT(squares, 0.1) << "levels are wider than they need be";
 }
 
+// All of the surface in view tells which plane the waves ride on. Then what is not seen is known better, and as well as
+// is told; where all is seen, it tells nothing.
+TEST(RegionPlane, AnEndlessPlaneTellsOfWhatIsNotSeen) {
+  constexpr int kRuns = 60;
+  constexpr double kOffset_m = 0.003, kPerMetre = 0.001;
+  double alone = 0.0, with = 0.0, scaled = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    test::Noise noise(300 + static_cast<std::uint32_t>(run));
+    const Hills hills(0.03, run % 2 == 0 ? 0.25 : 0.5, &noise);
+    const auto whole = [&hills](double u, double v) { return kDistance_m + hills(u, v); };
+    const auto seen = [&whole](double u, double v) { return u < -0.5 ? whole(u, v) : kUnseen; };
+    UnevenFit endless;
+    endless.solved = true;
+    endless.dof = 40.0;
+    endless.correction = {kDistance_m + noise.normal(kOffset_m), noise.normal(kPerMetre), noise.normal(kPerMetre)};
+    endless.covariance.diagonal() << kOffset_m * kOffset_m, kPerMetre * kPerMetre, kPerMetre * kPerMetre;
+    const RegionPlane truth = plane_of(whole, &noise);
+    const Fitted of_seen = fitted(seen, &noise, region_beside(), endless);
+    ASSERT_TRUE(truth.found && of_seen.plane.found && of_seen.by_endless.found);
+    for (const Eigen::Vector3d& of : {kOffset, kSlope}) {
+      const double error = of.dot(of_seen.by_endless.at - truth.at), sigma = of_seen.by_endless.sigma(of);
+      scaled += error * error / (sigma * sigma) / (2.0 * kRuns);
+      EXPECT_LT(std::fabs(error), level(of_seen.by_endless, of)) << "run " << run;
+      EXPECT_LT(level(of_seen.by_endless, of), level(of_seen.plane, of)) << "run " << run;
+    }
+    alone += std::pow(kSlope.dot(of_seen.plane.at - truth.at), 2);
+    with += std::pow(kSlope.dot(of_seen.by_endless.at - truth.at), 2);
+    const Fitted of_all = fitted(whole, &noise, region_beside(), endless);
+    EXPECT_LT((of_all.by_endless.at - of_all.plane.at).norm(), 1e-3) << "run " << run;
+    EXPECT_LT(of_all.by_endless.share_of_endless(kOffset).norm(), 0.1) << "run " << run;
+  }
+  EXPECT_LT(with, 0.25 * alone) << "half the error";
+  EXPECT_LT(scaled, 2.5);
+  EXPECT_GT(scaled, 0.1) << "levels are wider than they need be";
+}
+
+TEST(RegionPlane, WithoutAnEndlessPlaneNothingIsPredictedFromOne) {
+  test::Noise noise(12);
+  EXPECT_FALSE(fitted([](double, double) { return kDistance_m; }, &noise).by_endless.found);
+}
+
 TEST(RegionPlane, LevelReachesToABendOfWhatIsNotSeen) {
   test::Noise noise(4);
   // Only the upper half is seen; the lower one bends away by a tenth of v².
   const RegionPlane plane = plane_of([](double, double v) { return v > 0.0 ? kDistance_m : kUnseen; }, &noise);
   ASSERT_TRUE(plane.found);
-  const Settings s = test::settings_with();
   // The wall's plane with that bend below: the mean of 0.1 v² over the lower half is 4 cm, over all 2 cm.
-  EXPECT_GT(plane.bound(kOffset, 0.0)[POSE_WALL_PART_BEND], 0.02);
+  EXPECT_GT(plane.bound(kOffset, without_bias())[POSE_WALL_PART_BEND], 0.02);
   const RegionPlane whole = plane_of([](double, double) { return kDistance_m; }, &noise);
-  EXPECT_LT(whole.bound(kOffset, s.range_bias_max)[POSE_WALL_PART_BEND], 1e-3);
+  EXPECT_LT(whole.bound(kOffset, test::settings_with())[POSE_WALL_PART_BEND], 1e-3);
 }
 
 TEST(RegionPlane, LevelReachesToTheWallBehindThings) {
