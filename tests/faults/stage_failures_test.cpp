@@ -52,7 +52,7 @@ const StageCase kStageCases[] = {
     {"walls_not_found", Fault::kWallsNotFound, "VVHHHHH", "VVIIIII"},
     {"left_wall_not_found", Fault::kLeftNotFound, "VVLHHVV", "VVLIIVV"},
     {"right_wall_not_found", Fault::kRightNotFound, "VVLVVHH", "VVLVVII"},
-    {"walls_are_nan", Fault::kWallsNan, "V", "V"},
+    {"walls_are_nan", Fault::kWallsNan, "VVVHHHH", "VVVIIII"},
     {"walls_are_nan_without_regions", Fault::kWallsNan, "VVHHHHH", "VVIIIII", false, room_frame, "off"},
     {"wall_planes_are_nan", Fault::kWallPlanesNan, "V", "V", false},
     {"no_walls_proposed", Fault::kNothingProposed, "VVHHHHH", "VVIIIII"},

@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kAcross_m = 1.125;  // of the definition, in whole cells
 constexpr double kNearest_m = 0.2;   // below base: what is nearer is the machine
-// A floor whose waves turn the region's plane by more is no such floor in one frame of 370.
-constexpr double kByWavesInSigmas = 3.0;
 // How steep the floor may have become against the machine's where the region ends: 17 degrees, as a ramp begins; and
 // half the second derivative across, a camber of 6 cm over the lane.
 constexpr double kRamp = 0.3, kCamber_per_m = 0.05;
@@ -43,28 +41,12 @@ Eigen::Vector3d of(const Eigen::Vector3d& gradient, const Region& region) {
   return {0.0, gradient.dot(region.u), gradient.dot(region.v)};
 }
 
-// The endless floor as height and slopes over the region's axes. Its own heights are upwards, those of a region
-// downwards.
-UnevenFit endless_in(const Region& region, const FloorResult& floor) {
-  const TangentFrame& f = floor.frame;
-  Eigen::Matrix3d to;
-  to << 1.0, -f.u.dot(f.origin), -f.v.dot(f.origin),  //
-      0.0, f.u.dot(region.u), f.v.dot(region.u),      //
-      0.0, f.u.dot(region.v), f.v.dot(region.v);
-  UnevenFit out = floor.uneven;
-  out.correction = {floor.fit.plane.d, 0.0, 0.0};
-  out.covariance = to * out.covariance * to.transpose();
-  out.bias_response = -(to * out.bias_response);
-  return out;
-}
-
 // Roll or pitch by one plane.
 struct Angle : AngleErrors {
   double rad = 0.0;
 
   Angle() = default;
   Angle(double angle_rad, const AngleErrors& errors) : AngleErrors(errors), rad(angle_rad) {}
-  Known known(const Settings& s) const { return {rad, level_rad(s)}; }
 };
 
 struct Angles {
@@ -114,15 +96,16 @@ void reach_by_share(const Region& region, const RegionPlane& found, const FloorR
   reach(pitch, &angles->pitch.bound_rad);
 }
 
-// The waves and what is not known of both planes explain how far they lie apart. Else part of the region is another
-// surface: a wall's foot, a bench.
-bool rides_on(const Angle& endless, const Angle& region) {
-  return std::fabs(endless.rad - region.rad) <= kByWavesInSigmas * with_waves(endless.sigma_rad, region.sigma_rad);
+bool rides_on(const Angles& endless, const Angles& region) {
+  const auto may_be = [](const Angle& a, const Angle& b) {
+    return may_be_waves(a.rad - b.rad, a.sigma_rad, b.sigma_rad);
+  };
+  return may_be(endless.roll, region.roll) && may_be(endless.pitch, region.pitch);
 }
 
 void take_narrower(const Angles& other, const Settings& s, Angles* best) {
-  if (other.roll.known(s).level < best->roll.known(s).level) best->roll = other.roll;
-  if (other.pitch.known(s).level < best->pitch.known(s).level) best->pitch = other.pitch;
+  if (other.roll.level_rad(s) < best->roll.level_rad(s)) best->roll = other.roll;
+  if (other.pitch.level_rad(s) < best->pitch.level_rad(s)) best->pitch = other.pitch;
 }
 
 void set(const Angles& angles, FloorResult* floor) {
@@ -141,8 +124,9 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
   }
   const Region region = region_of(scene, floor->fit.plane);
   RegionPlane by_endless;
-  const RegionPlane found = scratch->region.fit(scene.cloud_base, region, s, &scratch->patches.waves(), &scratch->work,
-                                                endless_in(region, *floor), &by_endless);
+  const RegionPlane found =
+      scratch->region.fit(scene.cloud_base, region, s, &scratch->patches.waves(), &scratch->work,
+                          over_region(region, floor->fit.plane, floor->frame, floor->uneven), &by_endless);
   if (!found.found || found.is_none() || !(found.seen_at_ends >= kSeenAtEnds)) return;
   const Angles near = angles_of(region, found, s), endless = widened_by_waves(*floor, near);
   const bool is_same = std::fabs(found.at[0] - floor->fit.plane.d) < kStep_m;
@@ -154,14 +138,12 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
     return;
   }
   Angles best = near;
-  if (by_endless.found && rides_on(endless.roll, near.roll) && rides_on(endless.pitch, near.pitch)) {
+  if (by_endless.found && rides_on(endless, near)) {
     Angles predicted = angles_of(region, by_endless, s);
     reach_by_share(region, by_endless, *floor, &predicted);
     take_narrower(predicted, s, &best);
   }
-  if (agree(endless.roll.known(s), near.roll.known(s)) && agree(endless.pitch.known(s), near.pitch.known(s))) {
-    take_narrower(endless, s, &best);
-  }
+  if (found.may_be_endless) take_narrower(endless, s, &best);
   set(best, floor);
   floor->fit.plane = found.plane_in(region);
   floor->fit.plane.n = up_of_roll_pitch({best.roll.rad, best.pitch.rad});

@@ -24,7 +24,6 @@ constexpr double kLikelyInSigmas = 2.0;
 constexpr double kSigmaMinAngle_rad = 1e-5;   // swept: half 287 moved, twice 287 moved
 constexpr double kSigmaMinDistance_m = 1e-4;  // swept: half 279 moved, twice 279 moved
 
-constexpr double kLayerFactor = 2.0;  // ribs move a wall to one side, within bounds (walls/fit: What rock shows)
 // Dof / (dof - 2) stretches a variance by 2 at most; swept: half 1 moved, twice 32 moved.
 constexpr double kDofMin = 4.0;
 
@@ -67,10 +66,10 @@ void measure_distances(const JudgedWall& wall, const Settings& s, Measurement* f
     Measurement& m = *ends[end];
     if (!wall.fit.refused) {
       ProtectionParts bound = wall.distance_bound_m[end];
-      bound[POSE_WALL_PART_BEND] += kLayerFactor * wall.layer_sigma_m;
+      bound[POSE_WALL_PART_BEND] += kLayerFactor * wall.layer_sigma_m[end];
       m = measurement(wall.distance_m[end], with_floor(wall.distance_sigma_m[end], kSigmaMinDistance_m), bound,
                       wall.distance_dof[end], s);
-      m.sigma = with_floor(m.sigma, wall.layer_sigma_m);
+      m.sigma = with_floor(m.sigma, wall.layer_sigma_m[end]);
       if (wall.extrapolated[end]) m.reasons |= POSE_WALL_R_EXTRAPOLATED;
     }
     m.reasons |= wall.fit.reasons;
@@ -239,8 +238,9 @@ Measurement measure_yaw(const FloorResult& floor, const Levelling& levelling, co
   const Measurement endless = yaw_by_endless(floor, levelling, walls.endless, s);
   const Measurement region = yaw_by_regions(floor, levelling, walls, s);
   if (!region.measured) return endless;
-  const Known known = {region.raw, region.protection.sum()}, before = {endless.raw, endless.protection.sum()};
-  return endless.measured && agree(before, known) && before.level <= known.level ? endless : region;
+  bool is_same = endless.measured;
+  for (const RegionWall& side : walls.region) is_same = is_same && (side.may_be_endless || !side.has_plane());
+  return is_same && endless.protection.sum() <= region.protection.sum() ? endless : region;
 }
 
 }  // namespace

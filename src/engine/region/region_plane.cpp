@@ -107,12 +107,12 @@ void RegionPlane::take(const UnevenFit& fit) {
   dof = fit.dof;
 }
 
-// The first reading is that of the seen cells alone. How the surface may bend is seen elsewhere.
-RegionPlane RegionPlane::standing_on_endless(const UnevenFit& fit) const {
+// The first reading is that of the seen cells alone.
+RegionPlane RegionPlane::on_endless(const UnevenFit& fit, const Eigen::Vector2d& bend_per_m) const {
   RegionPlane out = *this;
   out.readings_[0] += at - fit.correction;
   out.take(fit);
-  out.missing_of_bend_.setZero();
+  out.bend_per_m_ = bend_per_m;
   return out;
 }
 
@@ -122,6 +122,23 @@ Plane RegionPlane::plane_in(const Region& region) const {
   plane.n = (at[1] * region.u + at[2] * region.v - region.h) / length;
   plane.d = at[0] / length;
   return plane;
+}
+
+UnevenFit over_region(const Region& region, const Plane& plane, const TangentFrame& frame, const UnevenFit& errors) {
+  const double per_h = 1.0 / plane.n.dot(region.h);  // where the plane rises by a metre, h changes by so much
+  UnevenFit out = errors;
+  out.correction = -per_h * Eigen::Vector3d(plane.d, plane.n.dot(region.u), plane.n.dot(region.v));
+  Eigen::Matrix3d to = Eigen::Matrix3d::Zero();
+  to(0, 0) = 1.0;
+  for (int k = 1; k < 3; ++k) {
+    const Eigen::Vector3d& axis = k == 1 ? frame.u : frame.v;
+    const Eigen::Vector3d over(-axis.dot(frame.origin), axis.dot(region.u), axis.dot(region.v));
+    to.col(k) = over + axis.dot(region.h) * out.correction;
+  }
+  to *= per_h;
+  out.covariance = to * errors.covariance * to.transpose();
+  out.bias_response = to * errors.bias_response;
+  return out;
 }
 
 void RegionFit::lay_out(Arena& arena) {
@@ -407,8 +424,9 @@ RegionPlane RegionFit::fit(const BoundedPoints& points, const Region& region, co
   UnevenFit with;
   out.found = predict(points, region, settings, settled[best].plane, waves, endless, &out, &with);
   if (!out.found) return out;
+  out.may_be_endless = endless.solved && loss_of(endless.correction) < settled[best].loss + kLossApart;
   read_otherwise(settled, best, &out);
-  if (with.solved) *by_endless = out.standing_on_endless(with);
+  if (with.solved) *by_endless = out.on_endless(with, region.bend_on_endless_per_m);
   return out;
 }
 

@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "base/containers/work.hpp"
+#include "base/estimation/tangent_frame.hpp"
 #include "base/estimation/uneven_plane.hpp"
 #include "engine/config.hpp"
 #include "engine/region/region_cells.hpp"
@@ -40,6 +41,8 @@ struct RegionPlane {
   // Of a linear function of the plane: standard deviation, and bounds by range bias, bends and other readings.
   double sigma(const Eigen::Vector3d& of) const;
   ProtectionParts bound(const Eigen::Vector3d& of, const Settings& settings) const;
+  // Whether its cells show the endless plane as well: one that the formula may as well settle on.
+  bool may_be_endless = false;
   // By how much the endless plane that it was predicted from moves it: of offset and slopes.
   Eigen::Vector3d share_of_endless(const Eigen::Vector3d& of) const { return of_endless_.transpose() * of; }
   // By how much an endless plane is uncertain as this one: the waves turn and shift this one about it.
@@ -53,7 +56,7 @@ struct RegionPlane {
   friend class RegionFit;
   double sigma_of_seen(const Eigen::Vector3d& of) const;
   void take(const UnevenFit& fit);
-  RegionPlane standing_on_endless(const UnevenFit& fit) const;
+  RegionPlane on_endless(const UnevenFit& fit, const Eigen::Vector2d& bend_per_m) const;
   static constexpr double kHalf = 0.5;  // of the definition
   // The sensor sees other parts than the surveyor. With walls from 0.42 on, 14 of 2,688 values of mine scenes were
   // misleading, all where the surveyor saw none; from 0.58 on none was (campaign seed 90210, 2026-11-28).
@@ -67,20 +70,20 @@ struct RegionPlane {
   std::uint32_t count_ = 0;
 };
 
+// A plane of all surface in view as the region's h = correction * (1, u, v). errors: covariance, bias and degrees of
+// freedom of its height and slopes in the frame that it was fitted in, and whether there are any.
+UnevenFit over_region(const Region& region, const Plane& plane, const TangentFrame& frame, const UnevenFit& errors);
+
 // Standard deviation of an endless plane as a region's, by sigma_about_endless().
 inline double with_waves(double sigma, double waves) {
   return std::sqrt(sigma * sigma + waves * waves);
 }
 
-// A value, and what bounds its error.
-struct Known {
-  double value, level;
-};
-
-// Two looks at the same thing agree within their levels. By the definition the region's plane is right: an endless one
-// beyond is of another surface, however well it is known.
-inline bool agree(const Known& endless, const Known& region) {
-  return std::fabs(endless.value - region.value) <= endless.level + region.level;
+// Whether waves, and what is not known of both planes, explain how far these lie apart. Else part of the region is
+// another surface: a wall's foot, a bench. The standard deviation of the endless one holds the waves.
+inline bool may_be_waves(double apart, double sigma_of_endless, double sigma_of_region) {
+  constexpr double kSigmas = 3.0;  // no such surface lies so far off in one frame of 370
+  return std::fabs(apart) <= kSigmas * with_waves(sigma_of_endless, sigma_of_region);
 }
 
 class RegionFit {

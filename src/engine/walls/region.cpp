@@ -42,6 +42,7 @@ Region region_of(const WallScene& scene, int side, const JudgedWall& endless) {
   region.v_max_m = scene.z_max_level_m;
   region.sensor_m = scene.sensor_level_m;
   region.bend_per_m.fill(kBend_per_m);
+  region.bend_on_endless_per_m = {0.0, kBend_per_m};  // further along as little is seen above
   region.h_min_m = nearest_of(region, endless);
   return region;
 }
@@ -92,20 +93,34 @@ bool is_wall(const WallScene& scene, const JudgedWall& wall, const JudgedWall& e
 
 double level_of(const JudgedWall& wall, int end, const Settings& s) {
   const double factor = protection_factor(s.protection_sigmas, wall.distance_dof[end]);
-  return factor * wall.distance_sigma_m[end] + wall.distance_bound_m[end].sum();
+  return factor * wall.distance_sigma_m[end] + wall.distance_bound_m[end].sum() +
+         kLayerFactor * wall.layer_sigma_m[end];
 }
 
-// Of both ends.
-bool agree(const JudgedWall& endless, const JudgedWall& region, const Settings& s) {
+double yaw_level_of(const JudgedWall& wall, const Settings& s) {
+  return protection_factor(s.protection_sigmas, wall.yaw_dof) * wall.yaw_sigma_rad + wall.yaw_bound_rad.sum() +
+         wall.yaw_to_rival_rad;
+}
+
+void take_narrower_distances(const JudgedWall& other, const Settings& s, JudgedWall* best) {
   for (int end = 0; end < 2; ++end) {
-    const Known a = {endless.distance_m[end], level_of(endless, end, s)};
-    if (!agree(a, {region.distance_m[end], level_of(region, end, s)})) return false;
+    if (!(level_of(other, end, s) < level_of(*best, end, s))) continue;
+    best->distance_m[end] = other.distance_m[end];
+    best->distance_sigma_m[end] = other.distance_sigma_m[end];
+    best->distance_bound_m[end] = other.distance_bound_m[end];
+    best->distance_dof[end] = other.distance_dof[end];
+    best->layer_sigma_m[end] = other.layer_sigma_m[end];
+    best->extrapolated[end] = other.extrapolated[end];
   }
-  return true;
 }
 
-double worse_of(const JudgedWall& wall, const Settings& s) {
-  return larger(level_of(wall, 0, s), level_of(wall, 1, s));
+void take_narrower_yaw(const JudgedWall& other, const Settings& s, JudgedWall* best) {
+  if (!(yaw_level_of(other, s) < yaw_level_of(*best, s))) return;
+  best->yaw_rad = other.yaw_rad;
+  best->yaw_sigma_rad = other.yaw_sigma_rad;
+  best->yaw_bound_rad = other.yaw_bound_rad;
+  best->yaw_to_rival_rad = other.yaw_to_rival_rad;
+  best->yaw_dof = other.yaw_dof;
 }
 
 // Either may be the wall.
@@ -162,14 +177,60 @@ JudgedWall wall_of(const WallScene& scene, const Region& region, const RegionPla
   return wall;
 }
 
+// What all of the wall in view tells of its plane over the region: nothing if it was refused, or may be a thing.
+UnevenFit known_of(const JudgedWall& endless, const Region& region) {
+  UnevenFit errors;
+  if (endless.fit.refused || endless.may_be_no_wall) return errors;
+  errors.solved = true;
+  const Eigen::Vector3d stretch(1.0, endless.yaw_per_slope, 1.0);
+  errors.covariance = stretch.asDiagonal() * endless.covariance * stretch.asDiagonal();
+  errors.bias_response = endless.bias_response;
+  errors.dof = endless.yaw_dof;
+  return over_region(region, endless.fit.plane, endless.frame, errors);
+}
+
+// What may be wrong with the endless wall at both ends moves what is predicted from it, as far as that follows it.
+void reach_by_share(const WallScene& scene, const Region& region, const RegionPlane& predicted, int side,
+                    const JudgedWall& endless, JudgedWall* wall) {
+  const auto along = [&](int end) { return region.u.dot(scene.sample_level_m[side][end]); };
+  const double apart_m = along(0) - along(1);
+  const auto reach = [&](const Eigen::Vector3d& of, ProtectionParts* bound) {
+    const Eigen::Vector3d share = predicted.share_of_endless(of);
+    const double of_front = (share[1] - share[0] * along(1)) / apart_m;
+    const double of_end[2] = {of_front, share[0] - of_front};
+    ProtectionParts of_endless;
+    for (int end = 0; end < 2; ++end) of_endless.add(endless.distance_bound_m[end], std::fabs(of_end[end]));
+    of_endless[POSE_WALL_PART_RANGE_BIAS] = 0.0;  // its response is known, with its sign
+    bound->add(of_endless);
+  };
+  for (int end = 0; end < 2; ++end) {
+    const Eigen::Vector3d of = of_distance(scene, region, predicted.at, side, end);
+    reach(of, &wall->distance_bound_m[end]);
+    wall->layer_sigma_m[end] = std::fabs(predicted.share_of_endless(of)[0]) * endless.layer_sigma_m[end];
+  }
+  reach(of_yaw(predicted.at), &wall->yaw_bound_rad);
+}
+
+// Whether the waves explain how far the two lie apart. The endless distances hold the waves already.
+bool rides_on(const JudgedWall& endless, const JudgedWall& region) {
+  const double yaw_sigma_rad = with_waves(endless.yaw_sigma_rad, region.yaw_waves_rad);
+  bool all = may_be_waves(endless.yaw_rad - region.yaw_rad, yaw_sigma_rad, region.yaw_sigma_rad);
+  for (int end = 0; end < 2; ++end) {
+    all = all && may_be_waves(endless.distance_m[end] - region.distance_m[end], endless.distance_sigma_m[end],
+                              region.distance_sigma_m[end]);
+  }
+  return all;
+}
+
 // A side without an endless wall shows none in its region either, but it may be shown to have none. The endless
 // distances are widened to stand for the region's.
 RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless, WallsScratch* scratch) {
   using Kind = RegionWall::Kind;
   RegionWall out;
   const Region region = region_of(scene, side, *endless);
-  RegionPlane found =
-      scratch->region.fit(scene.band_level, region, scene.settings, &scratch->fit.patches.waves(), &scratch->fit.work);
+  RegionPlane by_endless;
+  RegionPlane found = scratch->region.fit(scene.band_level, region, scene.settings, &scratch->fit.patches.waves(),
+                                          &scratch->fit.work, known_of(*endless, region), &by_endless);
   if (!found.found) return out;
   if (found.is_none()) {
     out.kind = Kind::kNone;
@@ -178,13 +239,9 @@ RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless,
   // The region's plane answers doubts about what lies elsewhere, and a plane that is looked past.
   if (!endless->fit.found || (endless->fit.refused && (endless->fit.reasons & ~kDoubts) != 0)) return out;
   out.wall = wall_of(scene, region, found, side, *endless);
-  for (int end = 0; end < 2; ++end) {
-    const double step_m = scratch->region.step_at(region.u.dot(scene.sample_level_m[side][end]), found.at);
-    out.wall.extrapolated[end] = step_m > 0.0;
-    out.wall.distance_bound_m[end][POSE_WALL_PART_EXTRAPOLATION] += step_m;
-  }
   if (!is_wall(scene, out.wall, *endless, scratch, &found)) return out;
   out.kind = found.is_there() ? Kind::kWall : Kind::kDoubtful;
+  out.may_be_endless = found.may_be_endless;
   endless->yaw_waves_rad = out.wall.yaw_waves_rad = found.sigma_about_endless(of_yaw(found.at));
   for (int end = 0; end < 2; ++end) {
     const double waves_m = found.sigma_about_endless(of_distance(scene, region, found.at, side, end));
@@ -192,6 +249,17 @@ RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless,
     out.wall.distance_waves_m = larger(out.wall.distance_waves_m, waves_m);
   }
   endless->distance_waves_m = out.wall.distance_waves_m;
+  if (by_endless.found && rides_on(*endless, out.wall)) {
+    JudgedWall predicted = wall_of(scene, region, by_endless, side, *endless);
+    reach_by_share(scene, region, by_endless, side, *endless, &predicted);
+    take_narrower_distances(predicted, scene.settings, &out.wall);
+    take_narrower_yaw(predicted, scene.settings, &out.wall);
+  }
+  for (int end = 0; end < 2; ++end) {
+    const double step_m = scratch->region.step_at(region.u.dot(scene.sample_level_m[side][end]), found.at);
+    out.wall.extrapolated[end] = step_m > 0.0;
+    out.wall.distance_bound_m[end][POSE_WALL_PART_EXTRAPOLATION] += step_m;
+  }
   return out;
 }
 
@@ -202,11 +270,12 @@ void choose(const RegionWall& region, const Settings& s, JudgedWall* wall) {
     if (!wall->fit.refused) reach_to(region.wall, s, wall);
     return;
   }
-  const bool is_same = !wall->fit.refused && agree(*wall, region.wall, s);
-  if (is_same && !(worse_of(region.wall, s) < worse_of(*wall, s))) return;
-  const WallAhead ahead = is_same ? ahead_of(*wall, s) : WallAhead{};
-  *wall = region.wall;
-  wall->ahead = ahead;
+  JudgedWall best = region.wall;
+  if (region.may_be_endless) {
+    take_narrower_distances(*wall, s, &best);
+    best.ahead = ahead_of(*wall, s);
+  }
+  *wall = best;
   POSE_WALL_NOTE(trace::answered(POSE_WALL_TRACE_REFUSES));
 }
 

@@ -9,11 +9,14 @@
 #include <cmath>
 
 #include "base/estimation/patch_fit.hpp"
+#include "base/estimation/tangent_frame.hpp"
 #include "base/math/finite.hpp"
 #include "engine/config.hpp"
 #include "engine/types.hpp"
 
 namespace pose_wall {
+
+constexpr double kLayerFactor = 2.0;  // ribs move a wall to one side, within bounds (walls/fit: What rock shows)
 
 // The fit of one side's wall. u: metres along the road from the foot of the origin, v: metres up from the origin's
 // level.
@@ -29,15 +32,19 @@ struct FittedWall {
   double distance_m[2] = {0.0, 0.0};                        // at s_front, s_back
   double distance_sigma_m[2] = {0.0, 0.0};
   ProtectionParts distance_bound_m[2];
-  double layer_sigma_m = 0.0;  // how far ribs and cables may have moved the surface; part ratio of their standard
-                               // deviations, with what strips and rock add
+  // How far ribs and cables may have moved the surface; part ratio of their standard deviations, with what strips and
+  // rock add. At s_front and s_back.
+  double layer_sigma_m[2] = {0.0, 0.0};
   bool extrapolated[2] = {false, false};
   double distance_dof[2] = {1.0, 1.0};  // independent pieces behind the distances' variances
   double yaw_dof = 1.0;                 // and behind the direction's
   // What set_sigmas() needs of the fit:
-  double yaw_per_slope = 1.0;  // of the standard deviations
-  Eigen::Vector3d origin_level_m = Eigen::Vector3d::Zero(), u_level = Eigen::Vector3d::UnitX();  // of the fit
+  double yaw_per_slope = 1.0;    // of the standard deviations
+  TangentFrame frame;            // of the fit, levelled
   Eigen::Vector3d at_sample[2];  // of the plane's errors: 1, u, v
+  // Errors of height and slopes in that frame. The covariance is set by set_sigmas(), where the wall is not refused.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d bias_response = Eigen::Vector3d::Zero();  // per metre of range bias
   double along_min_m = 0.0;
   double along_max_m = 0.0;
   // By which other rock beside the machine turns and shifts what is measured there: standard deviations. None without a
@@ -95,7 +102,8 @@ inline WallAhead ahead_of(const JudgedWall& wall, const Settings& s) {
 struct RegionWall {
   enum class Kind { kUnknown, kNone, kDoubtful, kWall };
   Kind kind = Kind::kUnknown;
-  JudgedWall wall;  // of a wall, and of a doubtful one
+  bool may_be_endless = false;  // its cells show the endless wall as well
+  JudgedWall wall;              // of a wall, and of a doubtful one
 
   bool is_known() const { return kind != Kind::kUnknown; }
   bool is_sure() const { return kind == Kind::kNone || kind == Kind::kWall; }

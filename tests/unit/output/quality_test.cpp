@@ -233,12 +233,18 @@ TEST(Quality, YawReachesToEachReadingOfADoubtfulSide) {
 }
 
 TEST(Quality, YawIsOfTheEndlessWallsWhereARegionIsUnknownOrTheyAreKnownBetter) {
-  EXPECT_NEAR(Regions(Kind::kUnknown, Kind::kWall).yaw().raw, 0.02, 1e-12);
-  Regions agree(Kind::kWall, Kind::kWall);
-  for (RegionWall& region : agree.found.region) region.wall.yaw_sigma_rad = 0.02;
-  EXPECT_NEAR(agree.yaw().raw, 0.02, 1e-12);
-  for (RegionWall& region : agree.found.region) region.wall.yaw_rad = 0.3;
-  EXPECT_NEAR(agree.yaw().raw, 0.3, 1e-12) << "far beyond both levels, the endless walls are other surfaces";
+  Regions unknown(Kind::kUnknown, Kind::kWall);
+  EXPECT_NEAR(unknown.yaw().raw, 0.03, 1e-12) << "the endless wall of one side, and the other's region";
+  unknown.found.region[1].may_be_endless = true;
+  EXPECT_NEAR(unknown.yaw().raw, 0.02, 1e-12) << "both endless walls";
+  Regions alike(Kind::kWall, Kind::kWall);
+  for (RegionWall& region : alike.found.region) {
+    region.wall.yaw_sigma_rad = 0.02;
+    region.may_be_endless = true;
+  }
+  EXPECT_NEAR(alike.yaw().raw, 0.02, 1e-12);
+  alike.found.region[0].may_be_endless = false;
+  EXPECT_NEAR(alike.yaw().raw, 0.07, 1e-12) << "one of the endless walls is another surface";
 }
 
 // The level alone tells how good a value is: a doubt adds its reason here, and its bound where it is raised.

@@ -77,8 +77,8 @@ TEST(WallSigmas, TheyAreThoseOfTheErrorsAtTheSamplingPoints) {
   errors[0].layer[0].weigh(WaveEvidence{});
   JudgedWall walls[2] = {wall(true), JudgedWall()};
   walls[0].yaw_per_slope = 2.0;
-  walls[0].origin_level_m = {1.0, 2.0, 0.0};
-  walls[0].u_level = Eigen::Vector3d::UnitX();
+  walls[0].frame.origin = {1.0, 2.0, 0.0};
+  walls[0].frame.u = Eigen::Vector3d::UnitX();
   set_sigmas(errors, 5.0, &walls);
   EXPECT_NEAR(walls[0].yaw_sigma_rad, 2.0 * 1e-3, 1e-7);
   EXPECT_NEAR(walls[0].yaw_dof, kFreedom, 0.1);

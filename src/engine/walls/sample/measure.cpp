@@ -140,7 +140,8 @@ void set_sigmas_of_one(const PatchErrors& errors, double sigmas, FittedWall* wal
     wall->distance_dof[end] = at.dof;
   }
   // The place where offset and slope are uncorrelated.
-  wall->pivot_level_m = wall->origin_level_m - wall->u_level * (errors.covariance()(0, 1) / slope.variance);
+  wall->covariance = errors.covariance();
+  wall->pivot_level_m = wall->frame.origin - wall->frame.u * (wall->covariance(0, 1) / slope.variance);
 }
 
 }  // namespace
@@ -155,11 +156,11 @@ FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int 
   out.fit.plane = surface.plane();
   out.along_level = along_of(out.fit.plane, scene.forward_level);
   out.lean_rad = lean_of(out.fit.plane);
-  out.layer_sigma_m = surface.layer_sigma_m;
+  out.layer_sigma_m[0] = out.layer_sigma_m[1] = surface.layer_sigma_m;
   count_inliers(surface, scene.settings.wall_ransac_thresh, &out.fit);
   set_yaw(scene, surface, &out);
-  out.origin_level_m = surface.frame().origin;
-  out.u_level = surface.frame().u;
+  out.frame = surface.frame();
+  out.bias_response = patch.bias_response;
   set_distances(scene, surface, side, grid, &out);
   // Two thirds of straight walls (arch, seed 185); swept: half 4 lost, twice 47 moved.
   constexpr double kStraightInSigmas = 1.0;
