@@ -31,11 +31,11 @@
  *          roll > 0 is right side down, pitch > 0 is nose down. With -X both change sign for the driver. With +Y or -Y
  *          the driver's pitch is roll, and the driver's roll is pitch. Distances are >= 0. AXES.md of the package
  *          compares the axes and signs of all libraries.
- * REGIONS  with the key region: on, floor and walls are those beside the machine: the plane, by one formula, of what is
- *          really there from floor_region_min to floor_region_max ahead and behind on the floor, and within 2.5 m along
- *          the walls. DEFINITIONS.md of the package has regions and formula. Where too little of that is seen, and with
- *          region: off, a value is of all floor or wall in view (the extents of its plane tell), and its level covers
- *          more.
+ * REGIONS  floor and walls are those beside the machine: the plane, by one formula, of what is really there from
+ *          floor_region_min to floor_region_max ahead and behind on the floor, and within 2.5 m along the walls.
+ *          DEFINITIONS.md of the package has regions and formula. Where too little of that is seen, a value is of all
+ *          floor or wall in view (the extents of its plane tell), and its level holds how the rock may differ. With the
+ *          key region: off, values are of those endless planes.
  * UNITS    metres, radians, nanoseconds (stamps), seconds (ages). NaN where there is no number.
  * MEMORY   only the caller's block, and less than 32 kB of stack. No call allocates, blocks, prints, reads a clock or
  *          throws.

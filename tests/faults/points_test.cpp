@@ -193,8 +193,8 @@ const PointCase kPointCases[] = {
        for (std::size_t i = 0; i < p->size(); i += 10) some.push_back((*p)[i]);
        *p = some;
      }},
-    {"ghosts_of_a_tenth_of_a_wall", "...DD..", true, [](auto* p) { throw_ghosts(p, 10, 1.5F); }},
-    {"ghosts_of_a_fifth_of_a_wall", "...DD..", true, [](auto* p) { throw_ghosts(p, 20, 1.5F); }},
+    {"ghosts_of_a_tenth_of_a_wall", "V", true, [](auto* p) { throw_ghosts(p, 10, 1.5F); }},
+    {"ghosts_of_a_fifth_of_a_wall", "V", true, [](auto* p) { throw_ghosts(p, 20, 1.5F); }},
     {"noise_of_half_a_metre", "x", true, [](auto* p) { noise(p, 0.5); }},
     {"noise_of_10_cm", ".", true, [](auto* p) { noise(p, 0.1); }},
     {"moved_by_100_m", "H", true,

@@ -44,9 +44,11 @@ TEST_F(SelfTestFaults, CodeThatIsNotCoveredIsSaidToBeNone) {
   EXPECT_EQ(report_.code_crc32, 0U);
 }
 
-// Its road shows no strips that layers do not tell, and nothing that hides a wall.
+// Its road shows no strips that layers do not tell, nothing that hides a wall, and a floor that is as well known in all
+// its view as beside the machine.
 bool changes_nothing(Fault fault) {
-  return fault == Fault::kStripsNotFound || fault == Fault::kDirectionsNotLearnt;
+  return fault == Fault::kStripsNotFound || fault == Fault::kDirectionsNotLearnt ||
+         fault == Fault::kRegionsUnseenAtEnds;
 }
 
 TEST_F(SelfTestFaults, EachStepThatFails) {

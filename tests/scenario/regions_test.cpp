@@ -43,21 +43,6 @@ TEST(Regions, ARowOfPropsBeforeNothingIsNoWall) {
   }
 }
 
-// Seen from the region's plane the grooves between pipes are those of its own points: further along, a plane that is
-// two degrees off leaves the wall. A distance was 128 mm off, its level 77.
-TEST(Regions, PipesThatTouchAreNoWall) {
-  constexpr std::uint64_t kSeed = 556073565;  // of the regression of that name
-  std::uint32_t distances = 0;
-  for (const JudgedFrame& frame : run_regions(sim::make_setup("pipes", "vlp16", true, kSeed), kSeed, 4)) {
-    for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-      if (frame.is(q, POSE_WALL_INVALID)) continue;
-      distances += q >= POSE_WALL_D_LF ? 1U : 0U;
-      EXPECT_LE(std::fabs(frame.error(q)), frame.result.quantity[q].protection_level) << pose_wall_quantity_name(q);
-    }
-  }
-  EXPECT_EQ(distances, 16U) << "four in each frame have a level to hold";
-}
-
 // The plane leans where it is fitted to an arch, so a distance follows the lean as well.
 TEST(Regions, TheLevelsHoldInAnArch) {
   std::uint32_t valid = 0;

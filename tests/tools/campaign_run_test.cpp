@@ -181,8 +181,10 @@ TEST(Campaign, GateFailsOnADoctoredRecord) {
   ASSERT_EQ(campaign_in(folder.path()).exit_status, 0);
   const campaign::Manifest manifest = campaign::read_manifest(folder.path());
   std::vector<campaign::RunRecord> records = campaign::read_records(folder.path(), manifest);
-  records[0].frames[3].quantity[POSE_WALL_YAW].truth += 0.5;
-  records[0].frames[3].quantity[POSE_WALL_YAW].measured.state = POSE_WALL_VALID;
+  campaign::QuantityRecord& yaw = records[0].frames[3].quantity[POSE_WALL_YAW];
+  yaw.truth += 0.5;
+  yaw.surveyed += 0.5;
+  yaw.measured.state = POSE_WALL_VALID;
   campaign::write_record(campaign::record_file(folder.path(), records[0].run), records[0], manifest.fingerprint());
   EXPECT_TRUE(test::says(campaign_in(folder.path(), {"--gate"}), 3, "misleading frames: 1 of 16"));
 }

@@ -30,7 +30,7 @@ struct Seen {
 };
 
 std::vector<Seen> seen_in(const std::string& scene, std::uint32_t frames, std::initializer_list<const char*> parameters,
-                          const char* motion, const char* sensor = "os1-64", const char* region = "off") {
+                          const char* motion, const char* sensor = "os1-64", const char* region = "on") {
   sim::Setup setup = sim::make_setup(scene, sensor, false, 5);
   for (const char* parameter : parameters) sim::set_parameter(setup, parameter);
   const Simulator simulator(setup, 5);

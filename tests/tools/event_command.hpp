@@ -26,6 +26,7 @@ inline std::string command_of_event(const std::string& folder, std::size_t run, 
   const campaign::Manifest manifest = campaign::read_manifest(folder);
   campaign::RunRecord record = campaign::read_records(folder, manifest).at(run);
   record.frames.at(frame).quantity[POSE_WALL_ROLL].truth += 0.5;
+  record.frames.at(frame).quantity[POSE_WALL_ROLL].surveyed += 0.5;
   campaign::write_record(campaign::record_file(folder, record.run), record, manifest.fingerprint());
   EXPECT_EQ(command({"campaign", "--card-only", "--quiet", "--output", folder}).exit_status, 0);
   std::ifstream page(folder + "/card.json");

@@ -446,7 +446,7 @@ TEST(Sentences, NoHelpRaisesTheLimitThatAValueMisses) {
     EXPECT_FALSE(contains(helps.front(), "raise")) << helps.front();
     if (part == POSE_WALL_PART_EXTRAPOLATION) {
       EXPECT_TRUE(contains(helps.front(), "mount the sensor")) << helps.front();
-      EXPECT_TRUE(contains(helps.front(), "region: on")) << helps.front();
+      EXPECT_TRUE(contains(helps.front(), "s_front")) << helps.front();
     }
   }
 }

@@ -136,13 +136,12 @@ TEST(SteerLine, OfAllSomeAndNone) {
       english(result),
       "may steer: roll, pitch, yaw, d_lb, d_rf, d_rb; may not: d_lf (level 0.140 m, limit 0.100 m: the wall is "
       "unseen beside the machine). To look at: mount the sensor where nothing hides the wall at the sampling point, "
-      "set s_front and s_back to where it is seen, or measure the piece beside the machine (region: on).");
+      "or set s_front and s_back to where it is seen.");
   EXPECT_EQ(steer_line(Language::kChinese, steering_of(result, kLimits)),
             "可用于控制：横滚、俯仰、航向、左后、右前、右后；不可用：左前（保护级 0.140 m，限值 0.100 "
             "m：机器旁的巷帮不可见）。"
-            "处理：改变传感器安装位置以免采样点处的巷帮被遮挡，把 s_front 和 s_back "
-            "设到能看到巷帮之处，或只测机器旁的一段（region: "
-            "on）。");
+            "处理：改变传感器安装位置以免采样点处的巷帮被遮挡，或把 s_front 和 s_back "
+            "设到能看到巷帮之处。");
   for (pose_wall_value& value : result.quantity) value = unmeasured(POSE_WALL_R_NO_FRAME, POSE_WALL_HELD);
   EXPECT_EQ(english(result),
             "may steer: none; may not: roll, pitch, yaw, d_lf, d_lb, d_rf, d_rb (not measured: no frame has come "

@@ -232,8 +232,7 @@ int simulate(SimOptions options) {
   make_output_folder(options.output);
   std::filesystem::create_directory(std::filesystem::path(options.output) / "frames");
   write_whole_file(std::filesystem::path(options.output) / "pose_wall.yaml",
-                   sim::engine_settings(simulator.setup(), about_scene(options, simulator.setup())) +
-                       (options.surface.empty() ? "" : sim::kOfRealRock));
+                   sim::engine_settings(simulator.setup(), about_scene(options, simulator.setup())));
   if (!options.surface.empty() && options.path.empty()) {
     write_whole_file(std::filesystem::path(options.output) / "path.tum", survey_path_text(simulator.survey().path));
   }

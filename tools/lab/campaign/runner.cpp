@@ -138,9 +138,7 @@ RunRecord measure(const Run& run, const EngineChoice& choice, const Instrument& 
                   const std::function<void()>& on_frame) {
   const sim::Simulator simulator = simulator_of(run);
   const std::optional<Event> event = event_of(simulator.setup());
-  EngineChoice chosen = choice;
-  if (!run.surface.empty()) chosen.settings.insert(chosen.settings.begin(), "region=on");  // as of real rock
-  const LoadedConfig loaded = config_for(simulator.setup(), chosen);
+  const LoadedConfig loaded = config_for(simulator.setup(), choice);
   demand_ok(instrument.open(loaded), run);
   // Where values are of what is really there. Of a surface the truth is already.
   const bool by_survey = scene_of(run.scene)->kind == sim::SceneKind::kMine ||

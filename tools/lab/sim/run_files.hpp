@@ -17,9 +17,6 @@ std::filesystem::path frame_file(const std::filesystem::path& folder, std::uint3
 
 // The settings that an engine must know of this run: axes, mounting, the machine's own body, and what its sensor asks
 // for.
-// A line of the config for real rock: values are of what is really there.
-inline constexpr const char* kOfRealRock = "region: on\n";
-
 std::vector<EngineSetting> engine_setting_list(const Setup& setup);
 
 // The same as a pose_wall.yaml.

@@ -21,8 +21,8 @@ constexpr const char* kHelpOfPart[POSE_WALL_PARTS] = {
     translatable("a bent surface is no plane: look at a straighter piece"),
     translatable("clear the view to the surface, or show more of it"),
     translatable(
-        "mount the sensor where nothing hides the wall at the sampling point, set s_front and s_back to where it is "
-        "seen, or measure the piece beside the machine (region: on)"),
+        "mount the sensor where nothing hides the wall at the sampling point, or set s_front and s_back to where it is "
+        "seen"),
     translatable("wait until the value has followed"),
     translatable("see why frames are missing or late"),
 };
