@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0x638B081B46F1E604ULL;
+constexpr std::uint64_t kSelfTestDigest = 0xD87B96E6A7131C30ULL;
 
 }  // namespace pose_wall

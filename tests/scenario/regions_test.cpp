@@ -58,6 +58,23 @@ TEST(Regions, TheLevelsHoldInAnArch) {
   EXPECT_GE(valid, 35U) << "half of them";
 }
 
+// Each bends the region's plane, by 0.4 to 2.4 degrees, and all of the floor in view tells so.
+TEST(Regions, NeitherAWallsFootNorABenchInTheLaneTurnsTheFloor) {
+  struct Case {
+    const char *scene, *sensor;
+    std::uint64_t seed;
+  };
+  for (const Case& c : {Case{"near_wall", "mid360", 398657283}, Case{"bench", "os0-128", 725470930},
+                        Case{"blocked_twice", "os1-64", 836349038}}) {
+    for (const JudgedFrame& frame : run_regions(sim::make_setup(c.scene, c.sensor, true, c.seed), c.seed, 3)) {
+      for (const std::uint32_t q : {POSE_WALL_ROLL, POSE_WALL_PITCH}) {
+        EXPECT_FALSE(frame.is(q, POSE_WALL_INVALID)) << c.scene;
+        EXPECT_LE(std::fabs(frame.error(q)), frame.result.quantity[q].protection_level) << c.scene;
+      }
+    }
+  }
+}
+
 TEST(Regions, OneSilentWallLeavesTheDirection) {
   const auto setup = setup_with("shotcrete", "os1-64", {"lost_side=left", "lost_from_s=0", "lost_to_s=60"});
   for (const JudgedFrame& frame : run_regions(setup, 5, 3)) {

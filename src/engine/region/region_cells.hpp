@@ -24,8 +24,9 @@ struct Region {
   Eigen::Vector3d sensor_m;
   // Along u and v, half the second derivative: the surface may bend as much where it is not seen.
   Eigen::Vector2d bend_per_m;
-  // The same where all of the surface in view tells how it goes on.
-  Eigen::Vector2d bend_on_endless_per_m = Eigen::Vector2d::Zero();
+  // Whether all of the surface in view tells how it goes on beyond the region along u, and along v: it neither bends
+  // there nor ends.
+  Eigen::Array<bool, 2, 1> goes_on{true, true};
 
   Eigen::Vector3d coordinates(const Eigen::Vector3d& p) const { return {u.dot(p), v.dot(p), h.dot(p)}; }
 };

@@ -92,10 +92,12 @@ ProtectionParts RegionPlane::bound(const Eigen::Vector3d& of, const Settings& s)
   ProtectionParts out;
   out[POSE_WALL_PART_RANGE_BIAS] = s.range_bias_max * std::fabs(of.dot(bias_response_));
   out[POSE_WALL_PART_BEND] = (missing_of_bend_.transpose() * of).cwiseProduct(bend_per_m_).norm();
-  // The seen cells alone need nothing of what is not seen.
   const double not_seen = protection_factor(s.protection_sigmas, dof) * (sigma(of) - sigma_of_seen(of));
-  double most = larger(std::fabs(of.dot(readings_[0])) - not_seen, 0.0);
-  for (std::uint32_t k = 1; k < count_; ++k) most = larger(most, std::fabs(of.dot(readings_[k])));
+  double most = 0.0;
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    const double apart = std::fabs(of.dot(readings_[k].apart));
+    most = larger(most, readings_[k].within_random ? apart - not_seen : apart);
+  }
   out[POSE_WALL_PART_RIVAL] = most;
   return out;
 }
@@ -108,11 +110,12 @@ void RegionPlane::take(const UnevenFit& fit) {
 }
 
 // The first reading is that of the seen cells alone.
-RegionPlane RegionPlane::on_endless(const UnevenFit& fit, const Eigen::Vector2d& bend_per_m) const {
+RegionPlane RegionPlane::on_endless(const UnevenFit& fit, const Eigen::Array<bool, 2, 1>& goes_on) const {
   RegionPlane out = *this;
-  out.readings_[0] += at - fit.correction;
+  out.readings_[0].apart += at - fit.correction;
   out.take(fit);
-  out.bend_per_m_ = bend_per_m;
+  out.bend_per_m_ = goes_on.select(0.0, bend_per_m_);
+  for (Reading& reading : out.readings_) reading.within_random |= reading.of_edge && goes_on[1];
   return out;
 }
 
@@ -357,8 +360,8 @@ double RegionFit::seen_behind_at_edges(const Eigen::Vector3d& plane) const {
 // Other planes that the region's may be (README). The level reaches to each, as far as it moves the value.
 void RegionFit::read_otherwise(const Settled (&settled)[kStarts], int best, RegionPlane* out) {
   const Eigen::Vector3d& plane = settled[best].plane;
-  const auto add = [out](const Eigen::Vector3d& apart) { out->readings_[out->count_++] = apart; };
-  add(plane - out->at);  // as if the wall ended with what is seen of it
+  const auto add = [out](const Eigen::Vector3d& apart) { out->readings_[out->count_++] = {apart, false, false}; };
+  out->readings_[out->count_++] = {plane - out->at, true, false};  // as if the wall ended with what is seen of it
   const double loss = loss_without_things(plane);
   for (int k = 0; k < kStarts; ++k) {
     const Settled& other = settled[k];
@@ -387,7 +390,7 @@ void RegionFit::read_otherwise(const Settled (&settled)[kStarts], int best, Regi
     const Eigen::Vector2d side = towards(k);
     manner.lean = {kLean * side[0], 0.0};
     manner.edge = {0.0, side[1]};
-    if (settle(manner, &leaning)) add(leaning - plane);
+    if (settle(manner, &leaning)) out->readings_[out->count_++] = {leaning - plane, false, side[1] != 0.0};
   }
 }
 
@@ -426,7 +429,7 @@ RegionPlane RegionFit::fit(const BoundedPoints& points, const Region& region, co
   if (!out.found) return out;
   out.may_be_endless = endless.solved && loss_of(endless.correction) < settled[best].loss + kLossApart;
   read_otherwise(settled, best, &out);
-  if (with.solved) *by_endless = out.on_endless(with, region.bend_on_endless_per_m);
+  if (with.solved) *by_endless = out.on_endless(with, region.goes_on);
   return out;
 }
 

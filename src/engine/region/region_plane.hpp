@@ -56,7 +56,7 @@ struct RegionPlane {
   friend class RegionFit;
   double sigma_of_seen(const Eigen::Vector3d& of) const;
   void take(const UnevenFit& fit);
-  RegionPlane on_endless(const UnevenFit& fit, const Eigen::Vector2d& bend_per_m) const;
+  RegionPlane on_endless(const UnevenFit& fit, const Eigen::Array<bool, 2, 1>& goes_on) const;
   static constexpr double kHalf = 0.5;  // of the definition
   // The sensor sees other parts than the surveyor. With walls from 0.42 on, 14 of 2,688 values of mine scenes were
   // misleading, all where the surveyor saw none; from 0.58 on none was (campaign seed 90210, 2026-11-28).
@@ -66,7 +66,13 @@ struct RegionPlane {
   Eigen::Vector3d bias_response_ = Eigen::Vector3d::Zero();  // change per metre of range bias
   Eigen::Matrix<double, 3, 2> missing_of_bend_ = Eigen::Matrix<double, 3, 2>::Zero();
   Eigen::Vector2d bend_per_m_ = Eigen::Vector2d::Zero();
-  Eigen::Vector3d readings_[kReadingsMost];  // how far other planes that it may be are from it
+  // How far another plane that it may be lies from it.
+  struct Reading {
+    Eigen::Vector3d apart;
+    bool within_random;  // it needs no guess of what is not seen, or is unlikely: it counts beyond the random part
+    bool of_edge;        // without the outermost row
+  };
+  Reading readings_[kReadingsMost];
   std::uint32_t count_ = 0;
 };
 

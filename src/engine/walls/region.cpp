@@ -42,7 +42,7 @@ Region region_of(const WallScene& scene, int side, const JudgedWall& endless) {
   region.v_max_m = scene.z_max_level_m;
   region.sensor_m = scene.sensor_level_m;
   region.bend_per_m.fill(kBend_per_m);
-  region.bend_on_endless_per_m = {0.0, kBend_per_m};  // further along as little is seen above
+  region.goes_on = {true, false};  // further along as little is seen above and below
   region.h_min_m = nearest_of(region, endless);
   return region;
 }
