@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0xD87B96E6A7131C30ULL;
+constexpr std::uint64_t kSelfTestDigest = 0xE6619A6103847CD0ULL;
 
 }  // namespace pose_wall

@@ -19,8 +19,9 @@ class HallTiltedOs0 : public RealFrames {
     if (!IsSkipped()) reference_.emplace(data_folder() / "hall_tilted_os0" / "reference.csv");
   }
 
-  pose_wall_result measured(int frame) {
-    return process_alone(config_with(), "hall_tilted_os0/full" + std::to_string(frame) + ".pcd");
+  // The reference is of all of the hall's floor.
+  pose_wall_result measured(int frame, const char* region = "off") {
+    return process_alone(config_with({{"region", region}}), "hall_tilted_os0/full" + std::to_string(frame) + ".pcd");
   }
   double roll_error_deg(int frame, const pose_wall_result& r) {
     return r.quantity[POSE_WALL_ROLL].raw * kDegPerRad - (*reference_)(frame, "roll_deg");
@@ -54,6 +55,24 @@ TEST_F(HallTiltedOs0, SteepTiltsAreRightOrRefused) {
       EXPECT_NEAR(pitch_error_deg(frame, r), 0.0, kAngle_deg) << "frame " << frame;
     }
   }
+}
+
+// Beside the sensor half of the floor is seen.
+TEST_F(HallTiltedOs0, TheFloorBesideTheSensorIsTheReferenceWithinItsLevel) {
+  constexpr double kOfReference_deg = 0.2;
+  int measured_frames = 0;
+  for (int frame = 24; frame <= 35; ++frame) {
+    const pose_wall_result r = measured(frame, "on");
+    const pose_wall_value &roll = r.quantity[POSE_WALL_ROLL], &pitch = r.quantity[POSE_WALL_PITCH];
+    if (!is_measured(roll)) continue;
+    ++measured_frames;
+    const auto allowed_deg = [](const pose_wall_value& v) {
+      return v.raw_protection_level * kDegPerRad + kOfReference_deg;
+    };
+    EXPECT_LE(std::fabs(roll_error_deg(frame, r)), allowed_deg(roll)) << "frame " << frame;
+    EXPECT_LE(std::fabs(pitch_error_deg(frame, r)), allowed_deg(pitch)) << "frame " << frame;
+  }
+  EXPECT_GE(measured_frames, 8);
 }
 
 }  // namespace

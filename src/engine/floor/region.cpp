@@ -44,6 +44,7 @@ Eigen::Vector3d of(const Eigen::Vector3d& gradient, const Region& region) {
 // Roll or pitch by one plane.
 struct Angle : AngleErrors {
   double rad = 0.0;
+  bool of_endless = false;
 
   Angle() = default;
   Angle(double angle_rad, const AngleErrors& errors) : AngleErrors(errors), rad(angle_rad) {}
@@ -69,6 +70,7 @@ Angles widened_by_waves(const FloorResult& endless, const Angles& region) {
   const RollPitch at = roll_pitch_of_up(endless.fit.plane.n);
   Angles out{{at.roll_rad, endless.roll}, {at.pitch_rad, endless.pitch}};
   const auto widen = [](const Angle& by, Angle* angle) {
+    angle->of_endless = true;
     angle->waves_rad = by.waves_rad;
     angle->sigma_rad = with_waves(angle->sigma_rad, by.waves_rad);
   };
@@ -145,6 +147,7 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
   }
   if (found.may_be_endless) take_narrower(endless, s, &best);
   set(best, floor);
+  if (best.roll.of_endless && best.pitch.of_endless) return;
   floor->fit.plane = found.plane_in(region);
   floor->fit.plane.n = up_of_roll_pitch({best.roll.rad, best.pitch.rad});
   floor->fit.reasons &= ~static_cast<std::uint32_t>(POSE_WALL_R_FLOOR_AMBIGUOUS);  // of what lies elsewhere

@@ -66,10 +66,10 @@ void measure_distances(const JudgedWall& wall, const Settings& s, Measurement* f
     Measurement& m = *ends[end];
     if (!wall.fit.refused) {
       ProtectionParts bound = wall.distance_bound_m[end];
-      bound[POSE_WALL_PART_BEND] += kLayerFactor * wall.layer_sigma_m[end];
+      bound[POSE_WALL_PART_BEND] += kLayerFactor * wall.layer_sigma_m;
       m = measurement(wall.distance_m[end], with_floor(wall.distance_sigma_m[end], kSigmaMinDistance_m), bound,
                       wall.distance_dof[end], s);
-      m.sigma = with_floor(m.sigma, wall.layer_sigma_m[end]);
+      m.sigma = with_floor(m.sigma, wall.layer_sigma_m);
       if (wall.extrapolated[end]) m.reasons |= POSE_WALL_R_EXTRAPOLATED;
     }
     m.reasons |= wall.fit.reasons;

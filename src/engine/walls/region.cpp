@@ -93,34 +93,11 @@ bool is_wall(const WallScene& scene, const JudgedWall& wall, const JudgedWall& e
 
 double level_of(const JudgedWall& wall, int end, const Settings& s) {
   const double factor = protection_factor(s.protection_sigmas, wall.distance_dof[end]);
-  return factor * wall.distance_sigma_m[end] + wall.distance_bound_m[end].sum() +
-         kLayerFactor * wall.layer_sigma_m[end];
+  return factor * wall.distance_sigma_m[end] + wall.distance_bound_m[end].sum() + kLayerFactor * wall.layer_sigma_m;
 }
 
-double yaw_level_of(const JudgedWall& wall, const Settings& s) {
-  return protection_factor(s.protection_sigmas, wall.yaw_dof) * wall.yaw_sigma_rad + wall.yaw_bound_rad.sum() +
-         wall.yaw_to_rival_rad;
-}
-
-void take_narrower_distances(const JudgedWall& other, const Settings& s, JudgedWall* best) {
-  for (int end = 0; end < 2; ++end) {
-    if (!(level_of(other, end, s) < level_of(*best, end, s))) continue;
-    best->distance_m[end] = other.distance_m[end];
-    best->distance_sigma_m[end] = other.distance_sigma_m[end];
-    best->distance_bound_m[end] = other.distance_bound_m[end];
-    best->distance_dof[end] = other.distance_dof[end];
-    best->layer_sigma_m[end] = other.layer_sigma_m[end];
-    best->extrapolated[end] = other.extrapolated[end];
-  }
-}
-
-void take_narrower_yaw(const JudgedWall& other, const Settings& s, JudgedWall* best) {
-  if (!(yaw_level_of(other, s) < yaw_level_of(*best, s))) return;
-  best->yaw_rad = other.yaw_rad;
-  best->yaw_sigma_rad = other.yaw_sigma_rad;
-  best->yaw_bound_rad = other.yaw_bound_rad;
-  best->yaw_to_rival_rad = other.yaw_to_rival_rad;
-  best->yaw_dof = other.yaw_dof;
+double worse_of(const JudgedWall& wall, const Settings& s) {
+  return larger(level_of(wall, 0, s), level_of(wall, 1, s));
 }
 
 // Either may be the wall.
@@ -206,7 +183,8 @@ void reach_by_share(const WallScene& scene, const Region& region, const RegionPl
   for (int end = 0; end < 2; ++end) {
     const Eigen::Vector3d of = of_distance(scene, region, predicted.at, side, end);
     reach(of, &wall->distance_bound_m[end]);
-    wall->layer_sigma_m[end] = std::fabs(predicted.share_of_endless(of)[0]) * endless.layer_sigma_m[end];
+    wall->layer_sigma_m =
+        larger(wall->layer_sigma_m, std::fabs(predicted.share_of_endless(of)[0]) * endless.layer_sigma_m);
   }
   reach(of_yaw(predicted.at), &wall->yaw_bound_rad);
 }
@@ -252,8 +230,9 @@ RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless,
   if (by_endless.found && rides_on(*endless, out.wall)) {
     JudgedWall predicted = wall_of(scene, region, by_endless, side, *endless);
     reach_by_share(scene, region, by_endless, side, *endless, &predicted);
-    take_narrower_distances(predicted, scene.settings, &out.wall);
-    take_narrower_yaw(predicted, scene.settings, &out.wall);
+    predicted.yaw_waves_rad = out.wall.yaw_waves_rad;
+    predicted.distance_waves_m = out.wall.distance_waves_m;
+    if (worse_of(predicted, scene.settings) < worse_of(out.wall, scene.settings)) out.wall = predicted;
   }
   for (int end = 0; end < 2; ++end) {
     const double step_m = scratch->region.step_at(region.u.dot(scene.sample_level_m[side][end]), found.at);
@@ -270,12 +249,10 @@ void choose(const RegionWall& region, const Settings& s, JudgedWall* wall) {
     if (!wall->fit.refused) reach_to(region.wall, s, wall);
     return;
   }
-  JudgedWall best = region.wall;
-  if (region.may_be_endless) {
-    take_narrower_distances(*wall, s, &best);
-    best.ahead = ahead_of(*wall, s);
-  }
-  *wall = best;
+  if (region.may_be_endless && worse_of(*wall, s) < worse_of(region.wall, s)) return;
+  const WallAhead ahead = region.may_be_endless ? ahead_of(*wall, s) : WallAhead{};
+  *wall = region.wall;
+  wall->ahead = ahead;
   POSE_WALL_NOTE(trace::answered(POSE_WALL_TRACE_REFUSES));
 }
 

@@ -32,9 +32,8 @@ struct FittedWall {
   double distance_m[2] = {0.0, 0.0};                        // at s_front, s_back
   double distance_sigma_m[2] = {0.0, 0.0};
   ProtectionParts distance_bound_m[2];
-  // How far ribs and cables may have moved the surface; part ratio of their standard deviations, with what strips and
-  // rock add. At s_front and s_back.
-  double layer_sigma_m[2] = {0.0, 0.0};
+  double layer_sigma_m = 0.0;  // how far ribs and cables may have moved the surface; part ratio of their standard
+                               // deviations, with what strips and rock add
   bool extrapolated[2] = {false, false};
   double distance_dof[2] = {1.0, 1.0};  // independent pieces behind the distances' variances
   double yaw_dof = 1.0;                 // and behind the direction's

@@ -156,7 +156,7 @@ FittedWall measure_wall(const WallScene& scene, const WallSurface& surface, int 
   out.fit.plane = surface.plane();
   out.along_level = along_of(out.fit.plane, scene.forward_level);
   out.lean_rad = lean_of(out.fit.plane);
-  out.layer_sigma_m[0] = out.layer_sigma_m[1] = surface.layer_sigma_m;
+  out.layer_sigma_m = surface.layer_sigma_m;
   count_inliers(surface, scene.settings.wall_ransac_thresh, &out.fit);
   set_yaw(scene, surface, &out);
   out.frame = surface.frame();
