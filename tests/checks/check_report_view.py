@@ -183,8 +183,10 @@ def check_second_run(browser, checks, table):
     line = run(f"return {TEXT % 'compare-line'}")
     checks.hold(f"it says which, and how it fits: {line}", "second.csv" in line and "by their stamps" in line)
     lf, lb = run("return [3, 4].map((q) => recording.other.summary(q))")
+    # The table's nine digits and the page's floats round in two ways: by a step of a float below 4 m.
+    step = 2.4e-7
     checks.hold(f"the difference is told {lf['median']:.4f}", abs(lf["median"] - 0.125) < 1e-5 and
-                abs(lf["largest"] - 0.125) < 1e-5 and lb["largest"] == 0)
+                abs(lf["largest"] - 0.125) < 1e-5 and lb["largest"] <= step)
     checks.hold("a frame that it lacks has none", run(f"return Number.isNaN(recording.other.difference({missing}, 3))"))
     ink = INK % "chart-d_lf"
     both = run(ink)
