@@ -51,6 +51,7 @@ Six shrunk_turn(const Six& rate, const Six& noise) {
 void MotionModel::reset(const MotionSettings& settings) {
   forget_twist();
   forget_rates(settings);
+  usual_s_ = 0.0;
 }
 
 void MotionModel::forget_rates(const MotionSettings& settings) {
@@ -73,8 +74,18 @@ Expected MotionModel::expect(const Course& last, const MotionSettings& settings,
   return out;
 }
 
+// The alignments err by as much after a short step, so the variances of rates go with its square. Stamps that jitter
+// may bring two frames together that are a scan apart. Then a standing machine seems to whirl.
+double MotionModel::tells(double dt_s) {
+  constexpr double kShare = 0.25;  // of the last step in the mean: a new rate of frames is usual after some
+  usual_s_ = usual_s_ > 0.0 ? usual_s_ + kShare * (dt_s - usual_s_) : dt_s;
+  const double known = 2.0 * dt_s * dt_s / (dt_s * dt_s + usual_s_ * usual_s_);
+  return known < 1.0 ? known : 1.0;
+}
+
 void MotionModel::learn(const Course& last, const RoadAxes& axes, const MotionSettings& settings,
                         const MotionStep& step, double dt_s) {
+  const double known = tells(dt_s);
   Twist now = {step.m / dt_s, step.rad / dt_s};
   if (!step.is_along_known) {
     const Eigen::Vector3d axis = last.pose.R.transpose() * axes.along;
@@ -82,14 +93,14 @@ void MotionModel::learn(const Course& last, const RoadAxes& axes, const MotionSe
   }
   if (dt_s < kTwistLasts_s) {
     const Six rate = in_road(last.pose, axes, now);
-    scan_motion_.learn(rate, step.variance / (dt_s * dt_s));
+    scan_motion_.learn(rate, step.variance / (dt_s * dt_s), known);
     if (!step.is_along_known) scan_motion_.set_along(rate[POSE_WALL_MOTION_ALONG], step.slip_m / dt_s);
     now.turn_rad_s = in_base(last.pose, axes, shrunk_turn(rate, step.bounds.sigma / dt_s)).turn_rad_s;
   } else {
     forget_rates(settings);
   }
   // Half of this frame's step: single steps are noisy, and machines are heavy.
-  const double share = last.frames < 2 ? 1.0 : 0.5;
+  const double share = last.frames < 2 ? 1.0 : 0.5 * known;
   twist_.velocity_m_s += share * (now.velocity_m_s - twist_.velocity_m_s);
   twist_.turn_rad_s += share * (now.turn_rad_s - twist_.turn_rad_s);
 }

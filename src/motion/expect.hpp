@@ -49,8 +49,12 @@ class MotionModel {
   Six rate_level(double factor) const { return scan_motion_.level(factor); }
 
  private:
+  // How much a step of so many seconds tells of the rates beside one as long as usual.
+  double tells(double dt_s);
+
   Twist twist_;
   ScanMotion scan_motion_;
+  double usual_s_ = 0.0;  // mean of the steps; 0: none yet
 };
 
 }  // namespace pose_wall::motion

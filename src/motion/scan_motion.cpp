@@ -15,7 +15,8 @@ void ScanMotion::forget(double speed_most_m_s, double turn_most_rad_s) {
 // A steady motion is not in the change of the measured rates, so half of its square is noise. A change beyond noise is
 // a motion that began or ended, and hides none later. What was told wrongly stays in the level for long all the same: a
 // bad alignment is followed by others.
-void ScanMotion::learn(const Six& rate, const Six& variance) {
+void ScanMotion::learn(const Six& seen, const Six& variance, double tells) {
+  const Six rate = frames_ > 0.0 ? Six(measured_ + tells * (seen - measured_)) : seen;
   changed_ = rate - rate_;
   if (frames_ > 0.0) {
     frames_ = frames_ < kFramesMost ? frames_ + 1.0 : kFramesMost;

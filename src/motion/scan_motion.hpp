@@ -17,8 +17,9 @@ class ScanMotion {
  public:
   // Nothing is known but the machine's limits.
   void forget(double speed_most_m_s, double turn_most_rad_s);
-  // The mean rates since the last frame, and the variances that the two alignments give them.
-  void learn(const Six& rate, const Six& variance);
+  // The mean rates since the last frame, the variances that the two alignments give them, and how much they tell beside
+  // the last ones: 1, less after a shorter step.
+  void learn(const Six& rate, const Six& variance, double tells = 1.0);
   // The way along is known to within so much, whatever was learnt.
   void set_along(double rate_m_s, double unknown_m_s);
 

@@ -51,6 +51,20 @@ TEST(ScanMotion, AStandingMachineIsLeftAlone) {
   EXPECT_LE(told, 10) << "of a variance of 16 steps five deviations are rare";
 }
 
+// The same noise of a step is fifty times as fast after a fiftieth of the time.
+TEST(ScanMotion, AStepOfMillisecondsTellsNoMotion) {
+  constexpr double kFaster = 50.0;
+  pose_wall::test::Noise noise(8);
+  ScanMotion motion;
+  motion.forget(2.0, 1.5);
+  for (int frame = 0; frame < 100; ++frame) motion.learn(noise_of(&noise, kSigma), all(kSigma * kSigma));
+  const double level = motion.level(kFactor).maxCoeff();
+  const double sigma = kFaster * kSigma;
+  motion.learn(all(3.0 * sigma), all(sigma * sigma), 2.0 / (kFaster * kFaster));
+  EXPECT_TRUE(motion.rate().isZero());
+  EXPECT_LT(motion.level(kFactor).maxCoeff(), 1.5 * level);
+}
+
 TEST(ScanMotion, ASteadyTurnIsToldAndItsLevelIsThatOfTheNoise) {
   constexpr double kTurn = 0.1;  // rad/s: 6 degrees a second
   pose_wall::test::Noise noise(2);
