@@ -4,7 +4,6 @@
 #include "engine/region/region_cells.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "base/math/finite.hpp"
 
@@ -112,10 +111,6 @@ void RegionCells::find_openings() {
     if (10 * nearer < seen) tenth_m += step_m;
   }
   for (RegionCell& c : all()) c.open = c.open || (c.seen && c.h > tenth_m + kOpening_m);
-}
-
-void RegionCells::exchange_layers() {
-  for (RegionCell& cell : all()) std::swap(cell.h, cell.first_h);
 }
 
 Eigen::Vector2d RegionCells::from_middle(const RegionCell& cell) const {

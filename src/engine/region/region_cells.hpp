@@ -55,8 +55,6 @@ class RegionCells {
   void fill(const BoundedPoints& points, const Region& region);
   Span<RegionCell> all() const { return cells_.first(columns_ * rows_); }
   double cell_area_m2() const { return cell_u_m_ * kCell_m; }
-  // Puts the first layers in the place of those that most points lie in, and back again.
-  void exchange_layers();
   // From -1 to 1 over the region and its margin.
   Eigen::Vector2d from_middle(const RegionCell& cell) const;
   // Sums of the points near a plane h = at[0] + at[1] u + at[2] v, by cell, in the order of all(). weight_of(t): of

@@ -71,8 +71,12 @@ Eigen::Vector2d towards(int part) {
   return of[part];
 }
 
-bool is_in(int part, const Eigen::Vector2d& from_middle) {
-  return part == kEnds ? std::fabs(from_middle[0]) > kEndsFrom : towards(part).dot(from_middle) >= 0.0;
+// 1 for cells in the part, 0 for others.
+FourFloats share_in(int part, FourFloats from_middle_u, FourFloats from_middle_v) {
+  const Eigen::Vector2f side = towards(part).cast<float>();
+  const FourFloats along = side[0] * from_middle_u + side[1] * from_middle_v, none{}, one = all_four(1.0F);
+  const FourTruths at_ends = magnitude_of(from_middle_u) > all_four(static_cast<float>(kEndsFrom));
+  return (part == kEnds ? at_ends : along >= none) ? one : none;
 }
 
 }  // namespace
@@ -146,6 +150,9 @@ UnevenFit over_region(const Region& region, const Plane& plane, const TangentFra
 
 void RegionFit::lay_out(Arena& arena) {
   cells_.lay_out(arena);
+  for (Span<float>* row : {&shown_.u, &shown_.v, &shown_.h, &shown_.from_middle_u, &shown_.from_middle_v}) {
+    *row = arena.take<float>(RegionCells::kMost);
+  }
   patches_ = arena.take<SurfacePatch>(RegionCells::kMost);
   responses_ = arena.take<Eigen::Vector3d>(RegionCells::kMost);
 }
@@ -181,34 +188,57 @@ void RegionFit::describe(const Eigen::Vector3d& plane, RegionPlane* out) const {
   out->rough_m = kWidth_m * std::sqrt(squares / sum);
 }
 
-// weight_of(cell): 0 leaves it out.
-template <typename WeightOf>
-bool RegionFit::least_squares(const WeightOf& weight_of, Eigen::Vector3d* plane) const {
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+// The cells of the region that show it, by the layer that most points lie in or the first one.
+void RegionFit::list_shown(float RegionCell::*layer_m) {
+  shown_.count = 0;
   for (const RegionCell& c : cells_.all()) {
     if (!c.is_surface() || !c.inside) continue;
-    const double weight = weight_of(c);
-    if (!(weight > 0.0)) continue;
-    A += weight * row_of(c) * row_of(c).transpose();
-    b += weight * c.h * row_of(c);
+    const Eigen::Vector2d at = cells_.from_middle(c);
+    const std::uint32_t k = shown_.count++;
+    shown_.u[k] = static_cast<float>(c.u);
+    shown_.v[k] = static_cast<float>(c.v);
+    shown_.h[k] = c.*layer_m;
+    shown_.from_middle_u[k] = static_cast<float>(at[0]);
+    shown_.from_middle_v[k] = static_cast<float>(at[1]);
   }
+  for (std::uint32_t k = shown_.count; k % kFour != 0; ++k) shown_.u[k] = shown_.v[k] = shown_.h[k] = 0.0F;
+}
+
+// From a plane near the cells, so that floats hold what is left. weight_of(t, from the middle along u, along v): of
+// four cells that lie t metres behind that plane; 0 leaves one out.
+template <typename WeightOf>
+bool RegionFit::least_squares(const WeightOf& weight_of, Eigen::Vector3d* plane) const {
+  const Eigen::Vector3f p = plane->cast<float>();
+  FourFloats sums[9] = {};  // of 1, u, uu, v, uv, vv, r, ur, vr
+  for (std::uint32_t k = 0; k < shown_.count; k += kFour) {
+    const FourFloats u = load_four(&shown_.u[k]), v = load_four(&shown_.v[k]), none{};
+    const FourFloats r = load_four(&shown_.h[k]) - p[0] - p[1] * u - p[2] * v;
+    const FourFloats of_each = weight_of(r, load_four(&shown_.from_middle_u[k]), load_four(&shown_.from_middle_v[k]));
+    const FourFloats w = first_of_four(shown_.count - k) ? of_each : none, wu = w * u, wv = w * v;
+    const FourFloats of[] = {w, wu, wu * u, wv, wu * v, wv * v, w * r, wu * r, wv * r};
+    for (int i = 0; i < 9; ++i) sums[i] += of[i];
+  }
+  double sum[9];
+  for (int i = 0; i < 9; ++i) sum[i] = sum_of_lanes(sums[i]);
+  Eigen::Matrix3d A;
+  A << sum[0], sum[1], sum[3], sum[1], sum[2], sum[4], sum[3], sum[4], sum[5];
   if (is_singular(A)) return false;
-  *plane = A.inverse() * b;
+  *plane += A.inverse() * Eigen::Vector3d(sum[6], sum[7], sum[8]);
   return true;
 }
 
 bool RegionFit::settle(const Manner& manner, Eigen::Vector3d* plane) const {
+  const Eigen::Vector2f lean = manner.lean.cast<float>(), edge = manner.edge.cast<float>();
+  const auto before_m = static_cast<float>(-manner.before_m), at_edge = static_cast<float>(kEdge);
   double c_m = manner.c_m;
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::Vector3d before = *plane;
-    const double per_c = kWidth_m / c_m;
-    const auto weight = [&](const RegionCell& c) {
-      const double t = off(c, before);
-      if (t * kWidth_m < -manner.before_m) return 0.0;
-      const Eigen::Vector2d at = cells_.from_middle(c);
-      if (manner.edge.dot(at) > kEdge) return 0.0;
-      return (1.0 + manner.lean.dot(at)) * weight_of(t * per_c);
+    const auto per_c = static_cast<float>(1.0 / c_m);
+    const auto weight = [&](FourFloats r, FourFloats from_middle_u, FourFloats from_middle_v) {
+      const FourFloats leaning = 1.0F + lean[0] * from_middle_u + lean[1] * from_middle_v, none{};
+      const FourFloats beyond = edge[0] * from_middle_u + edge[1] * from_middle_v;
+      const FourTruths counts = (r >= all_four(before_m)) & (beyond <= all_four(at_edge));
+      return counts ? leaning * weights_of(r * per_c) : none;
     };
     if (!least_squares(weight, plane)) return false;
     if (c_m == kWidth_m && (*plane - before).cwiseAbs().maxCoeff() < kSettled) break;
@@ -245,8 +275,8 @@ int RegionFit::settle_all(Settled (*settled)[kStarts]) const {
   for (int k = 0; k < kStarts; ++k) {
     Settled& of = (*settled)[k];
     const double c_m = k == kAll ? kWidest_m : kWidth_m;
-    const auto part = [&](const RegionCell& c) { return is_in(k, cells_.from_middle(c)) ? 1.0 : 0.0; };
-    of.solved = least_squares(part, &of.start);
+    of.start.setZero();
+    of.solved = least_squares([k](FourFloats, FourFloats u, FourFloats v) { return share_in(k, u, v); }, &of.start);
     of.plane = of.start;
     of.solved = of.solved && settle({c_m}, &of.plane);
     if (!of.solved) continue;
@@ -376,9 +406,9 @@ void RegionFit::read_otherwise(const Settled (&settled)[kStarts], int best, Regi
   }
   // Where a cell shows two layers, a surveyor's ray may end at the nearer one, or begin behind it.
   Eigen::Vector3d nearer = plane;
-  cells_.exchange_layers();
+  list_shown(&RegionCell::first_h);
   if (settle({kWidth_m}, &nearer)) add(nearer - plane);
-  cells_.exchange_layers();
+  list_shown(&RegionCell::h);
   // What hangs before a wall in its middle leaves it at the top and at the foot.
   const double behind_m = kWidth_m * seen_behind_at_edges(plane);
   if (behind_m > 0.0) add({behind_m, 0.0, 0.0});
@@ -419,6 +449,7 @@ RegionPlane RegionFit::fit(const BoundedPoints& points, const Region& region, co
   const std::uint32_t seen = count_seen(&out);
   if (seen < kCellsMin) return out;
   work->add(seen, steps::kCellSettled);
+  list_shown(&RegionCell::h);
   Settled settled[kStarts];
   const int best = settle_all(&settled);
   if (best < 0) return out;

@@ -126,7 +126,14 @@ class RegionFit {
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   };
 
+  // Cells of the region, row by row: for four at a time, the last ones filled up.
+  struct Shown {
+    Span<float> u, v, h, from_middle_u, from_middle_v;
+    std::uint32_t count = 0;
+  };
+
   std::uint32_t count_seen(RegionPlane* out) const;
+  void list_shown(float RegionCell::*layer_m);
   void describe(const Eigen::Vector3d& plane, RegionPlane* out) const;
   template <typename WeightOf>
   bool least_squares(const WeightOf& weight_of, Eigen::Vector3d* plane) const;
@@ -145,6 +152,7 @@ class RegionFit {
   void read_otherwise(const Settled (&settled)[kStarts], int best, RegionPlane* out);
 
   RegionCells cells_;
+  Shown shown_;
   Span<SurfacePatch> patches_;
   Span<Eigen::Vector3d> responses_;
 };
