@@ -48,6 +48,10 @@ struct Angle : AngleErrors {
 
   Angle() = default;
   Angle(double angle_rad, const AngleErrors& errors) : AngleErrors(errors), rad(angle_rad) {}
+  // The level holds that angle as well.
+  void reach_to(const Angle& other, const Settings& s) {
+    bound_rad[POSE_WALL_PART_RIVAL] += larger(std::fabs(rad - other.rad) - level_rad(s), 0.0);
+  }
 };
 
 struct Angles {
@@ -130,7 +134,8 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
       scratch->region.fit(scene.cloud_base, region, s, &scratch->patches.waves(), &scratch->work,
                           over_region(region, floor->fit.plane, floor->frame, floor->uneven), &by_endless);
   if (!found.found || found.is_none() || !(found.seen_at_ends >= kSeenAtEnds)) return;
-  const Angles near = angles_of(region, found, s), endless = widened_by_waves(*floor, near);
+  Angles near = angles_of(region, found, s);
+  const Angles endless = widened_by_waves(*floor, near);
   const bool is_same = std::fabs(found.at[0] - floor->fit.plane.d) < kStep_m;
   if (!found.is_there() || !is_same) {
     // Most of it may be no floor, or another one. Then either plane may be the right one.
@@ -139,8 +144,14 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
                           std::fabs(endless.pitch.rad - near.pitch.rad) + near.pitch.level_rad(s));
     return;
   }
+  const bool rides = rides_on(endless, near);
+  // Either is a plane of the region's cells, and no waves lead from one to the other.
+  if (found.may_be_endless && !rides) {
+    near.roll.reach_to(endless.roll, s);
+    near.pitch.reach_to(endless.pitch, s);
+  }
   Angles best = near;
-  if (by_endless.found && rides_on(endless, near)) {
+  if (by_endless.found && rides) {
     Angles predicted = angles_of(region, by_endless, s);
     reach_by_share(region, by_endless, *floor, &predicted);
     take_narrower(predicted, s, &best);

@@ -200,6 +200,18 @@ bool rides_on(const JudgedWall& endless, const JudgedWall& region) {
   return all;
 }
 
+// Either is a plane of the region's cells, and no waves lead from one to the other: the levels hold the endless one.
+void reach_within(const JudgedWall& endless, const Settings& s, JudgedWall* region) {
+  for (int end = 0; end < 2; ++end) {
+    const double apart_m = std::fabs(endless.distance_m[end] - region->distance_m[end]);
+    region->distance_bound_m[end][POSE_WALL_PART_RIVAL] += larger(apart_m - level_of(*region, end, s), 0.0);
+  }
+  const double factor = protection_factor(s.protection_sigmas, region->yaw_dof);
+  const double known_rad = factor * region->yaw_sigma_rad + region->yaw_bound_rad.sum();
+  const double apart_rad = std::fabs(endless.yaw_rad - region->yaw_rad);
+  region->yaw_bound_rad[POSE_WALL_PART_RIVAL] += larger(apart_rad - known_rad, 0.0);
+}
+
 // A side without an endless wall shows none in its region either, but it may be shown to have none. The endless
 // distances are widened to stand for the region's.
 RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless, WallsScratch* scratch) {
@@ -227,7 +239,9 @@ RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless,
     out.wall.distance_waves_m = larger(out.wall.distance_waves_m, waves_m);
   }
   endless->distance_waves_m = out.wall.distance_waves_m;
-  if (by_endless.found && rides_on(*endless, out.wall)) {
+  const bool rides = !endless->fit.refused && rides_on(*endless, out.wall);
+  if (out.may_be_endless && !rides) reach_within(*endless, scene.settings, &out.wall);
+  if (by_endless.found && rides) {
     JudgedWall predicted = wall_of(scene, region, by_endless, side, *endless);
     reach_by_share(scene, region, by_endless, side, *endless, &predicted);
     predicted.yaw_waves_rad = out.wall.yaw_waves_rad;
