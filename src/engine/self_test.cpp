@@ -32,7 +32,7 @@ static_assert(kSelfTestPointsMax == POSE_WALL_SELF_TEST_POINTS, "as the header s
 // As many points as let the block stay below 2.5 MiB.
 std::int32_t configure(pose_wall_config* config) {
   const std::int32_t status = pose_wall_config_init(config);
-  return status == POSE_WALL_OK ? pose_wall_config_set_number(config, "points_max", 15900.0) : status;
+  return status == POSE_WALL_OK ? pose_wall_config_set_number(config, "points_max", 15800.0) : status;
 }
 
 void add(const void* data, std::uint64_t bytes, std::uint64_t* digest) {

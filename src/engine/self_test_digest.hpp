@@ -11,6 +11,6 @@
 namespace pose_wall {
 
 // Noted by that script; tests/digest holds every build to it.
-constexpr std::uint64_t kSelfTestDigest = 0x283B32C664C31590ULL;
+constexpr std::uint64_t kSelfTestDigest = 0x47108BC1F659ABBAULL;
 
 }  // namespace pose_wall

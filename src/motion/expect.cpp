@@ -74,10 +74,11 @@ Expected MotionModel::expect(const Course& last, const MotionSettings& settings,
   return out;
 }
 
-// The alignments err by as much after a short step, so the variances of rates go with its square. Stamps that jitter
-// may bring two frames together that are a scan apart. Then a standing machine seems to whirl.
+// The alignments err by as much after a short step, so the variances of rates go with its inverse square. Stamps that
+// jitter may bring two frames together that are a scan apart. Then a standing machine seems to whirl.
 double MotionModel::tells(double dt_s) {
-  constexpr double kShare = 0.25;  // of the last step in the mean: a new rate of frames is usual after some
+  constexpr double kShare = 0.25;           // of the last step in the mean: a new rate of frames is usual after some
+  if (!(dt_s < kTwistLasts_s)) return 1.0;  // a gap is no usual step
   usual_s_ = usual_s_ > 0.0 ? usual_s_ + kShare * (dt_s - usual_s_) : dt_s;
   const double known = 2.0 * dt_s * dt_s / (dt_s * dt_s + usual_s_ * usual_s_);
   return known < 1.0 ? known : 1.0;

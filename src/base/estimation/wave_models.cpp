@@ -92,7 +92,7 @@ Spread spread_of_mixture(const double (&weights)[kWaveModels], const double (&va
 Spread sum_of(const Spread& a, const Spread& b) {
   const double variance = a.variance + b.variance;
   const double per_dof = a.variance * a.variance / a.dof + b.variance * b.variance / b.dof;
-  return {variance, per_dof > 0.0 ? variance * variance / per_dof : a.dof};
+  return {variance, per_dof == 0.0 ? a.dof : variance * variance / per_dof};
 }
 
 void LinearErrors::set(std::uint32_t model, double log_likelihood, const Eigen::Matrix3d& of_model) {

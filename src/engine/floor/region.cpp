@@ -56,6 +56,11 @@ struct Angle : AngleErrors {
 
 struct Angles {
   Angle roll, pitch;
+
+  void reach_to(const Angles& other, const Settings& s) {
+    roll.reach_to(other.roll, s);
+    pitch.reach_to(other.pitch, s);
+  }
 };
 
 Angles angles_of(const Region& region, const RegionPlane& found, const Settings& s) {
@@ -83,9 +88,16 @@ Angles widened_by_waves(const FloorResult& endless, const Angles& region) {
   return out;
 }
 
+// Of the region, by itself and predicted from the endless floor.
+struct Planes {
+  const RegionPlane &alone, &on_endless;
+};
+
 // What may be wrong with the endless floor moves what is predicted from it, as far as that follows it.
-void reach_by_share(const Region& region, const RegionPlane& found, const FloorResult& endless, Angles* angles) {
+void reach_by_share(const Region& region, const Planes& planes, const FloorResult& endless, Angles* angles) {
+  const RegionPlane& found = planes.on_endless;
   const RollPitchGradients gradients(found.plane_in(region).n);
+  const double height_m = std::fabs(planes.alone.at[0] - endless.fit.plane.d);  // by as much as the region tells
   const Eigen::Vector3d roll = of(gradients.roll, region), pitch = of(gradients.pitch, region);
   Eigen::Matrix2d by_slopes;
   by_slopes << roll.tail<2>().transpose(), pitch.tail<2>().transpose();
@@ -96,6 +108,7 @@ void reach_by_share(const Region& region, const RegionPlane& found, const FloorR
     of_endless.add(endless.roll.bound_rad, std::fabs(share[0]));
     of_endless.add(endless.pitch.bound_rad, std::fabs(share[1]));
     of_endless[POSE_WALL_PART_RANGE_BIAS] = 0.0;  // its response is known, with its sign
+    of_endless[POSE_WALL_PART_BEND] += std::fabs(found.share_of_endless(by)[0]) * height_m;
     bound_rad->add(of_endless);
   };
   reach(roll, &angles->roll.bound_rad);
@@ -112,6 +125,29 @@ bool rides_on(const Angles& endless, const Angles& region) {
 void take_narrower(const Angles& other, const Settings& s, Angles* best) {
   if (other.roll.level_rad(s) < best->roll.level_rad(s)) best->roll = other.roll;
   if (other.pitch.level_rad(s) < best->pitch.level_rad(s)) best->pitch = other.pitch;
+}
+
+struct Answers {
+  Angles alone, endless;
+};
+
+// Of each angle the answer that is known best: by the region alone, by it on the endless floor, or by that floor.
+Angles narrowest_of(const Region& region, const Planes& planes, const FloorResult& floor, const Answers& answers,
+                    const Settings& s) {
+  Angles best = answers.alone, endless = answers.endless;
+  const bool rides = rides_on(endless, best);
+  if (planes.alone.may_be_endless && !rides) {
+    // Either is a plane of the region's cells, and no waves lead from one to the other.
+    best.reach_to(answers.endless, s);
+    endless.reach_to(answers.alone, s);
+  }
+  if (planes.on_endless.found && rides) {
+    Angles predicted = angles_of(region, planes.on_endless, s);
+    reach_by_share(region, planes, floor, &predicted);
+    take_narrower(predicted, s, &best);
+  }
+  if (planes.alone.may_be_endless) take_narrower(endless, s, &best);
+  return best;
 }
 
 void set(const Angles& angles, FloorResult* floor) {
@@ -134,7 +170,7 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
       scratch->region.fit(scene.cloud_base, region, s, &scratch->patches.waves(), &scratch->work,
                           over_region(region, floor->fit.plane, floor->frame, floor->uneven), &by_endless);
   if (!found.found || found.is_none() || !(found.seen_at_ends >= kSeenAtEnds)) return;
-  Angles near = angles_of(region, found, s);
+  const Angles near = angles_of(region, found, s);
   const Angles endless = widened_by_waves(*floor, near);
   const bool is_same = std::fabs(found.at[0] - floor->fit.plane.d) < kStep_m;
   if (!found.is_there() || !is_same) {
@@ -144,24 +180,14 @@ void measure_floor_region(const FloorScene& scene, FloorScratch* scratch, FloorR
                           std::fabs(endless.pitch.rad - near.pitch.rad) + near.pitch.level_rad(s));
     return;
   }
-  const bool rides = rides_on(endless, near);
-  // Either is a plane of the region's cells, and no waves lead from one to the other.
-  if (found.may_be_endless && !rides) {
-    near.roll.reach_to(endless.roll, s);
-    near.pitch.reach_to(endless.pitch, s);
-  }
-  Angles best = near;
-  if (by_endless.found && rides) {
-    Angles predicted = angles_of(region, by_endless, s);
-    reach_by_share(region, by_endless, *floor, &predicted);
-    take_narrower(predicted, s, &best);
-  }
-  if (found.may_be_endless) take_narrower(endless, s, &best);
+  const Angles best = narrowest_of(region, {found, by_endless}, *floor, {near, endless}, s);
   set(best, floor);
   if (best.roll.of_endless && best.pitch.of_endless) return;
   floor->fit.plane = found.plane_in(region);
   floor->fit.plane.n = up_of_roll_pitch({best.roll.rad, best.pitch.rad});
-  floor->fit.reasons &= ~static_cast<std::uint32_t>(POSE_WALL_R_FLOOR_AMBIGUOUS);  // of what lies elsewhere
+  if (!best.roll.of_endless && !best.pitch.of_endless) {
+    floor->fit.reasons &= ~static_cast<std::uint32_t>(POSE_WALL_R_FLOOR_AMBIGUOUS);  // of what lies elsewhere
+  }
   floor->area_m2 = found.area_m2;
   floor->roi_radius_m = region.u_to_m;
   POSE_WALL_NOTE(const trace::About about(POSE_WALL_TRACE_FLOOR));

@@ -68,9 +68,9 @@ struct RegionPlane {
   Eigen::Vector2d bend_per_m_ = Eigen::Vector2d::Zero();
   // How far another plane that it may be lies from it.
   struct Reading {
-    Eigen::Vector3d apart;
-    bool within_random;  // it needs no guess of what is not seen, or is unlikely: it counts beyond the random part
-    bool of_edge;        // without the outermost row
+    Eigen::Vector3d apart = Eigen::Vector3d::Zero();
+    bool within_random = false;  // it needs no guess of what is not seen, or is unlikely: it counts beyond the random part
+    bool of_edge = false;        // without the outermost row
   };
   Reading readings_[kReadingsMost];
   std::uint32_t count_ = 0;

@@ -169,6 +169,8 @@ UnevenFit known_of(const JudgedWall& endless, const Region& region) {
 // What may be wrong with the endless wall at both ends moves what is predicted from it, as far as that follows it.
 void reach_by_share(const WallScene& scene, const Region& region, const RegionPlane& predicted, int side,
                     const JudgedWall& endless, JudgedWall* wall) {
+  const Eigen::Vector3d seen = wall->fit.plane.n, of_endless_n = endless.fit.plane.n;
+  const double lean = std::fabs(seen.z() - of_endless_n.z());  // by as much as the region tells
   const auto along = [&](int end) { return region.u.dot(scene.sample_level_m[side][end]); };
   const double apart_m = along(0) - along(1);
   const auto reach = [&](const Eigen::Vector3d& of, ProtectionParts* bound) {
@@ -178,6 +180,7 @@ void reach_by_share(const WallScene& scene, const Region& region, const RegionPl
     ProtectionParts of_endless;
     for (int end = 0; end < 2; ++end) of_endless.add(endless.distance_bound_m[end], std::fabs(of_end[end]));
     of_endless[POSE_WALL_PART_RANGE_BIAS] = 0.0;  // its response is known, with its sign
+    of_endless[POSE_WALL_PART_BEND] += std::fabs(share[2]) * lean;
     bound->add(of_endless);
   };
   for (int end = 0; end < 2; ++end) {
@@ -186,7 +189,11 @@ void reach_by_share(const WallScene& scene, const Region& region, const RegionPl
     wall->layer_sigma_m =
         larger(wall->layer_sigma_m, std::fabs(predicted.share_of_endless(of)[0]) * endless.layer_sigma_m);
   }
+  // Doubts that tell nothing of a distance.
+  const double turns = std::fabs(predicted.share_of_endless(of_yaw(predicted.at))[1]);
   reach(of_yaw(predicted.at), &wall->yaw_bound_rad);
+  wall->yaw_bound_rad[POSE_WALL_PART_RIVAL] += turns * endless.yaw_bound_rad[POSE_WALL_PART_RIVAL];
+  wall->yaw_to_rival_rad = turns * endless.yaw_to_rival_rad;
 }
 
 // Whether the waves explain how far the two lie apart. The endless distances hold the waves already.
@@ -200,16 +207,16 @@ bool rides_on(const JudgedWall& endless, const JudgedWall& region) {
   return all;
 }
 
-// Either is a plane of the region's cells, and no waves lead from one to the other: the levels hold the endless one.
-void reach_within(const JudgedWall& endless, const Settings& s, JudgedWall* region) {
+// The levels hold that wall as well.
+void reach_within(const JudgedWall& other, const Settings& s, JudgedWall* wall) {
   for (int end = 0; end < 2; ++end) {
-    const double apart_m = std::fabs(endless.distance_m[end] - region->distance_m[end]);
-    region->distance_bound_m[end][POSE_WALL_PART_RIVAL] += larger(apart_m - level_of(*region, end, s), 0.0);
+    const double apart_m = std::fabs(other.distance_m[end] - wall->distance_m[end]);
+    wall->distance_bound_m[end][POSE_WALL_PART_RIVAL] += larger(apart_m - level_of(*wall, end, s), 0.0);
   }
-  const double factor = protection_factor(s.protection_sigmas, region->yaw_dof);
-  const double known_rad = factor * region->yaw_sigma_rad + region->yaw_bound_rad.sum();
-  const double apart_rad = std::fabs(endless.yaw_rad - region->yaw_rad);
-  region->yaw_bound_rad[POSE_WALL_PART_RIVAL] += larger(apart_rad - known_rad, 0.0);
+  const double factor = protection_factor(s.protection_sigmas, wall->yaw_dof);
+  const double known_rad = factor * wall->yaw_sigma_rad + wall->yaw_bound_rad.sum();
+  const double apart_rad = std::fabs(other.yaw_rad - wall->yaw_rad);
+  wall->yaw_bound_rad[POSE_WALL_PART_RIVAL] += larger(apart_rad - known_rad, 0.0);
 }
 
 // A side without an endless wall shows none in its region either, but it may be shown to have none. The endless
@@ -239,8 +246,13 @@ RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless,
     out.wall.distance_waves_m = larger(out.wall.distance_waves_m, waves_m);
   }
   endless->distance_waves_m = out.wall.distance_waves_m;
-  const bool rides = !endless->fit.refused && rides_on(*endless, out.wall);
-  if (out.may_be_endless && !rides) reach_within(*endless, scene.settings, &out.wall);
+  const bool rides = rides_on(*endless, out.wall);
+  if (out.may_be_endless && !rides) {
+    // Either is a plane of the region's cells, and no waves lead from one to the other.
+    const JudgedWall alone = out.wall;
+    reach_within(*endless, scene.settings, &out.wall);
+    reach_within(alone, scene.settings, endless);
+  }
   if (by_endless.found && rides) {
     JudgedWall predicted = wall_of(scene, region, by_endless, side, *endless);
     reach_by_share(scene, region, by_endless, side, *endless, &predicted);
