@@ -3,7 +3,8 @@
 
 // Proves: the motion told for the next scan is that of the last step where it shows, and nothing where it does not.
 // Its level holds the errors that the steps show, soon after these grow and not long after they end. Before anything is
-// known it is the machine's limits, twice.
+// known it is the machine's limits, twice. The motion that is expected follows a stop after a gap at once, and hardly a
+// step of a millisecond.
 
 #include "motion/scan_motion.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <cmath>
 
+#include "motion/expect.hpp"
 #include "support/stage_fixtures.hpp"
 
 namespace pose_wall::motion {
@@ -139,6 +141,50 @@ TEST(ScanMotion, SlipAlongStaysAlong) {
   for (int k = POSE_WALL_MOTION_ACROSS; k < POSE_WALL_MOTION_DIRECTIONS; ++k) {
     EXPECT_LT(motion.level(kFactor)[k], kFactor * kSigma) << k;
   }
+}
+
+constexpr double kBetween_s = 0.1;
+
+// Learns steps along its road.
+class Machine {
+ public:
+  Machine() {
+    last_.frames = 10;
+    last_.axes.along = Eigen::Vector3d::UnitX();
+    model_.reset(settings_);
+  }
+  // noise_m: by which the alignment errs.
+  void drive(double speed_m_s, double dt_s, double noise_m = 0.0) {
+    MotionStep step;
+    step.s = dt_s;
+    step.m.x() = speed_m_s * dt_s + noise_m;
+    step.variance.fill(1e-6);
+    step.is_along_known = true;
+    model_.learn(last_, last_.axes, settings_, step, dt_s);
+  }
+  double expected_m_s() const { return model_.twist().velocity_m_s.x(); }
+
+ private:
+  MotionSettings settings_;
+  Course last_;
+  MotionModel model_;
+};
+
+TEST(MotionModel, AfterAGapItFollowsAStopAtOnce) {
+  Machine machine;
+  for (int frame = 0; frame < 20; ++frame) machine.drive(1.0, kBetween_s);
+  EXPECT_NEAR(machine.expected_m_s(), 1.0, 1e-3);
+  machine.drive(1.0, 5.0);
+  for (int frame = 0; frame < 6; ++frame) machine.drive(0.0, kBetween_s);
+  EXPECT_LT(machine.expected_m_s(), 0.05) << "half of what is left in each frame";
+}
+
+TEST(MotionModel, AStepOfAMillisecondMovesItHardly) {
+  constexpr double kNoise_m = 0.002;
+  Machine machine;
+  for (int frame = 0; frame < 20; ++frame) machine.drive(0.0, kBetween_s);
+  machine.drive(0.0, 0.001, kNoise_m);
+  EXPECT_LT(std::fabs(machine.expected_m_s()), 0.01) << "2 mm in a millisecond are 2 m/s";
 }
 
 }  // namespace
