@@ -69,8 +69,9 @@ struct RegionPlane {
   // How far another plane that it may be lies from it.
   struct Reading {
     Eigen::Vector3d apart = Eigen::Vector3d::Zero();
-    bool within_random = false;  // it needs no guess of what is not seen, or is unlikely: it counts beyond the random part
-    bool of_edge = false;        // without the outermost row
+    // It needs no guess of what is not seen, or is unlikely: it counts beyond the random part.
+    bool within_random = false;
+    bool of_edge = false;  // without the outermost row
   };
   Reading readings_[kReadingsMost];
   std::uint32_t count_ = 0;
