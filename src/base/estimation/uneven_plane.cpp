@@ -75,6 +75,8 @@ struct UnevenPlane::Models {
   }
   UnevenFit average(double freedom, double sigmas) const;
   Eigen::Matrix3d average(Eigen::Matrix3d Model::*of_model) const;
+  // Of predict(): of a plane that is known from elsewhere, which moves the region's by so much.
+  UnevenFit standing_on(const UnevenFit& endless, const Eigen::Matrix3d& moves, double freedom, double sigmas);
 };
 
 UnevenFit UnevenPlane::Models::average(double freedom, double sigmas) const {
@@ -105,6 +107,18 @@ Eigen::Matrix3d UnevenPlane::Models::average(Eigen::Matrix3d Model::*of_model) c
   for (std::uint32_t k = 0; k < kWaveModels; ++k) {
     if (evidence.solved[k]) out += weights[k] * of[k].*of_model;
   }
+  return out;
+}
+
+UnevenFit UnevenPlane::Models::standing_on(const UnevenFit& endless, const Eigen::Matrix3d& moves, double freedom,
+                                           double sigmas) {
+  for (std::uint32_t k = 0; k < kWaveModels; ++k) {
+    if (evidence.solved[k]) of[k].stand_on(endless);
+  }
+  UnevenFit out = average(freedom, sigmas);
+  const double by_endless = slopes_of(moves * endless.covariance * moves.transpose());
+  const double by_rest = larger(slopes_of(out.covariance) - by_endless, 0.0);
+  out.dof = sum_of({by_rest, out.dof}, {by_endless, endless.dof}).dof;
   return out;
 }
 
@@ -522,14 +536,7 @@ PredictedPlane UnevenPlane::predict(Span<const SurfacePatch> patches, std::uint3
   const std::uint32_t wave = likeliest - 1;
   pass_on(seen, responses, likeliest > 0 ? &wave : nullptr);
   out.missing_of_bend = missing_of_bend(patches, seen, responses, likeliest > 0 ? &wave : nullptr);
-  if (!endless.solved) return out;
-  for (std::uint32_t k = 0; k < kWaveModels; ++k) {
-    if (models.evidence.solved[k]) models.of[k].stand_on(endless);
-  }
-  out.by_endless = models.average(freedom, sigmas);
-  const double of_endless = slopes_of(out.of_endless * endless.covariance * out.of_endless.transpose());
-  const double of_rest = larger(slopes_of(out.by_endless.covariance) - of_endless, 0.0);
-  out.by_endless.dof = sum_of({of_rest, out.by_endless.dof}, {of_endless, endless.dof}).dof;
+  if (endless.solved) out.by_endless = models.standing_on(endless, out.of_endless, freedom, sigmas);
   return out;
 }
 

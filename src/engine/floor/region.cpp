@@ -151,8 +151,9 @@ Angles narrowest_of(const Region& region, const Planes& planes, const FloorResul
 }
 
 void set(const Angles& angles, FloorResult* floor) {
-  floor->roll = angles.roll;
-  floor->pitch = angles.pitch;
+  const AngleErrors &roll = angles.roll, &pitch = angles.pitch;
+  floor->roll = roll;
+  floor->pitch = pitch;
 }
 
 }  // namespace

@@ -220,6 +220,25 @@ void reach_within(const JudgedWall& other, const Settings& s, JudgedWall* wall) 
   wall->yaw_bound_rad[POSE_WALL_PART_RIVAL] += larger(apart_rad - known_rad, 0.0);
 }
 
+// What the endless wall tells of the region's: it predicts the region where waves lead from one to the other.
+void use_endless(const WallScene& scene, const Region& region, const RegionPlane& by_endless, int side,
+                 JudgedWall* endless, RegionWall* out) {
+  const bool rides = rides_on(*endless, out->wall);
+  if (out->may_be_endless && !rides) {
+    // Either is a plane of the region's cells, and no waves lead from one to the other.
+    const JudgedWall alone = out->wall;
+    reach_within(*endless, scene.settings, &out->wall);
+    reach_within(alone, scene.settings, endless);
+  }
+  if (by_endless.found && rides) {
+    JudgedWall predicted = wall_of(scene, region, by_endless, side, *endless);
+    reach_by_share(scene, region, by_endless, side, *endless, &predicted);
+    predicted.yaw_waves_rad = out->wall.yaw_waves_rad;
+    predicted.distance_waves_m = out->wall.distance_waves_m;
+    if (worse_of(predicted, scene.settings) < worse_of(out->wall, scene.settings)) out->wall = predicted;
+  }
+}
+
 // A side without an endless wall shows none in its region either, but it may be shown to have none. The endless
 // distances are widened to stand for the region's.
 RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless, WallsScratch* scratch) {
@@ -247,20 +266,7 @@ RegionWall measure_region(const WallScene& scene, int side, JudgedWall* endless,
     out.wall.distance_waves_m = larger(out.wall.distance_waves_m, waves_m);
   }
   endless->distance_waves_m = out.wall.distance_waves_m;
-  const bool rides = rides_on(*endless, out.wall);
-  if (out.may_be_endless && !rides) {
-    // Either is a plane of the region's cells, and no waves lead from one to the other.
-    const JudgedWall alone = out.wall;
-    reach_within(*endless, scene.settings, &out.wall);
-    reach_within(alone, scene.settings, endless);
-  }
-  if (by_endless.found && rides) {
-    JudgedWall predicted = wall_of(scene, region, by_endless, side, *endless);
-    reach_by_share(scene, region, by_endless, side, *endless, &predicted);
-    predicted.yaw_waves_rad = out.wall.yaw_waves_rad;
-    predicted.distance_waves_m = out.wall.distance_waves_m;
-    if (worse_of(predicted, scene.settings) < worse_of(out.wall, scene.settings)) out.wall = predicted;
-  }
+  use_endless(scene, region, by_endless, side, endless, &out);
   for (int end = 0; end < 2; ++end) {
     const double step_m = scratch->region.step_at(region.u.dot(scene.sample_level_m[side][end]), found.at);
     out.wall.extrapolated[end] = step_m > 0.0;
