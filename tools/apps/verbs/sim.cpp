@@ -246,14 +246,8 @@ int simulate(SimOptions options) {
   return kExitInterrupted;
 }
 
-}  // namespace
-
-void add_sim(CLI::App& app, int& exit_code) {
-  const auto options = std::make_shared<SimOptions>();
-  CLI::App* verb = app.add_subcommand("sim", tr("Simulate LiDAR frames of a roadway, with the truth of each"));
-  auto* const scene =
-      verb->add_option("--scene", options->scene, tr("Scene of the road; see --list"))->capture_default_str();
-  verb->add_option("--sensor", options->sensor, tr("Sensor model; see --list"))->capture_default_str();
+// A real road in place of a scene.
+CLI::Option* add_surface(CLI::App* verb, CLI::Option* scene, SimOptions* options) {
   auto* const surface = verb->add_option(
       "--surface", options->surface,
       tr("A real road in place of a scene: a mesh (PLY, OBJ, glTF), or a cloud with normals (PLY); m, z up"));
@@ -267,6 +261,18 @@ void add_sim(CLI::App& app, int& exit_code) {
           tr("With --surface, m: each point of a cloud is a disc of this radius; default: twice their spacing"))
       ->needs(surface)
       ->check(CLI::Range(0.001, 5.0));
+  return surface;
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app, int& exit_code) {
+  const auto options = std::make_shared<SimOptions>();
+  CLI::App* verb = app.add_subcommand("sim", tr("Simulate LiDAR frames of a roadway, with the truth of each"));
+  auto* const scene =
+      verb->add_option("--scene", options->scene, tr("Scene of the road; see --list"))->capture_default_str();
+  verb->add_option("--sensor", options->sensor, tr("Sensor model; see --list"))->capture_default_str();
+  CLI::Option* const surface = add_surface(verb, scene, options.get());
   verb->add_option("-n,--frames", options->frames, tr("Number of frames; default: 10, or all poses of --path"))
       ->check(whole_number_within(1, 1000000));
   verb->add_option("-r,--rate", options->rate_hz, tr("Frames per second; the same as --set rate_hz"));
