@@ -10,7 +10,7 @@
 
 namespace pose_wall {
 
-// Noted by that script; tests/digest holds every build to it.
+// What the self test's own road came to when that script noted it; tests/digest holds every build to it.
 constexpr std::uint64_t kSelfTestDigest = 0x47108BC1F659ABBAULL;
 
 }  // namespace pose_wall

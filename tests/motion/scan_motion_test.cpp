@@ -55,7 +55,7 @@ TEST(ScanMotion, AStandingMachineIsLeftAlone) {
 
 // The same noise of a step is fifty times as fast after a fiftieth of the time.
 TEST(ScanMotion, AStepOfMillisecondsTellsNoMotion) {
-  constexpr double kFaster = 50.0;
+  constexpr double kFaster = 50.0;  // 2 ms instead of a tenth of a second
   pose_wall::test::Noise noise(8);
   ScanMotion motion;
   motion.forget(2.0, 1.5);
@@ -143,7 +143,7 @@ TEST(ScanMotion, SlipAlongStaysAlong) {
   }
 }
 
-constexpr double kBetween_s = 0.1;
+constexpr double kBetween_s = 0.1;  // of a sensor with 10 scans a second
 
 // Learns steps along its road.
 class Machine {
@@ -180,7 +180,7 @@ TEST(MotionModel, AfterAGapItFollowsAStopAtOnce) {
 }
 
 TEST(MotionModel, AStepOfAMillisecondMovesItHardly) {
-  constexpr double kNoise_m = 0.002;
+  constexpr double kNoise_m = 0.002;  // as two looks at smooth walls differ
   Machine machine;
   for (int frame = 0; frame < 20; ++frame) machine.drive(0.0, kBetween_s);
   machine.drive(0.0, 0.001, kNoise_m);

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the pose_wall authors
 
 // corridor_sick: a vehicle with a tilting SICK scanner in a corridor.
-// Proves: the wall on the right stands at 0.965 m from the sensor, by all of it in view, and within the level of the
-// piece beside the sensor, whose half behind is not seen. The surface at 3.79 m behind an opening on the left never
+// Proves: by all of it in view, the wall on the right stands at 0.965 m from the sensor. So it does within the level of
+// the piece beside the sensor, whose half behind is not seen. The surface at 3.79 m behind an opening on the left never
 // becomes the left wall.
 
 #include "support/real_frames.hpp"

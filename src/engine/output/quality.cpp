@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/estimation/protection.hpp"
+#include "base/estimation/wave_models.hpp"
 #include "base/math/elementary.hpp"
 #include "base/math/finite.hpp"
 #include "engine/gates/gate.hpp"
@@ -97,12 +98,9 @@ Measurement yaw_measurement(double raw, double walls_variance, const ProtectionP
                             double tilt_share, const FloorResult& floor, const Settings& s) {
   const AngleErrors& worse = floor.roll.sigma_rad > floor.pitch.sigma_rad ? floor.roll : floor.pitch;
   const double tilt = worse.sigma_rad * tilt_share;
-  const double variance = walls_variance + tilt * tilt;
-  // Welch and Satterthwaite: the degrees of freedom of a sum of variances.
-  const double both = walls_variance * walls_variance / dof + tilt * tilt * tilt * tilt / worse.dof;
-  // NaN stays NaN: without the degrees of freedom of the floor, yaw has no bound.
-  const double dof_of_sum = both == 0.0 ? dof : variance * variance / both;
-  return measurement(raw, with_floor(std::sqrt(variance), kSigmaMinAngle_rad), bound, dof_of_sum, s);
+  // Without the degrees of freedom of the floor, which are then no number, yaw has no bound.
+  const Spread both = sum_of({walls_variance, dof}, {tilt * tilt, worse.dof});
+  return measurement(raw, with_floor(std::sqrt(both.variance), kSigmaMinAngle_rad), bound, both.dof, s);
 }
 
 // Of a wall by itself: nothing of it cancels.

@@ -275,7 +275,6 @@ int RegionFit::settle_all(Settled (*settled)[kStarts]) const {
   for (int k = 0; k < kStarts; ++k) {
     Settled& of = (*settled)[k];
     const double c_m = k == kAll ? kWidest_m : kWidth_m;
-    of.start.setZero();
     of.solved = least_squares([k](FourFloats, FourFloats u, FourFloats v) { return share_in(k, u, v); }, &of.start);
     of.plane = of.start;
     of.solved = of.solved && settle({c_m}, &of.plane);
@@ -404,11 +403,6 @@ void RegionFit::read_otherwise(const Settled (&settled)[kStarts], int best, Regi
     if (!settle(without_things, &hidden)) continue;
     if (loss_without_things(hidden) < loss + kLossApart) add(hidden - plane);
   }
-  // Where a cell shows two layers, a surveyor's ray may end at the nearer one, or begin behind it.
-  Eigen::Vector3d nearer = plane;
-  list_shown(&RegionCell::first_h);
-  if (settle({kWidth_m}, &nearer)) add(nearer - plane);
-  list_shown(&RegionCell::h);
   // What hangs before a wall in its middle leaves it at the top and at the foot.
   const double behind_m = kWidth_m * seen_behind_at_edges(plane);
   if (behind_m > 0.0) add({behind_m, 0.0, 0.0});
@@ -422,6 +416,10 @@ void RegionFit::read_otherwise(const Settled (&settled)[kStarts], int best, Regi
     manner.edge = {0.0, side[1]};
     if (settle(manner, &leaning)) out->readings_[out->count_++] = {leaning - plane, false, side[1] != 0.0};
   }
+  // Where a cell shows two layers, a surveyor's ray may end at the nearer one, or begin behind it.
+  Eigen::Vector3d nearer = plane;
+  list_shown(&RegionCell::first_h);
+  if (settle({kWidth_m}, &nearer)) add(nearer - plane);
 }
 
 double RegionFit::step_at(double u_m, const Eigen::Vector3d& plane) const {

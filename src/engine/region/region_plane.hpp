@@ -99,7 +99,7 @@ class RegionFit {
   // endless: the plane h = correction · (1, u, v) that all of the surface in view shows, or nothing. Then also writes
   // what it predicts of the region with what is seen there; found if it does.
   RegionPlane fit(const BoundedPoints& points, const Region& region, const Settings& settings, UnevenPlane* waves,
-                  Work* work, const UnevenFit& endless = {}, RegionPlane* by_endless = nullptr);
+                  Work* work, const UnevenFit& endless, RegionPlane* by_endless);
   // Of the last fit: how far the surface about u lies from this plane, where most of it is another surface; else 0.
   double step_at(double u_m, const Eigen::Vector3d& plane) const;
 

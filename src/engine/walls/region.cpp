@@ -170,8 +170,7 @@ UnevenFit known_of(const JudgedWall& endless, const Region& region) {
 // What may be wrong with the endless wall at both ends moves what is predicted from it, as far as that follows it.
 void reach_by_share(const WallScene& scene, const Region& region, const RegionPlane& predicted, int side,
                     const JudgedWall& endless, JudgedWall* wall) {
-  const Eigen::Vector3d seen = wall->fit.plane.n, of_endless_n = endless.fit.plane.n;
-  const double lean = std::fabs(seen.z() - of_endless_n.z());  // by as much as the region tells
+  const double lean = std::fabs(wall->fit.plane.n.z() - endless.fit.plane.n.z());  // by as much as the region tells
   const auto along = [&](int end) { return region.u.dot(scene.sample_level_m[side][end]); };
   const double apart_m = along(0) - along(1);
   const auto reach = [&](const Eigen::Vector3d& of, ProtectionParts* bound) {
@@ -220,7 +219,8 @@ void reach_within(const JudgedWall& other, const Settings& s, JudgedWall* wall) 
   wall->yaw_bound_rad[POSE_WALL_PART_RIVAL] += larger(apart_rad - known_rad, 0.0);
 }
 
-// What the endless wall tells of the region's: it predicts the region where waves lead from one to the other.
+// What the endless wall tells of the region's. Where waves lead from one to the other it predicts the region. Else each
+// level holds the other, if the region's cells show both.
 void use_endless(const WallScene& scene, const Region& region, const RegionPlane& by_endless, int side,
                  JudgedWall* endless, RegionWall* out) {
   const bool rides = rides_on(*endless, out->wall);
