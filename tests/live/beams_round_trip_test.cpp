@@ -22,30 +22,37 @@
 namespace pose_wall::tools::live {
 namespace {
 
-constexpr std::int64_t kRoundTrip_ns = 100'000'000;  // a turn at 10 Hz, for which the tables count columns
+// A turn at 10 Hz, for which the tables count columns: of whole packets, so it may lack a hundredth.
+std::int64_t turn_ns_of(const sim::Sensor& sensor) {
+  constexpr std::int64_t kTurn_ns = 100'000'000;
+  return sensor.beams == nullptr ? kTurn_ns : std::llround(sensor.columns * sensor.beams->cycle_ns);
+}
 
 sim::SceneSetup round_trip_road(const std::string& sensor) {
   sim::SceneSetup setup = sim::make_setup("rough", sensor, false, 1);
-  setup.sequence.scan_s = 1e-9 * static_cast<double>(kRoundTrip_ns);
+  setup.sequence.scan_s = 1e-9 * static_cast<double>(turn_ns_of(setup.sensor));
+  setup.sequence.rate_hz = std::min(10.0, 1.0 / setup.sequence.scan_s);
   setup.machine.turned_left_deg = 7.0;
   setup.machine.lateral_m = 0.4;
   return setup;
 }
 
-// The first whole turn of what the sensor sends of the same frame three times.
-Scan decoded(const sim::Sensor& sensor, const sim::Frame& frame) {
+// The first whole turn of what the sensor sends of the same frame three times, in bursts of so many packets.
+Scan decoded(const sim::Sensor& sensor, const sim::Frame& frame, std::size_t burst = 1) {
   const std::unique_ptr<PacketEncoder> encoder = make_encoder(sensor);
   const auto* const ouster = dynamic_cast<const OusterEncoder*>(encoder.get());
   SensorChoice choice;
   if (ouster != nullptr) choice.metadata = ouster->metadata();
   const std::unique_ptr<ScanAssembler> decoder = make_assembler(choice);
-  const std::string device = encoder->device_packet(kRoundTrip_ns);
+  const std::int64_t turn_ns = turn_ns_of(sensor);
+  const std::string device = encoder->device_packet(turn_ns);
   const RangeImage image = range_image(sensor, frame);
   for (std::int64_t turn = 0; turn < 3; ++turn) {
-    const std::vector<std::string> packets = encoder->packets(image, turn * kRoundTrip_ns, kRoundTrip_ns);
+    const std::vector<std::string> packets = encoder->packets(image, turn * turn_ns, turn_ns);
     for (std::size_t k = 0; k < packets.size(); ++k) {
-      const auto share = static_cast<double>(k) / static_cast<double>(packets.size());
-      const auto sent_ns = turn * kRoundTrip_ns + std::llround(share * static_cast<double>(kRoundTrip_ns));
+      const std::size_t arrives_with = std::min(k / burst * burst + burst, packets.size()) - 1;
+      const auto share = static_cast<double>(arrives_with) / static_cast<double>(packets.size());
+      const auto sent_ns = turn * turn_ns + std::llround(share * static_cast<double>(turn_ns));
       const ByteView bytes{reinterpret_cast<const std::byte*>(packets[k].data()), packets[k].size()};
       EXPECT_TRUE(decoder->add({sent_ns, {}, bytes})) << sensor.name;
       // Packets of data tell which sensor this is, so a device packet comes behind the first.
@@ -90,8 +97,21 @@ TEST_P(RoundTrip, EachPointComesBackWithRingAndTime) {
     latest_us = std::max(latest_us, std::abs(1e-3 * (static_cast<double>(back.t_ns) - frame.time_ns[i])));
   }
   EXPECT_LE(most_of_allowed, 1.0);
-  // Heads turn a little faster or slower than a turn in 0.1 s of whole packets, and a packet has one time.
+  // Clocks count microseconds, and some times of lasers are those of the middle of two orders.
   EXPECT_LE(latest_us, 10.0);
+}
+
+// Where the sensor's clock runs, bursts change nothing: it counts microseconds.
+TEST_P(RoundTrip, BurstsOfPacketsMoveNoTimeWithinAScan) {
+  const sim::SceneSetup setup = round_trip_road(GetParam());
+  const sim::Frame frame = sim::Simulator(setup, 1).render(0);
+  const Scan steady = decoded(setup.sensor, frame), bursts = decoded(setup.sensor, frame, 16);
+  ASSERT_EQ(steady.points.size(), bursts.points.size());
+  double most_us = 0.0;
+  for (std::size_t i = 0; i < steady.points.size(); ++i) {
+    most_us = std::max(most_us, 1e-3 * std::abs(static_cast<double>(steady.points[i].t_ns) - bursts.points[i].t_ns));
+  }
+  EXPECT_LE(most_us, 1.0);
 }
 
 std::vector<std::string> sensors_that_come_back() {
@@ -110,15 +130,30 @@ std::string round_trip_test_name(const ::testing::TestParamInfo<std::string>& in
 
 INSTANTIATE_TEST_SUITE_P(Sensors, RoundTrip, ::testing::ValuesIn(sensors_that_come_back()), round_trip_test_name);
 
+pose_wall_config engine_of(const sim::SceneSetup& setup) {
+  pose_wall_config config = pose_wall::test::config_with();
+  for (const EngineSetting& setting : sim::find_sensor(setup.sensor.name)->engine) {
+    pose_wall::test::set(&config, setting.key.c_str(), setting.value.c_str());
+  }
+  pose_wall::test::set(&config, "floor_region_min", setup.sensor.floor_from_m);
+  pose_wall::test::set(&config, "floor_region_max", setup.sensor.floor_to_m);
+  return pose_wall::test::config_for(setup, config);
+}
+
+// A hemisphere that hangs sees floor and feet of walls, and eight lasers show little of either: values of these are
+// compared, but need not be valid.
+bool sees_the_road(const sim::Sensor& sensor) {
+  return sensor.beams->lasers.size() >= 16 && sensor.beams->lowest_deg() < 0.0;
+}
+
 // A sensor's lens, unit or sign that is wrong moves a wall; the engine sees it as far as its level allows.
 class MeasuredRoad : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(MeasuredRoad, ValuesOfPacketsAreThoseOfTheSimulatorAndTrue) {
   const sim::SceneSetup setup = round_trip_road(GetParam());
   const sim::Simulator simulator(setup, 1);
-  pose_wall::test::EngineUnderTest of_frames(pose_wall::test::config_for(setup)),
-      of_packets(pose_wall::test::config_for(setup));
-  std::size_t valid = 0;
+  pose_wall::test::EngineUnderTest of_frames(engine_of(setup)), of_packets(engine_of(setup));
+  std::size_t valid = 0, measured = 0;
   for (std::uint32_t i = 0; i < 4; ++i) {
     const sim::Frame frame = simulator.render(i);
     tools::Frame back = frame_of(decoded(setup.sensor, frame));
@@ -127,20 +162,42 @@ TEST_P(MeasuredRoad, ValuesOfPacketsAreThoseOfTheSimulatorAndTrue) {
     const pose_wall::test::JudgedFrame judged{of_packets.process(back.cloud), simulator.truth(i),
                                               simulator.surveyed_truth(i)};
     for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-      if (!judged.is(q, POSE_WALL_VALID)) continue;
-      ++valid;
-      EXPECT_LE(std::fabs(judged.error(q)), judged.result.quantity[q].protection_level) << pose_wall_quantity_name(q);
-      EXPECT_NEAR(judged.result.quantity[q].value, direct.quantity[q].value, 0.002) << pose_wall_quantity_name(q);
+      const pose_wall_value& value = judged.result.quantity[q];
+      if (judged.is(q, POSE_WALL_INVALID) || direct.quantity[q].state == POSE_WALL_INVALID) continue;
+      ++measured;
+      EXPECT_NEAR(value.value, direct.quantity[q].value, std::max(0.002, 0.1 * value.protection_level))
+          << pose_wall_quantity_name(q);
+      EXPECT_LE(std::fabs(judged.error(q)), value.protection_level) << pose_wall_quantity_name(q);
+      if (judged.is(q, POSE_WALL_VALID)) ++valid;
     }
   }
-  EXPECT_GE(valid, 3U * 7U) << GetParam();
+  RecordProperty("valid", static_cast<int>(valid));
+  RecordProperty("measured", static_cast<int>(measured));
+  // Of the C8F no laser meets the floor nearby.
+  EXPECT_GE(measured, setup.sensor.beams->lowest_deg() == -2.0 ? 0U : 4U) << "roll of each frame, at least";
+  EXPECT_GE(valid, sees_the_road(setup.sensor) ? 21U : 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(RoboSense, MeasuredRoad,
-                         ::testing::Values("robosense-rs16", "robosense-rs32", "robosense-helios32"),
-                         round_trip_test_name);
+// Of a smooth road that hides nothing: what is measured is the road's, far within the levels. A lens that is left out
+// would make 15 to 50 mm of a distance.
+TEST_P(MeasuredRoad, ValuesOfASmoothRoadAreTheRoads) {
+  sim::SceneSetup setup = sim::make_setup("clean", GetParam(), false, 1);
+  setup.machine.turned_left_deg = 3.0;
+  setup.machine.lateral_m = 0.3;
+  const sim::Simulator simulator(setup, 1);
+  pose_wall::test::EngineUnderTest engine(engine_of(setup));
+  const tools::Frame frame = frame_of(decoded(setup.sensor, simulator.render(0)));
+  const pose_wall::test::JudgedFrame judged{engine.process(frame.cloud), simulator.truth(0),
+                                            simulator.surveyed_truth(0)};
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    EXPECT_TRUE(judged.is(q, POSE_WALL_VALID) || !sees_the_road(setup.sensor)) << pose_wall_quantity_name(q);
+    if (judged.is(q, POSE_WALL_INVALID)) continue;
+    EXPECT_LE(std::abs(judged.error(q)), judged.result.quantity[q].protection_level) << pose_wall_quantity_name(q);
+    EXPECT_LE(std::abs(judged.error(q)), q >= POSE_WALL_D_LF ? 0.005 : 0.001) << pose_wall_quantity_name(q);
+  }
+}
 
-INSTANTIATE_TEST_SUITE_P(Hesai, MeasuredRoad, ::testing::Values("hesai-xt32m", "hesai-pandar64"), round_trip_test_name);
+INSTANTIATE_TEST_SUITE_P(Sensors, MeasuredRoad, ::testing::ValuesIn(sensors_that_come_back()), round_trip_test_name);
 
 // The comparison sees offsets: a sensor without any, read as one that has them.
 TEST(RoundTrip, ASensorWithoutOffsetsIsSeenToHaveNone) {
@@ -156,33 +213,6 @@ TEST(RoundTrip, ASensorWithoutOffsetsIsSeenToHaveNone) {
     ++seen;
   }
   EXPECT_GT(seen, 1000U);
-}
-
-// A sensor whose lens stands 4 cm beside its axis, told by its device packet or by its design: what is measured of a
-// road is the road's.
-TEST(RoundTrip, TheSevenValuesOfARoadComeBackFromAnLslidarsPackets) {
-  for (const char* name : {"lslidar-c16-v3", "lslidar-c16-v4"}) {
-    sim::SceneSetup setup = sim::make_setup("clean", name, false, 1);
-    setup.machine.turned_left_deg = 3.0;
-    setup.machine.lateral_m = 0.3;
-    const sim::Simulator simulator(setup, 1);
-    const Scan scan = decoded(setup.sensor, simulator.render(0));
-    pose_wall_config config = test::config_with();
-    for (const EngineSetting& setting : sim::find_sensor(name)->engine) {
-      test::set(&config, setting.key.c_str(), setting.value.c_str());
-    }
-    test::EngineUnderTest engine(test::config_for(setup, config));
-    const Frame frame = frame_of(scan);
-    const test::JudgedFrame judged = {engine.process(frame.cloud), simulator.truth(0), simulator.surveyed_truth(0)};
-    for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
-      EXPECT_TRUE(judged.is(q, POSE_WALL_VALID)) << name << ' ' << pose_wall_quantity_name(q);
-      EXPECT_LE(std::abs(judged.error(q)), judged.result.quantity[q].protection_level)
-          << name << ' ' << pose_wall_quantity_name(q);
-      // Left out, the lens would make 35 to 40 mm of a distance.
-      const double allowed = q >= POSE_WALL_D_LF ? 0.005 : 0.001;
-      EXPECT_LE(std::abs(judged.error(q)), allowed) << name << ' ' << pose_wall_quantity_name(q);
-    }
-  }
 }
 
 TEST(RoundTrip, ASensorWithoutKnownPacketsIsRefused) {

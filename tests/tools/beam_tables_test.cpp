@@ -97,12 +97,12 @@ TEST(BeamTables, LensesOfRoboSenseAndLslidarStandOffTheAxis) {
   EXPECT_EQ(robosense_rs16().lens.out_m, 0.03825);
   EXPECT_EQ(robosense_helios32().lens.out_m, 0.03498);
   EXPECT_EQ(robosense_helios32().lasers.back().elevation_deg, -55.0);
-  EXPECT_EQ(lslidar_c16_v3().lens.out_m, 0.0431);
-  EXPECT_EQ(lslidar_c16_v4().lens.out_m, 0.0361);
-  EXPECT_EQ(lslidar_c16_v3().highest_deg(), 15.0);
-  EXPECT_EQ(lslidar_c16_v4().lowest_deg(), -16.0) << "firmware 4 is not symmetric";
-  EXPECT_EQ(lslidar_c16_v4().highest_deg(), 14.0);
-  for (const BeamTable* const table : {&lslidar_c16_v3(), &lslidar_c16_v4()}) {
+  EXPECT_EQ(beam_table("lslidar-c16-v3").lens.out_m, 0.0431);
+  EXPECT_EQ(beam_table("lslidar-c16-v4").lens.out_m, 0.0361);
+  EXPECT_EQ(beam_table("lslidar-c16-v3").highest_deg(), 15.0);
+  EXPECT_EQ(beam_table("lslidar-c16-v4").lowest_deg(), -16.0) << "firmware 4 is not symmetric";
+  EXPECT_EQ(beam_table("lslidar-c16-v4").highest_deg(), 14.0);
+  for (const BeamTable* const table : {&beam_table("lslidar-c16-v3"), &beam_table("lslidar-c16-v4")}) {
     EXPECT_LT(table->lens.azimuth_deg, 0.0) << table->word;
     EXPECT_EQ(table->ahead_m(), 0.0) << table->word << ": its ranges begin at the lens";
   }

@@ -79,7 +79,8 @@ TEST(Hesai, PointsOfAnXt32mLieWhereItsDesignPutsThem) {
 
 TEST(Hesai, PointsOfAQt128LieWhereItsMakerPutsThem) {
   HesaiPacket packet = test::qt128_packet();
-  packet.step_deg = 90.0;
+  packet.first_deg = 89.6;
+  packet.step_deg = 0.4;  // of two firings a wide step would be a hole of the field of view
   const Scan scan = one_turn(packet);
   ASSERT_EQ(scan.rings, 128U);
   // Block 1 at 90 degrees. Channel 1: -52.6268 and 10.1083 degrees; channel 128 is its mirror image.
@@ -127,6 +128,7 @@ TEST(Hesai, OfThreeReturnsTheFarthestIsTaken) {
   for (const std::size_t farthest : {0U, 1U, 2U}) {
     HesaiPacket packet = test::xt32m_packet();
     packet.mode = 0x3D;
+    packet.step_deg = 0.18;
     packet.distance = [farthest](std::size_t block, std::size_t) {
       return std::uint16_t(block % 3 == farthest ? 2000 : 400 * (block % 3));
     };

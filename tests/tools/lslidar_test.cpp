@@ -201,7 +201,7 @@ TEST(Lslidar, TimesAreThoseOfTheSensorsClockBackFromThePacketsEnd) {
   packet.is_first_kind = false;
   std::vector<std::vector<std::string>> inputs = {at_right(packet, "", 1160), at_right(packet, "", 1'160'000)};
   inputs.push_back(inputs[0]);
-  inputs[2].erase(inputs[2].begin() + 3);  // one was lost
+  inputs[2][3] = "one was lost";
   for (const std::vector<std::string>& input : inputs) {
     const LslidarRead read = read_lslidar(input, "auto", 1'160'000);
     ASSERT_EQ(read.scans.size(), 1U);

@@ -138,8 +138,8 @@ inline std::string payload_of(const HesaiPacket& packet) {
   } else if (is_qt128) {
     payload = "\xEE\xFF\x03\x02" + std::string(2, '\0') + "\x80\x02\x01" + packet.unit_mm + "\x02\x1D";
   } else if (!is_40p) {
-    payload = "\xEE\xFF\x06\x01" + std::string(2, '\0') + static_cast<char>(packet.lasers) +
-              static_cast<char>(packet.blocks) + '\0' + packet.unit_mm + "\x02\x01";
+    payload = (packet.lasers == 64 ? "\xEE\xFF\x03\x01" : "\xEE\xFF\x06\x01") + std::string(2, '\0') +
+              static_cast<char>(packet.lasers) + static_cast<char>(packet.blocks) + '\0' + packet.unit_mm + "\x02\x01";
   }
   for (std::size_t block = 0; block < packet.blocks; ++block) {
     const std::size_t firing = block / (packet.mode == 0x3D ? 3 : packet.mode >= 0x39 ? 2 : 1);

@@ -124,7 +124,7 @@ TEST(RoboSense, TimesOfAPacketFollowItsFirings) {
       const Decoded read = decoded(one);
       ASSERT_EQ(read.refusal, "") << example.word;
       const Expected want = expected_of(example.word);
-      EXPECT_EQ(read.scan.stamp_ns, kCaptured_ns);
+      EXPECT_NEAR(static_cast<double>(read.scan.stamp_ns - kCaptured_ns), 0.0, 1'000.0) << "a clock of microseconds";
       const std::size_t columns = read.scan.points.size() / read.scan.rings;
       const ScanPoint& last = read.scan.points[columns - 1];
       const ScanPoint& first = read.scan.points[0];
@@ -311,7 +311,7 @@ TEST(RoboSense, TheCalendarOfTheSensorDoesNotMoveAStamp) {
   for (std::string& payload : data) payload[23] = static_cast<char>(payload[23] + 8);  // eight hours on
   const Scan behind = decoded(example, data, payload_of(example.device)).scan;
   EXPECT_EQ(before.stamp_ns, behind.stamp_ns);
-  EXPECT_EQ(before.stamp_ns, kCaptured_ns);
+  EXPECT_NEAR(static_cast<double>(before.stamp_ns - kCaptured_ns), 0.0, 1'000.0) << "a clock of microseconds";
   EXPECT_TRUE(RoboSenseAssembler(std::nullopt).stamps_are_of_arrival());
 }
 

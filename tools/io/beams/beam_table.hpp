@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pose_wall::tools {
@@ -28,6 +29,7 @@ struct Lens {
   double out_m = 0.0;               // from the axis
   double azimuth_deg = 0.0;         // of the lens beside the head's
   bool range_is_from_axis = false;  // the sensor's ranges hold out_m, too
+  bool turns_with_laser = false;    // stands beside a laser's own azimuth, not beside the head's
 };
 
 // What the sensor makes of a range. By the makers' sheets; noise is half of what a sheet calls accuracy, where it names
@@ -75,6 +77,8 @@ void number_rings(std::vector<Laser>* lasers);
 
 // All, by makers.
 const std::vector<const BeamTable*>& beam_tables();
+// The one of this word. Throws std::invalid_argument where there is none.
+const BeamTable& beam_table(std::string_view word);
 
 const BeamTable& velodyne_vlp16();
 const BeamTable& velodyne_vlp16_hires();
@@ -98,9 +102,10 @@ const BeamTable& ouster_os2_128_rev7();
 const BeamTable& robosense_rs16();
 const BeamTable& robosense_rs32();
 const BeamTable& robosense_helios32();
+const BeamTable& robosense_helios16p();
 const BeamTable& robosense_bpearl();
+const BeamTable& robosense_bpearl4();
 const BeamTable& robosense_airy();
-const BeamTable& lslidar_c16_v3();
-const BeamTable& lslidar_c16_v4();
+std::vector<const BeamTable*> lslidar_tables();
 
 }  // namespace pose_wall::tools

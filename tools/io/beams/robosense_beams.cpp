@@ -63,7 +63,12 @@ BeamTable rs32() {
 }
 
 // Elevations: ros_rslidar, 726eacca, data/rs_bpearl/angle.csv; 2.8125 degrees apart, in hundredths as a device packet
-// has them. Times: rs_driver, with a pause after the eighth laser of each half.
+// has them.
+double bpearl_elevation_deg(int laser) {
+  return 0.01 * std::round(100.0 * (89.5 - 2.8125 * laser));
+}
+
+// Times: rs_driver, with a pause after the eighth laser of each half.
 BeamTable bpearl() {
   BeamTable table{SensorMaker::kRoboSense,
                   "robosense-bpearl",
@@ -77,10 +82,29 @@ BeamTable bpearl() {
                   {0.005, 0.015, 0.1, 150.0, 0.0}};
   constexpr double kUp_m = 0.09427;
   for (int k = 0; k < 32; ++k) {
-    const double elevation_deg = 0.01 * std::round(100.0 * (89.5 - 2.8125 * k));
+    const double elevation_deg = bpearl_elevation_deg(k);
     const double first_ns = 2'560.0 * (k % 16) + (k % 16 < 8 ? 0.0 : 5'200.0);
     table.lasers.push_back({elevation_deg, 0.0, kUp_m, first_ns + (k < 16 ? 0.0 : 1'280.0), 0});
   }
+  number_rings(&table.lasers);
+  return table;
+}
+
+// A second design: another lens, half the unit, and lasers one after another. Its angles were not at hand; here they
+// are those of the first.
+BeamTable bpearl4() {
+  BeamTable table{SensorMaker::kRoboSense,
+                  "robosense-bpearl4",
+                  "RoboSense RS-Bpearl 4",
+                  "rs_driver 4eeadace; angles of the first Bpearl",
+                  {},
+                  1800,
+                  55'560.0,
+                  true,
+                  {0.01619, 0.0, false},
+                  {0.0025, 0.015, 0.1, 150.0, 0.0}};
+  constexpr double kUp_m = 0.09571;
+  for (int k = 0; k < 32; ++k) table.lasers.push_back({bpearl_elevation_deg(k), 0.0, kUp_m, 1'668.0 * k, 0});
   number_rings(&table.lasers);
   return table;
 }
@@ -118,7 +142,7 @@ BeamTable airy() {
 constexpr std::array<double, 16> kHeliosUpper_deg = {15.0, 13.0, 11.0,  9.0,   7.0,  5.5,   4.0,   2.67,
                                                      1.33, 0.0,  -1.33, -2.67, -4.0, -5.33, -6.67, -8.0};
 constexpr double kHeliosLowerTop_deg = -10.0, kHeliosLowerStep_deg = 3.0;  // down to -55
-constexpr std::size_t kHeliosLasers = 32;
+constexpr std::size_t kHeliosLasers = 32, kHelios16pLasers = 16;
 constexpr double kHeliosLaser_ns = 1'730.0;
 
 BeamTable helios32() {
@@ -142,6 +166,21 @@ BeamTable helios32() {
   return table;
 }
 
+// Lasers of a Helios, two firings in a block. Its view is 15 degrees up and down (RS-Helios-16P user guide); the order
+// of its lasers was not at hand: here from the top.
+BeamTable helios16p() {
+  BeamTable table = helios32();
+  table.word = "robosense-helios16p";
+  table.title = "RoboSense RS-Helios-16P";
+  table.source = "rs_driver 4eeadace; view of its user guide";
+  table.lasers.resize(kHelios16pLasers);
+  for (std::size_t k = 0; k < kHelios16pLasers; ++k) {
+    table.lasers[k].elevation_deg = 15.0 - 2.0 * static_cast<double>(k);
+  }
+  number_rings(&table.lasers);
+  return table;
+}
+
 }  // namespace
 
 const BeamTable& robosense_rs16() {
@@ -159,6 +198,11 @@ const BeamTable& robosense_bpearl() {
   return table;
 }
 
+const BeamTable& robosense_bpearl4() {
+  static const BeamTable table = bpearl4();
+  return table;
+}
+
 const BeamTable& robosense_airy() {
   static const BeamTable table = airy();
   return table;
@@ -166,6 +210,11 @@ const BeamTable& robosense_airy() {
 
 const BeamTable& robosense_helios32() {
   static const BeamTable table = helios32();
+  return table;
+}
+
+const BeamTable& robosense_helios16p() {
+  static const BeamTable table = helios16p();
   return table;
 }
 

@@ -3,6 +3,7 @@
 
 #include "io/packets/hesai.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,9 @@
 
 namespace pose_wall::tools {
 namespace {
+
+// Between packets that follow each other; a QT128C2X turns 0.8 degrees at 1,200 turns a minute.
+constexpr double kSingleStepMost_deg = 2.0;
 
 double azimuth_of(const HesaiTraits& traits, ByteView payload, std::size_t block) {
   const std::size_t start = traits.head_bytes + block * traits.block_bytes();
@@ -52,20 +56,29 @@ bool HesaiAssembler::add(const Datagram& datagram) {
   for (std::size_t block = 0; block < traits_->blocks; block += step) {
     azimuths_deg.push_back(azimuth_of(*traits_, datagram.payload, block));
   }
+  // A packet of one firing tells no step; the one before does.
+  const double since_deg = turned_deg(last_azimuth_deg_, azimuths_deg.front());
+  if (azimuths_deg.size() == 1 && std::min(since_deg, 360.0 - since_deg) < kSingleStepMost_deg)
+    last_step_deg_ = since_deg;
   const PacketSteps steps(azimuths_deg, last_step_deg_);
+  const double cycle_ns = traits_->beams.cycle_ns, in_holes_ns = steps.earlier_ns(0, cycle_ns);
+  const bool counts_back = traits_->last_is_known;
+  const std::int64_t sent_ns = datagram.captured_ns - (counts_back ? 0 : std::llround(in_holes_ns));
+  const std::int64_t packet_ns = moment_ns(sent_ns, 1000 * hesai_clock_us(*traits_, datagram.payload), kClockSecond_ns);
   for (std::size_t k = 0; k < azimuths_deg.size(); ++k) {
-    const auto earlier_ns = std::llround(steps.earlier_ns(k, traits_->beams.cycle_ns));
-    fill_firing(datagram.payload, k * step, step, datagram.captured_ns - earlier_ns);
+    const double moved_ns = counts_back ? -steps.earlier_ns(k, cycle_ns) : steps.later_ns(k, cycle_ns);
+    fill_firing(datagram.payload, k * step, step, packet_ns + std::llround(moved_ns));
     add_firing(firing_, steps.after_deg(k));
   }
   last_step_deg_ = steps.after_deg(azimuths_deg.size());
+  last_azimuth_deg_ = azimuths_deg.back();
   return true;
 }
 
-void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, std::size_t returns, std::int64_t captured_ns) {
+void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, std::size_t returns, std::int64_t packet_ns) {
   firing_.azimuth_deg = azimuth_of(*traits_, payload, block);
   const double start_ns = traits_->firing_start_ns(block / returns, traits_->blocks / returns);
-  firing_.time_ns = captured_ns + std::llround(start_ns + traits_->first_laser_ns);
+  firing_.time_ns = packet_ns + std::llround(start_ns + traits_->first_laser_ns);
   const std::size_t start = traits_->head_bytes + block * traits_->block_bytes() + traits_->block_head_bytes;
   for (std::size_t i = 0; i < traits_->lasers(); ++i) {
     const auto& [laser, cos_elevation, sin_elevation] = beams_[i];

@@ -35,11 +35,12 @@ class HesaiAssembler : public TurnAssembler {
   };
 
   void set_model(HesaiModel model);
-  void fill_firing(ByteView payload, std::size_t block, std::size_t returns, std::int64_t captured_ns);
+  void fill_firing(ByteView payload, std::size_t block, std::size_t returns, std::int64_t packet_ns);
 
   std::string angles_;
   const HesaiTraits* traits_ = nullptr;  // none: not yet known
   std::vector<Beam> beams_;
+  double last_azimuth_deg_ = 0.0;
   double last_step_deg_ = 0.0;  // from firing to firing: 600 turns a minute until two were seen
   std::string kind_ = "packets of a Hesai";
   Firing firing_;

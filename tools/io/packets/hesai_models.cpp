@@ -23,11 +23,11 @@ constexpr std::size_t kHesaiHeadBytes = 12;
 constexpr std::size_t kFlagsAt = 11;  // in the longer head
 constexpr std::uint8_t kHasSequence = 0x01, kHasSafety = 0x04, kHasConfidence = 0x10, kHasOwnChannels = 0x40;
 constexpr std::size_t kSequenceBytes = 4;
-constexpr std::uint16_t kXtProtocol = 0x0106;     // 6.1, as HesaiLidar_SDK_2.0 tells an XT from others
-constexpr std::uint16_t kQt128Protocol = 0x0203;  // 3.2
+constexpr std::uint16_t kXtProtocol = 0x0106;  // 6.1, as HesaiLidar_SDK_2.0 tells an XT from others
+constexpr std::uint16_t kQt64Protocol = 0x0103, kQt128Protocol = 0x0203;  // 3.1, 3.2
 // Of a tail's date: years since 1900, or a first byte of 0 and the seconds since 1970 in the last four, the highest
 // byte first. Bit 0 of the byte of heat.
-constexpr std::uint8_t kFirstYear = 70, kCentury = 100, kPauses = 0x01;
+constexpr std::uint8_t kCentury = 100, kPauses = 0x01;
 constexpr std::size_t kDateBytes = 6;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr double kElevationMax_deg = 90.0, kAzimuthMax_deg = 180.0;
@@ -151,7 +151,8 @@ const HesaiTraits& hesai_traits(HesaiModel model) {
       {{HesaiModel::kXt32, hesai_xt32(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 11, 13, 19, 9, 368.0, 5'632.0, true,
         kXtProtocol},
        {HesaiModel::kPandar40p, hesai_pandar40p(), 10, 0, 4, 3, 22, 14, 8, 16, 10, 5, -54'670.0, -28'580.0, true},
-       {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 10, 18, 12, 6, 12'310.0, 25'710.0, false},
+       {HesaiModel::kQt64, hesai_qt64(), 4, kHesaiHeadBytes, 2, 4, 24, 16, 10, 18, 12, 6, 12'310.0, 25'710.0, false,
+        kQt64Protocol},
        {HesaiModel::kXt16, hesai_xt16(), 8, kHesaiHeadBytes, 2, 4, 24, 10, 11, 13, 19, 9, 368.0, 5'632.0, true,
         kXtProtocol},
        {HesaiModel::kXt32m, hesai_xt32m(), 6, kHesaiHeadBytes, 2, 4, 24, 10, 11, 13, 19, 9, 368.0, 5'632.0, true,
@@ -201,11 +202,12 @@ std::optional<std::uint32_t> hesai_number(const HesaiTraits& traits, ByteView pa
 
 std::optional<std::int64_t> hesai_clock_ns(const HesaiTraits& traits, ByteView payload) {
   const std::size_t at = traits.tail_at() + traits.date_offset;
+  // A Pandar40P and a Pandar64 leave the century out, and have no other form of a date.
+  const bool has_century = traits.head_bytes == kHesaiHeadBytes;
   std::int64_t seconds = 0;
-  if (byte_at(payload, at) != 0) {
+  if (byte_at(payload, at) != 0 || !has_century) {
     std::tm date{};
-    // A Pandar40P and a Pandar64 leave the century out.
-    date.tm_year = byte_at(payload, at) < kFirstYear ? byte_at(payload, at) + kCentury : byte_at(payload, at);
+    date.tm_year = byte_at(payload, at) + (has_century ? 0 : kCentury);
     date.tm_mon = byte_at(payload, at + 1) - 1;
     date.tm_mday = byte_at(payload, at + 2);
     date.tm_hour = byte_at(payload, at + 3);
@@ -219,8 +221,11 @@ std::optional<std::int64_t> hesai_clock_ns(const HesaiTraits& traits, ByteView p
     for (std::size_t i = 2; i < kDateBytes; ++i) seconds = seconds << 8 | byte_at(payload, at + i);
     if (seconds == 0) return std::nullopt;
   }
-  return kSecond_ns * seconds +
-         1000 * std::int64_t{little_endian_at(payload, traits.tail_at() + traits.micros_offset, 4)};
+  return kSecond_ns * seconds + 1000 * hesai_clock_us(traits, payload);
+}
+
+std::int64_t hesai_clock_us(const HesaiTraits& traits, ByteView payload) {
+  return little_endian_at(payload, traits.tail_at() + traits.micros_offset, 4);
 }
 
 bool is_hesai_overheated(const HesaiTraits& traits, ByteView payload) {

@@ -77,6 +77,9 @@ std::optional<std::uint32_t> hesai_number(const HesaiTraits& traits, ByteView pa
 // The time of the packet by the sensor's clock, since 1970; nothing where it is no date.
 std::optional<std::int64_t> hesai_clock_ns(const HesaiTraits& traits, ByteView payload);
 
+// The microseconds of that time, which begin anew with each second.
+std::int64_t hesai_clock_us(const HesaiTraits& traits, ByteView payload);
+
 // Whether it says that it pauses because of heat.
 bool is_hesai_overheated(const HesaiTraits& traits, ByteView payload);
 

@@ -27,13 +27,11 @@ ByteView held_bytes(const Bytes& bytes) {
   return {bytes.data(), bytes.size()};
 }
 
-// Nanoseconds between two readings of the clock; 0: they do not tell. Its unit is a microsecond, or in firmware 4 and
+// The unit of the clock, by the gap between two packets; 0: it does not tell. It is a microsecond, or in firmware 4 and
 // 5 a nanosecond, by a time mode that only device packets tell. A packet takes 0.2 to 2.4 ms, so both are never meant.
-double clock_gap_ns(std::uint32_t before, std::uint32_t now, bool may_be_ns) {
-  if (now <= before) return 0.0;  // it begins anew each second
-  const double gap = now - before;
-  if (gap >= 100.0 && gap <= 10'000.0) return 1e3 * gap;
-  return may_be_ns && gap >= 100'000.0 && gap <= 10'000'000.0 ? gap : 0.0;
+std::int64_t clock_unit_ns(std::int64_t gap, bool may_be_ns) {
+  if (gap >= 100 && gap <= 10'000) return 1000;
+  return may_be_ns && gap >= 100'000 && gap <= 10'000'000 ? 1 : 0;
 }
 
 // How far the head turns from block to block, or from pair to pair; 0: it does not tell.
@@ -119,29 +117,31 @@ void LslidarAssembler::refuse_without_device() const {
 
 void LslidarAssembler::start(const BeamTable& beams) {
   beams_ = beams;
-  block_ns_ = block_ns_of_held();
+  learn_clock();
   if (!device_.empty()) kind_ += lslidar_filter_of(held_bytes(device_), traits_->model);
   firing_.points.resize(beams_.lasers.size());
   for (const Held& held : std::exchange(held_, {})) add_blocks(held_bytes(held.payload), held.captured_ns);
 }
 
 // The sensor's clock tells, between packets of which the azimuths say that none is missing.
-double LslidarAssembler::block_ns_of_held() const {
+void LslidarAssembler::learn_clock() {
   std::vector<double> blocks_ns;
   for (std::size_t i = 1; i < held_.size(); ++i) {
     const ByteView before = held_bytes(held_[i - 1].payload), now = held_bytes(held_[i].payload);
     const bool is_dual = is_lslidar_dual(before, *traits_);
     const double step_deg = step_of(before, is_dual), moments = static_cast<double>(moments_of(is_dual));
     const double turn_deg = turned_deg(lslidar_azimuth_deg(before, 0), lslidar_azimuth_deg(now, 0));
-    const double gap_ns =
-        clock_gap_ns(lslidar_clock(before, *traits_), lslidar_clock(now, *traits_), !traits_->is_first_kind());
-    if (step_deg > 0.0 && gap_ns > 0.0 && std::abs(turn_deg - moments * step_deg) < step_deg) {
-      blocks_ns.push_back(gap_ns / moments);
+    const std::int64_t gap = std::int64_t{lslidar_clock(now, *traits_)} - lslidar_clock(before, *traits_);
+    const std::int64_t unit_ns = clock_unit_ns(gap, !traits_->is_first_kind());
+    if (step_deg > 0.0 && unit_ns > 0 && std::abs(turn_deg - moments * step_deg) < step_deg) {
+      blocks_ns.push_back(static_cast<double>(gap * unit_ns) / moments);
+      clock_unit_ns_ = unit_ns;
     }
   }
-  if (blocks_ns.empty()) return beams_.cycle_ns * static_cast<double>(traits_->firings_per_block());
+  block_ns_ = beams_.cycle_ns * static_cast<double>(traits_->firings_per_block());
+  if (blocks_ns.empty()) return;
   std::sort(blocks_ns.begin(), blocks_ns.end());
-  return blocks_ns[blocks_ns.size() / 2];
+  block_ns_ = blocks_ns[blocks_ns.size() / 2];
 }
 
 // The time of a packet is that of its end.
@@ -150,11 +150,19 @@ void LslidarAssembler::add_blocks(ByteView packet, std::int64_t captured_ns) {
   const std::size_t blocks = is_dual ? 2 : 1, firings = traits_->firings_per_block();
   const std::size_t firing_bytes = 3 * beams_.lasers.size();
   const double packet_ns = block_ns_ * static_cast<double>(moments_of(is_dual));
+  std::vector<double> azimuths_deg;
+  for (std::size_t block = 0; block < kLslidarBlocks; block += blocks) {
+    azimuths_deg.push_back(lslidar_azimuth_deg(packet, block));
+  }
+  const PacketSteps steps(azimuths_deg, last_step_deg_);
+  std::optional<std::int64_t> clock_ns;
+  if (clock_unit_ns_ > 0) clock_ns = clock_unit_ns_ * lslidar_clock(packet, *traits_);
+  const std::int64_t end_ns = moment_ns(captured_ns, clock_ns, kClockSecond_ns);
   const double mean_step_deg = step_of(packet, is_dual);
   for (std::size_t block = 0; block < kLslidarBlocks; block += blocks) {
-    const double azimuth_deg = lslidar_azimuth_deg(packet, block);
+    const double azimuth_deg = azimuths_deg[block / blocks];
     if (block + blocks < kLslidarBlocks) {
-      const double step_deg = turned_deg(azimuth_deg, lslidar_azimuth_deg(packet, block + blocks));
+      const double step_deg = turned_deg(azimuth_deg, azimuths_deg[block / blocks + 1]);
       if (step_deg <= kStepMost_deg) last_step_deg_ = step_deg;  // more is a hole in the field of view
     } else if (std::abs(mean_step_deg - last_step_deg_) <= 2.0 * kAzimuthUnit_deg) {
       last_step_deg_ = mean_step_deg;  // azimuths are rounded, and beyond the last there is none
@@ -163,8 +171,8 @@ void LslidarAssembler::add_blocks(ByteView packet, std::int64_t captured_ns) {
     const std::byte* const second = first + (is_dual ? kLslidarBlockBytes : 0);
     for (std::size_t i = 0; i < firings; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(firings);
-      const double after_ns = block_ns_ * (static_cast<double>(block / blocks) + part) - packet_ns;
-      firing_.time_ns = captured_ns + std::llround(after_ns);
+      const double before_ns = packet_ns - block_ns_ * (static_cast<double>(block / blocks) + part);
+      firing_.time_ns = end_ns - std::llround(before_ns + steps.earlier_ns(block / blocks, block_ns_));
       fill_firing({first + i * firing_bytes, firing_bytes}, {second + i * firing_bytes, firing_bytes},
                   azimuth_deg + part * last_step_deg_);
       add_firing(firing_, last_step_deg_);

@@ -49,7 +49,7 @@ class LslidarAssembler : public TurnAssembler {
   void start_if_known(bool is_last);
   [[noreturn]] void refuse_without_device() const;
   void start(const BeamTable& beams);
-  double block_ns_of_held() const;
+  void learn_clock();
   void add_blocks(ByteView packet, std::int64_t captured_ns);
   // Of the two returns the farther; the same twice where there is one.
   void fill_firing(ByteView first, ByteView second, double azimuth_deg);
@@ -58,7 +58,8 @@ class LslidarAssembler : public TurnAssembler {
   const LslidarTraits* traits_ = nullptr;  // none: no data was heard
   BeamTable beams_;                        // of this sensor; no lasers: not yet known
   double block_ns_ = 0.0;
-  Bytes device_;  // the first; empty: none was heard
+  std::int64_t clock_unit_ns_ = 0;  // 0: it stands still, or runs as none
+  Bytes device_;                    // the first; empty: none was heard
   std::vector<Held> held_;
   std::string kind_ = "packets of an LSLidar";
   Firing firing_;

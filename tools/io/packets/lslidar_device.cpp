@@ -55,7 +55,8 @@ std::optional<BeamTable> c16_near(const BeamTable& design, ByteView device) {
 }
 
 BeamTable c16_of(ByteView device, const BeamTable* named) {
-  for (const BeamTable* const design : {&lslidar_traits(LslidarModel::kC16V3).beams, &lslidar_c16_v3_narrow()}) {
+  for (const BeamTable* const design :
+       {&lslidar_traits(LslidarModel::kC16V3).beams, &beam_table("lslidar-c16-v3-narrow")}) {
     const std::optional<BeamTable> found = c16_near(*design, device);
     if (!found) continue;
     if (named != nullptr && design->highest_deg() != named->highest_deg()) {
@@ -120,7 +121,7 @@ BeamTable c32_of(ByteView device) {
             device_byte(device, 1202)));
   }
   const bool is_dense = device_byte(device, 1195) == 0x21;
-  const BeamTable& design = is_dense ? lslidar_c32_v3_dense() : lslidar_traits(LslidarModel::kC32V3).beams;
+  const BeamTable& design = beam_table(is_dense ? "lslidar-c32-v3-dense" : "lslidar-c32-v3");
   // The older driver has them in the order of firing, the newer one the lower half first.
   std::optional<BeamTable> found = with_angles(design, device, 245, false);
   if (!found) found = with_angles(design, device, 245, true);

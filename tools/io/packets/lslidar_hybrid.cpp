@@ -79,12 +79,13 @@ bool has_upper_half(ByteView packet) {
 
 // Microseconds, or nanoseconds where the sensor has its time by PTP. A packet takes 0.1 to 1 ms, so both are never
 // meant.
-double hybrid_gap_ns(ByteView before, ByteView now) {
-  const std::uint32_t from = big_at(before, 1200, 4), to = big_at(now, 1200, 4);
-  if (to <= from) return 0.0;
-  const double gap = to - from;
-  if (gap >= 50.0 && gap <= 5'000.0) return 1e3 * gap;
-  return gap >= 50'000.0 && gap <= 5'000'000.0 ? gap : 0.0;
+std::int64_t hybrid_unit_ns(std::int64_t gap) {
+  if (gap >= 50 && gap <= 5'000) return 1000;
+  return gap >= 50'000 && gap <= 5'000'000 ? 1 : 0;
+}
+
+std::int64_t hybrid_clock(ByteView packet) {
+  return big_at(packet, 1200, 4);
 }
 
 double middle_of(std::vector<double> values) {
@@ -151,8 +152,11 @@ void LslidarHybridAssembler::start_if_known(bool is_last) {
   }
   std::vector<double> gaps_ns, arrivals_ns;
   for (std::size_t i = 1; i < held_.size(); ++i) {
-    if (const double gap_ns = hybrid_gap_ns(view(held_[i - 1]), view(held_[i])); gap_ns > 0.0)
-      gaps_ns.push_back(gap_ns);
+    const std::int64_t gap = hybrid_clock(view(held_[i])) - hybrid_clock(view(held_[i - 1]));
+    if (const std::int64_t unit_ns = hybrid_unit_ns(gap); unit_ns > 0) {
+      gaps_ns.push_back(static_cast<double>(unit_ns * gap));
+      clock_unit_ns_ = unit_ns;
+    }
     const auto arrival_ns = static_cast<double>(held_[i].captured_ns - held_[i - 1].captured_ns);
     if (arrival_ns >= 50e3 && arrival_ns <= 5e6) arrivals_ns.push_back(arrival_ns);
   }
@@ -164,10 +168,13 @@ void LslidarHybridAssembler::start_if_known(bool is_last) {
 // The time of a packet is that of its end.
 void LslidarHybridAssembler::add_points(ByteView packet, std::int64_t captured_ns) {
   const HybridItems items = items_of(packet);
+  std::optional<std::int64_t> clock_ns;
+  if (clock_unit_ns_ > 0) clock_ns = clock_unit_ns_ * hybrid_clock(packet);
+  const std::int64_t end_ns = clock_.moment_ns(captured_ns, clock_ns, kClockSecond_ns);
   for (std::size_t i = 0; i < items.count; ++i) {
     const std::size_t offset = i * items.bytes;
     const double share = static_cast<double>(i) / static_cast<double>(items.count);
-    const std::int64_t time_ns = captured_ns + std::llround(packet_ns_ * (share - 1.0));
+    const std::int64_t time_ns = end_ns + std::llround(packet_ns_ * (share - 1.0));
     if (is_mark(packet, offset)) {
       if (!scan_.points.empty()) end_frame(frame_begun_);
       frame_begun_ = true;
@@ -199,6 +206,7 @@ void LslidarHybridAssembler::add_points(ByteView packet, std::int64_t captured_n
 void LslidarHybridAssembler::end_frame(bool is_complete) {
   scan_.rings = 1;
   scan_.is_complete = is_complete;
+  scan_.stamp_ns += clock_.offset_ns();
   push(std::exchange(scan_, Scan{}));
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/packets/lslidar_device.hpp"
+#include "io/packets/packet_clock.hpp"
 #include "io/packets/scan.hpp"
 
 namespace pose_wall::tools {
@@ -45,7 +46,9 @@ class LslidarHybridAssembler : public ScanAssembler {
 
   std::optional<LslidarFaces> faces_;
   std::vector<Held> held_;
-  double packet_ns_ = 0.0;  // 0: not started
+  double packet_ns_ = 0.0;          // 0: not started
+  std::int64_t clock_unit_ns_ = 0;  // 0: it stands still, or runs as none
+  PacketClock clock_;
   bool frame_begun_ = false;
   Scan scan_;
 };

@@ -49,11 +49,6 @@ struct LslidarTraits {
 
 const LslidarTraits& lslidar_traits(LslidarModel model);
 
-// A C16 of firmware 3 whose lasers are 1.33 degrees apart instead of 2. Its packets are the same.
-const BeamTable& lslidar_c16_v3_narrow();
-// A C32 of firmware 3 whose lasers are 0.33 degrees apart in the middle.
-const BeamTable& lslidar_c32_v3_dense();
-
 // The packet without what a message of fixed length holds behind it. The maker's newer driver keeps packets of 1206
 // bytes in 1212, of which the last are zero.
 ByteView lslidar_packet(ByteView payload);

@@ -182,7 +182,7 @@ void OusterAssembler::add_pixel(ByteView bytes, std::uint32_t ring, std::uint32_
   const OusterReturn pixel = ouster_return(metadata_.profile, bytes, metadata_.takes_farther);
   // The rings come from the top, as rows of an image.
   point.ring = static_cast<std::uint16_t>(metadata_.rings - 1 - ring);
-  if (pixel.range_m == 0.0) return;
+  if (pixel.range_m == 0.0 || !metadata_.has_laser(ring)) return;
   point.intensity = pixel.reflectivity;
   const double encoder_rad = kTurn_rad * (1.0 - static_cast<double>(column) / metadata_.columns_per_frame);
   const double azimuth_rad = encoder_rad - metadata_.azimuth_deg[ring] * kRadPerDeg;

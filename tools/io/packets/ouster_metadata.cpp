@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <utility>
 
 #include "io/frames/frame.hpp"
 #include "io/language/language.hpp"
@@ -125,22 +127,49 @@ std::optional<OusterWindow> window_of_azimuth(const Json& page, std::uint32_t co
   return OusterWindow{static_cast<std::uint32_t>(first % columns), static_cast<std::uint32_t>(last % columns)};
 }
 
+// Firmware 1.13 has rows for the lasers of an OS1-64 in an OS-1-16 and an OS-1-32: 0 and 0 where there is none. One
+// such row alone may be a beam.
+void drop_rows_without_laser(OusterMetadata* metadata) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < metadata->rings; ++i) {
+    if (metadata->altitude_deg[i] == 0.0 && metadata->azimuth_deg[i] == 0.0) rows.push_back(i);
+  }
+  if (rows.size() < 2 || rows.size() == metadata->rings) return;
+  for (const std::size_t row : rows) metadata->altitude_deg[row] = std::numeric_limits<double>::quiet_NaN();
+}
+
 // Beams come from the top, as rows of an image; those of a sensor differ by a seventh of a degree or more.
 void check_beams(const OusterMetadata& metadata) {
   const std::vector<double>& altitude_deg = metadata.altitude_deg;
+  double above_deg = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < altitude_deg.size(); ++i) {
+    if (!metadata.has_laser(i)) continue;
     if (std::abs(altitude_deg[i]) > 90.0 || std::abs(metadata.azimuth_deg[i]) > 360.0) {
       throw FrameError(
           say("the metadata's beam {} has the altitude {} and the azimuth {} degrees; -90 to 90 and -360 "
               "to 360 are allowed",
               i, altitude_deg[i], metadata.azimuth_deg[i]));
     }
-    if (i == 0 || altitude_deg[i] < altitude_deg[i - 1]) continue;
+    if (altitude_deg[i] < above_deg) {
+      above_deg = altitude_deg[i];
+      continue;
+    }
     throw FrameError(
         say("the metadata's 'beam_altitude_angles' do not fall from beam to beam ({} degrees, then {}): "
             "they are not those of a sensor; read the metadata from it again",
-            altitude_deg[i - 1], altitude_deg[i]));
+            above_deg, altitude_deg[i]));
   }
+}
+
+// Where beams begin by the design: firmware before 2.0 does not tell (ouster-sdk, sensor_info.cpp).
+double designed_origin_mm(const std::string& product) {
+  constexpr std::array<std::pair<const char*, double>, 3> kOrigins_mm = {
+      {{"OS-0-", 27.67}, {"OS-1-", 15.806}, {"OS-2-", 13.762}}};
+  for (const auto& [kind, origin_mm] : kOrigins_mm) {
+    if (product.rfind(kind, 0) == 0) return origin_mm;
+  }
+  constexpr double kFirstGeneration_mm = 12.163;
+  return kFirstGeneration_mm;
 }
 
 void check_lens(const OusterMetadata& metadata) {
@@ -178,15 +207,17 @@ void read_geometry(const Json& page, OusterMetadata& metadata) {
     const std::vector<double> transform = numbers_of(*beam, "beam_to_lidar_transform", 16);
     metadata.beam_origin_out_m = transform[3] * kMetresPerMm;
     metadata.beam_origin_up_m = transform[11] * kMetresPerMm;
+  } else if (const Json* const origin = find(page, "lidar_origin_to_beam_origin_mm")) {
+    if (!origin->is_number()) throw FrameError(tr("the metadata's 'lidar_origin_to_beam_origin_mm' is no number"));
+    metadata.beam_origin_out_m = origin->get<double>() * kMetresPerMm;
   } else {
-    const Json& origin = need(page, "lidar_origin_to_beam_origin_mm");
-    if (!origin.is_number()) throw FrameError(tr("the metadata's 'lidar_origin_to_beam_origin_mm' is no number"));
-    metadata.beam_origin_out_m = origin.get<double>() * kMetresPerMm;
+    metadata.beam_origin_out_m = designed_origin_mm(metadata.product) * kMetresPerMm;
   }
   const std::vector<double> transform =
       numbers_of(need(page, "lidar_to_sensor_transform"), "lidar_to_sensor_transform", 16);
   std::copy(transform.begin(), transform.end(), metadata.sensor_from_lidar.begin());
   for (const std::size_t shift : {3U, 7U, 11U}) metadata.sensor_from_lidar[shift] *= kMetresPerMm;
+  drop_rows_without_laser(&metadata);
   check_beams(metadata);
   check_lens(metadata);
   check_turn(metadata.sensor_from_lidar);
@@ -225,6 +256,8 @@ OusterMetadata parse_ouster_metadata(const std::string& text) {
   if (page.is_discarded() || !page.is_object()) throw FrameError(tr("the metadata is no JSON object"));
   const Json* grouped = find(page, "data_format");
   if (grouped == nullptr && page.contains("lidar_data_format")) grouped = &page["lidar_data_format"];
+  // Firmware before 1.14 knows no such group: its client wrote the sensor's "error: Command not recognized."
+  if (grouped != nullptr && grouped->is_string()) grouped = nullptr;
   if (grouped != nullptr && !grouped->is_object()) throw FrameError(tr("the metadata has no 'data_format'"));
   OusterMetadata metadata;
   if (grouped != nullptr) {

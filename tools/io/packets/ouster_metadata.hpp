@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -40,9 +41,11 @@ struct OusterMetadata {
   // The sensor puts the strongest or the farthest of two returns first, as it is set up; or the nearest, which may be
   // dust before a wall: then the farther is taken.
   bool takes_farther = false;
-  std::vector<double> altitude_deg, azimuth_deg;  // of each ring, from the top
+  std::vector<double> altitude_deg, azimuth_deg;  // of each ring, from the top; no laser is there: NaN
   double beam_origin_out_m = 0.0, beam_origin_up_m = 0.0;
   std::array<double, 16> sensor_from_lidar{};  // row by row, the last column in metres
+
+  bool has_laser(std::size_t ring) const { return !std::isnan(altitude_deg[ring]); }
 };
 
 // Throws FrameError that names what is missing or wrong.

@@ -40,7 +40,6 @@ constexpr const char* kFewerShots =
 constexpr std::uint32_t kLimitingSoon = 1, kLimitingStep_percent = 10;
 constexpr std::uint64_t kClockMost = 0x7FFFFFFFFFFFFFFFU;  // of an int64
 
-constexpr std::int64_t kHourOfClock_us = 3'600'000'000;
 // A turn takes 50 ms at least: within this an azimuth is not passed twice.
 constexpr double kTurnGapMost_us = 30'000.0;
 constexpr std::size_t kSectors = 72, kSector_deg = 5;
@@ -137,10 +136,10 @@ class VelodyneWords : public PacketWords {
     const ByteView payload = datagram.payload;
     if (!is_velodyne_data(payload)) return;
     mode_ = little_endian_at(payload, kVelodyneBytes - 2, 1);
-    const std::int64_t clock_us = little_endian_at(payload, kVelodyneBytes - 6, 4);
+    const std::int64_t clock_us = velodyne_clock_us(payload);
     const double azimuth_deg = azimuth_at_block(payload, 0);
     if (last_us_) {
-      const double gap_us = static_cast<double>((clock_us - *last_us_ + kHourOfClock_us) % kHourOfClock_us);
+      const double gap_us = static_cast<double>((clock_us - *last_us_ + kVelodyneHour_us) % kVelodyneHour_us);
       if (gap_us > 0.0 && gap_us < kTurnGapMost_us) {
         turned_us_ += gap_us;
         turned_deg_ += turned_deg(last_deg_, azimuth_deg);
@@ -152,9 +151,9 @@ class VelodyneWords : public PacketWords {
       const auto sector = static_cast<std::size_t>(azimuth_at_block(payload, block)) / kSector_deg;
       if (sector < kSectors) seen_[sector] = true;
     }
-    clock_.hear(1000 * clock_us, datagram.captured_ns, 1000 * kHourOfClock_us);
+    clock_.hear(1000 * clock_us, datagram.captured_ns, 1000 * kVelodyneHour_us);
     if (const double packet_us = packet_us_of(payload); packet_us > 0.0) {
-      packets_.hear(clock_us, packet_us, kHourOfClock_us);
+      packets_.hear(clock_us, packet_us, kVelodyneHour_us);
     }
   }
 
@@ -175,7 +174,7 @@ class VelodyneWords : public PacketWords {
   }
 
   std::optional<ClockReading> clock() const override {
-    return last_us_ ? std::optional<ClockReading>({1000 * *last_us_, 1000 * kHourOfClock_us}) : std::nullopt;
+    return last_us_ ? std::optional<ClockReading>({1000 * *last_us_, 1000 * kVelodyneHour_us}) : std::nullopt;
   }
   SensorState state() const override {
     SensorState state;

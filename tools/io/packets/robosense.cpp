@@ -20,8 +20,8 @@ constexpr std::size_t kHeldMost = 12'000;  // two seconds of an Airy with two re
 // Enough to see how long a packet takes although some were lost.
 constexpr std::size_t kPacketsToKnowRoboSense = 6;
 constexpr std::size_t kUnlikeMost = 12'000;
-// rs_driver: a wider step between blocks is a hole of the field of view.
-constexpr double kHole_deg = 1.0;
+// From firing to firing; an Airy turns 0.8 degrees at 1,200 turns a minute.
+constexpr double kFiringStepMost_deg = 1.0;
 constexpr double kUsualSpeed_deg_per_us = 3600e-6;  // 600 turns a minute
 constexpr std::uint64_t kAiryRangeBits = 0x3FFF;
 
@@ -117,26 +117,31 @@ void RoboSenseAssembler::add_blocks(ByteView payload, std::int64_t captured_ns) 
   const RoboSenseTraits& traits = *setup_->traits;
   const std::size_t group = setup_->blocks_of_firing(), firings = setup_->firings_of_block();
   const auto in_block = static_cast<double>(firings);
-  double time_us = 0.0;
+  const double block_ns = 1e3 * setup_->firing_us * in_block;
+  std::vector<std::size_t> blocks;  // those that have an azimuth
+  std::vector<double> azimuths_deg;
   for (std::size_t block = 0; block < traits.blocks(); block += group) {
     const std::optional<std::uint32_t> azimuth = robosense_azimuth(traits, payload, block);
-    double turned = in_block * firing_step_deg_;
-    if (azimuth && block + group < traits.blocks()) {
-      const std::optional<std::uint32_t> next = robosense_azimuth(traits, payload, block + group);
-      if (next) turned = turned_deg(0.01 * *azimuth, 0.01 * *next);
-    }
-    if (turned > 0.0 && turned <= kHole_deg) firing_step_deg_ = turned / in_block;
-    for (std::size_t firing = 0; azimuth && firing < firings; ++firing) {
-      const double at_deg = 0.01 * *azimuth + firing_step_deg_ * static_cast<double>(firing);
+    if (!azimuth) continue;
+    blocks.push_back(block);
+    azimuths_deg.push_back(0.01 * *azimuth);
+  }
+  const PacketSteps steps(azimuths_deg, in_block * firing_step_deg_);
+  // Its clock is that of the first block.
+  const std::int64_t sent_ns = captured_ns - std::llround(steps.earlier_ns(0, block_ns));
+  const std::int64_t packet_ns = moment_ns(sent_ns, 1000 * robosense_clock_us(traits, payload), 0);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const bool is_next_there = k + 1 == blocks.size() || blocks[k + 1] == blocks[k] + group;
+    const double step_deg = is_next_there ? steps.after_deg(k) / in_block : firing_step_deg_;
+    if (step_deg > 0.0 && step_deg <= kFiringStepMost_deg) firing_step_deg_ = step_deg;
+    const double began_ns = block_ns * static_cast<double>(blocks[k] / group) + steps.later_ns(k, block_ns);
+    for (std::size_t firing = 0; firing < firings; ++firing) {
+      const double at_deg = azimuths_deg[k] + firing_step_deg_ * static_cast<double>(firing);
       firing_.azimuth_deg = at_deg < 360.0 ? at_deg : at_deg - 360.0;
-      firing_.time_ns = captured_ns + std::llround(1e3 * (time_us + setup_->firing_us * static_cast<double>(firing)));
-      fill_firing(payload, block, firing);
+      firing_.time_ns = packet_ns + std::llround(began_ns + 1e3 * setup_->firing_us * static_cast<double>(firing));
+      fill_firing(payload, blocks[k], firing);
       add_firing(firing_, firing_step_deg_);
     }
-    // Nothing is sent while the head turns through a hole. A step back, if ever, is none.
-    const bool is_hole = turned > kHole_deg && turned < 360.0 - kHole_deg;
-    const double steps = is_hole ? turned / firing_step_deg_ : in_block;
-    time_us += steps * setup_->firing_us;
   }
 }
 

@@ -15,7 +15,7 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::size_t kNumberAt = 4, kBlocksAt = 32, kM1Blocks = 25, kM1Channels = 5, kChannelBytes = 9;
+constexpr std::size_t kNumberAt = 4, kMicrosAt = 16, kBlocksAt = 32, kM1Blocks = 25, kM1Channels = 5, kChannelBytes = 9;
 constexpr std::size_t kM1BlockBytes = 2 + kM1Channels * kChannelBytes;
 constexpr double kM1Unit_m = 0.005, kM1Nearest_m = 0.2, kM1Farthest_m = 200.0;
 // rs_driver: packets may change places within so many numbers.
@@ -59,14 +59,17 @@ bool RoboSenseM1Assembler::add(const Datagram& datagram) {
     return true;  // late, of the frame before
   }
   if (seen_.test(number)) return true;  // captured twice
-  if (points_.empty()) stamp_ns_ = datagram.captured_ns;
+  const std::int64_t packet_ns = clock_.moment_ns(
+      datagram.captured_ns, 1000 * static_cast<std::int64_t>(robosense_number(datagram.payload, kMicrosAt, 4)),
+      kClockSecond_ns);
+  if (points_.empty()) began_ns_ = packet_ns;
   seen_.set(number);
   last_ = points_.empty() ? number : std::max(last_, number);
-  add_blocks(datagram.payload, datagram.captured_ns);
+  add_blocks(datagram.payload, packet_ns);
   return true;
 }
 
-void RoboSenseM1Assembler::add_blocks(ByteView payload, std::int64_t captured_ns) {
+void RoboSenseM1Assembler::add_blocks(ByteView payload, std::int64_t packet_ns) {
   for (std::size_t block = 0; block < kM1Blocks; ++block) {
     const std::size_t start = kBlocksAt + block * kM1BlockBytes;
     const std::uint64_t return_number = robosense_number(payload, start + 1, 1);
@@ -78,7 +81,7 @@ void RoboSenseM1Assembler::add_blocks(ByteView payload, std::int64_t captured_ns
     return_number_ = return_number;
     const std::int64_t most_ns = std::numeric_limits<std::uint32_t>::max();
     const std::int64_t after_ns =
-        captured_ns - stamp_ns_ + 1000 * static_cast<std::int64_t>(robosense_number(payload, start, 1));
+        packet_ns - began_ns_ + 1000 * static_cast<std::int64_t>(robosense_number(payload, start, 1));
     for (std::size_t channel = 0; channel < kM1Channels; ++channel) {
       ScanPoint point = m1_point(payload, start + 2 + channel * kChannelBytes);
       point.t_ns = static_cast<std::uint32_t>(std::clamp<std::int64_t>(after_ns, 0, most_ns));
@@ -90,7 +93,7 @@ void RoboSenseM1Assembler::add_blocks(ByteView payload, std::int64_t captured_ns
 
 void RoboSenseM1Assembler::end_frame(bool is_complete) {
   Scan scan;
-  scan.stamp_ns = stamp_ns_;
+  scan.stamp_ns = began_ns_ + clock_.offset_ns();
   scan.rings = 1;
   // Begun with its first packets: whether it was seen whole.
   scan.is_complete = is_complete && first_ < kOutOfOrderMost;
@@ -100,8 +103,8 @@ void RoboSenseM1Assembler::end_frame(bool is_complete) {
 }
 
 void RoboSenseM1Assembler::finish() {
-  constexpr std::size_t kLast = 629;  // of one return
-  if (!points_.empty()) end_frame(last_ >= kLast);
+  constexpr std::size_t kLastOfFrame = 629;  // of one return
+  if (!points_.empty()) end_frame(last_ >= kLastOfFrame);
 }
 
 }  // namespace pose_wall::tools

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "io/packets/packet_clock.hpp"
 #include "io/packets/scan.hpp"
 
 namespace pose_wall::tools {
@@ -32,12 +33,13 @@ class RoboSenseM1Assembler : public ScanAssembler {
   static constexpr std::size_t kNumbers = 2048;  // a frame of one return has 630
 
   void end_frame(bool is_complete);
-  void add_blocks(ByteView payload, std::int64_t captured_ns);
+  void add_blocks(ByteView payload, std::int64_t packet_ns);
 
   std::vector<ScanPoint> points_;
   std::bitset<kNumbers> seen_;  // numbers of this frame's packets
   std::size_t first_ = 0, last_ = 0;
-  std::int64_t stamp_ns_ = 0;
+  PacketClock clock_;
+  std::int64_t began_ns_ = 0;
   std::optional<std::uint64_t> return_number_;
 };
 

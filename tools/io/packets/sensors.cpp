@@ -107,7 +107,7 @@ LslidarChoice lslidar_choice(SensorKind kind) {
   LslidarChoice choice;
   choice.models = lslidar_models(kind);
   if (kind == SensorKind::kLslidarC16Of15) choice.of_first_kind = &lslidar_traits(LslidarModel::kC16V3).beams;
-  if (kind == SensorKind::kLslidarC16Of10) choice.of_first_kind = &lslidar_c16_v3_narrow();
+  if (kind == SensorKind::kLslidarC16Of10) choice.of_first_kind = &beam_table("lslidar-c16-v3-narrow");
   choice.title = known_sensor(kind).title;
   choice.word = known_sensor(kind).name;
   return choice;

@@ -29,7 +29,7 @@ constexpr std::int64_t kFastestTurn_ns = 50'000'000, kSlowestTurn_ns = 200'000'0
 constexpr double kWait_deg = 20.0;
 // Three packets of the smallest firings, 24 each, and as many again.
 constexpr std::size_t kLateFiringsMax = 150;
-// An HDL-32E at 1,200 turns a minute, two returns: 0.7 degrees from pair to pair; a VLP-16: 0.8.
+// An HDL-32E at 1,200 turns a minute, two returns: 0.7 degrees from pair to pair; a VLP-16: 0.8; a QT64: 1.2.
 constexpr double kPacketHole_deg = 2.0;
 constexpr double kHoleSteps = 3.0;  // of two lost blocks; none is lost within a packet
 
@@ -53,23 +53,27 @@ PacketSteps::PacketSteps(const std::vector<double>& azimuths_deg, double known_d
   if (steps_deg_.empty()) return;
   std::vector<double> sorted = steps_deg_;
   std::sort(sorted.begin(), sorted.end());
-  step_deg_ = sorted[sorted.size() / 2];
+  const double middle_deg = sorted[(sorted.size() - 1) / 2];
+  // Of three and more at most one is a hole.
+  if (sorted.size() > 2 || !is_hole(middle_deg, known_deg)) step_deg_ = middle_deg;
 }
 
-bool PacketSteps::is_hole(std::size_t block) const {
-  return steps_deg_[block] > std::max(kPacketHole_deg, kHoleSteps * step_deg_);
+// A head that turns the other way falls back by little.
+bool PacketSteps::is_hole(double step_deg, double usual_deg) {
+  const double hole_deg = std::max(kPacketHole_deg, kHoleSteps * usual_deg);
+  return step_deg > hole_deg && step_deg < 360.0 - hole_deg;
 }
 
 double PacketSteps::after_deg(std::size_t block) const {
   if (steps_deg_.empty()) return step_deg_;
   const std::size_t step = std::min(block, steps_deg_.size() - 1);  // behind the last block as before it
-  return is_hole(step) ? step_deg_ : steps_deg_[step];
+  return is_hole(steps_deg_[step], step_deg_) ? step_deg_ : steps_deg_[step];
 }
 
 double PacketSteps::earlier_ns(std::size_t block, double block_ns) const {
   double hole_deg = 0.0;
   for (std::size_t i = block; i < steps_deg_.size(); ++i) {
-    if (is_hole(i)) hole_deg += steps_deg_[i] - step_deg_;
+    if (is_hole(steps_deg_[i], step_deg_)) hole_deg += steps_deg_[i] - step_deg_;
   }
   return step_deg_ > 0.0 ? hole_deg / step_deg_ * block_ns : 0.0;
 }
@@ -168,7 +172,8 @@ void TurnAssembler::push_waiting() {
 void TurnAssembler::push_turn(Turn turn, bool is_complete) {
   const std::size_t firings = turn.moments.size(), rings = turn.points.size() / firings;
   Scan scan;
-  scan.stamp_ns = turn.moments.front().time_ns;
+  const std::int64_t began_ns = turn.moments.front().time_ns;
+  scan.stamp_ns = began_ns + clock_.offset_ns();
   scan.rings = static_cast<std::uint32_t>(rings);
   scan.is_complete = is_complete;
   scan.points.resize(turn.points.size());
@@ -176,7 +181,7 @@ void TurnAssembler::push_turn(Turn turn, bool is_complete) {
     for (std::size_t i = 0; i < firings; ++i) {
       ScanPoint& point = scan.points[ring * firings + i];
       point = turn.points[i * rings + ring];
-      point.t_ns = time_within(turn.moments[i].time_ns - scan.stamp_ns, point.t_ns);
+      point.t_ns = time_within(turn.moments[i].time_ns - began_ns, point.t_ns);
     }
   }
   push(std::move(scan));

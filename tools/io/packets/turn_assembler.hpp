@@ -7,17 +7,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "io/packets/packet_clock.hpp"
 #include "io/packets/scan.hpp"
 
 namespace pose_wall::tools {
 
 // All lasers once, at one azimuth.
 struct Firing {
-  double azimuth_deg = 0.0;  // 0 to 360
-  std::int64_t time_ns = 0;
+  double azimuth_deg = 0.0;       // 0 to 360
+  std::int64_t time_ns = 0;       // a moment of the assembler's PacketClock
   std::vector<ScanPoint> points;  // by ring; their t_ns counts from time_ns
 };
 
@@ -29,6 +31,10 @@ class TurnAssembler : public ScanAssembler {
   std::string hint() const override;
 
  protected:
+  // When a packet was sent, for the times of its firings.
+  std::int64_t moment_ns(std::int64_t arrival_ns, std::optional<std::int64_t> clock_ns, std::int64_t modulus_ns) {
+    return clock_.moment_ns(arrival_ns, clock_ns, modulus_ns);
+  }
   // `step_deg`: how far the head turns from one firing to the next, as far as is known.
   void add_firing(const Firing& firing, double step_deg);
 
@@ -54,6 +60,7 @@ class TurnAssembler : public ScanAssembler {
   void push_turn(Turn turn, bool is_complete);
   void push_waiting();
 
+  PacketClock clock_;
   Turn turn_, waiting_;  // under way; and the one before, while packets of it may still come
   double step_deg_ = 0.0;
   double begins_deg_ = 0.0, ends_deg_ = 360.0;  // of the field of view, as two turns one after another had it
@@ -69,16 +76,22 @@ double turned_deg(double from_deg, double to_deg);
 // was sent there, and the head turned on all the while.
 class PacketSteps {
  public:
-  // Of a packet's blocks, or pairs of blocks, in order. Of one alone the step is not known: then it is `known_deg`.
+  // Of a packet's blocks, or pairs of blocks, in order. Where they do not tell the step it is `known_deg`: there is one
+  // alone, or a hole stands beside few others.
   PacketSteps(const std::vector<double>& azimuths_deg, double known_deg);
 
-  // Times are those of the last block where the packet was sent: how much earlier a block is than its number says.
+  // How long the head turned through holes from a block on to the packet's end. A block is earlier by so much than its
+  // number says, counted from the time at which the packet was sent.
   double earlier_ns(std::size_t block, double block_ns) const;
+  // The same before a block, which is later by so much than its number says, counted from the packet's begin.
+  double later_ns(std::size_t block, double block_ns) const {
+    return earlier_ns(0, block_ns) - earlier_ns(block, block_ns);
+  }
   // From this block to the next one, as far as the head turns while it fires.
   double after_deg(std::size_t block) const;
 
  private:
-  bool is_hole(std::size_t block) const;
+  static bool is_hole(double step_deg, double usual_deg);
 
   std::vector<double> steps_deg_;
   double step_deg_;  // the usual one

@@ -16,7 +16,7 @@
 namespace pose_wall::tools {
 
 // Frames are cut where the azimuth passes 0. Axes as in ROS: x at azimuth 0, y to the left, z up. Of two returns the
-// last is taken. Stamps are those of the capture: the sensor itself counts within the hour. The first packets tell
+// last is taken. Stamps are of the capture: the sensor itself counts within the hour. The first packets tell
 // which model it is; add and finish throw FrameError where they contradict themselves, or what is stated.
 class VelodyneAssembler : public TurnAssembler {
  public:

@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::uint16_t kVelodyneBlockFlag = 0xEEFF;
 constexpr std::uint8_t kStrongest = 0x37, kLast = 0x38, kDual = 0x39;
-constexpr std::uint32_t kHour_us = 3'600'000'000U;
 // Of packets that were lost one after the other. A C16 of LSLidar keeps 1,200 us: within four packets no multiple of
 // that comes near one of a Velodyne's times.
 constexpr double kPacketsBetween = 4.0;
@@ -101,9 +100,8 @@ Clock clock_of(const std::vector<ByteView>& packets) {
   Clock clock;
   clock.is_dual = is_velodyne_dual(packets.front());
   for (std::size_t i = 1; i < packets.size(); ++i) {
-    const std::uint32_t before_us = little_endian_at(packets[i - 1], kVelodyneBytes - 6, 4);
-    const std::uint32_t now_us = little_endian_at(packets[i], kVelodyneBytes - 6, 4);
-    const std::uint32_t gap_us = now_us >= before_us ? now_us - before_us : now_us + kHour_us - before_us;
+    const std::int64_t went_us = velodyne_clock_us(packets[i]) - velodyne_clock_us(packets[i - 1]);
+    const auto gap_us = static_cast<std::uint32_t>(went_us < 0 ? went_us + kVelodyneHour_us : went_us);
     if (gap_us == 0) continue;
     clock.gaps_us.push_back(gap_us);
     if (clock.shortest_us == 0 || gap_us < clock.shortest_us) clock.shortest_us = gap_us;
@@ -175,6 +173,10 @@ bool is_velodyne_dual(ByteView payload) {
     if (block > 0 && azimuth_at(payload, block) == azimuth_at(payload, block - 1)) return false;
   }
   return true;
+}
+
+std::int64_t velodyne_clock_us(ByteView payload) {
+  return little_endian_at(payload, kVelodyneBytes - 6, 4);
 }
 
 std::uint8_t velodyne_product(ByteView payload) {

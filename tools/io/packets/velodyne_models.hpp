@@ -51,4 +51,8 @@ bool is_velodyne_dual(ByteView payload);
 
 std::uint8_t velodyne_product(ByteView payload);
 
+// The clock of its first firing, which begins anew with each hour.
+constexpr std::int64_t kVelodyneHour_us = 3'600'000'000;
+std::int64_t velodyne_clock_us(ByteView payload);
+
 }  // namespace pose_wall::tools

@@ -352,9 +352,9 @@ std::optional<pose_wall_planar_pose> place_in_all_scans(const CarmenLog& log) {
 }  // namespace
 
 const char* carmen_skip_name(CarmenSkip reason) {
-  constexpr const char* kNames[] = {"empty", "comment", "param", "other_message", "bad_line", "not_finite"};
-  static_assert(std::size(kNames) == static_cast<std::size_t>(CarmenSkip::kCount));
-  return kNames[static_cast<std::size_t>(reason)];
+  constexpr const char* kLineKinds[] = {"empty", "comment", "param", "other_message", "bad_line", "not_finite"};
+  static_assert(std::size(kLineKinds) == static_cast<std::size_t>(CarmenSkip::kCount));
+  return kLineKinds[static_cast<std::size_t>(reason)];
 }
 
 bool parse_stamp_ns(std::string_view word, std::int64_t* stamp_ns) {

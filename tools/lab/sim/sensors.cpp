@@ -159,7 +159,10 @@ const std::vector<SensorModel>& real_sensor_models() {
   static const std::vector<SensorModel> models = [] {
     std::vector<SensorModel> all;
     for (const BeamTable* const table : beam_tables()) {
-      all.push_back(model_of(real_sensor(*table), help_of(*table), 0.0));
+      // What looks up alone has to be turned round to see the floor.
+      const bool hangs = table->lowest_deg() > 0.0;
+      all.push_back(model_of(real_sensor(*table), help_of(*table) + (hangs ? "; upside down, to see the floor" : ""),
+                             hangs ? 180.0 : 0.0));
     }
     return all;
   }();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026 the pose_wall authors
 
-// Simulated turns as an LSLidar C16 would send them, of firmware 3 or 4. Written anew from the facts of the layout, so
-// that it and the decoder are each a check of the other.
+// Simulated turns as a spinning LSLidar would send them. Written anew from the facts of the layout, so that it and the
+// decoder are each a check of the other.
 
 #pragma once
 
@@ -14,17 +14,19 @@
 
 namespace pose_wall::tools::live {
 
-// One return; the clock of firmware 4 is set by GPS: nanoseconds.
+// One return; the clock of firmware 4 and 5 is set by GPS: nanoseconds.
 class LslidarEncoder final : public PacketEncoder {
  public:
-  explicit LslidarEncoder(const BeamTable& beams) : beams_(beams) {}
+  // Throws std::invalid_argument for a sensor whose packets are not known.
+  explicit LslidarEncoder(const BeamTable& beams);
 
   std::vector<std::string> packets(const RangeImage& image, std::int64_t began_ns, std::int64_t turn_ns) override;
   std::string device_packet(std::int64_t turn_ns) const override;
 
  private:
-  bool is_v3() const { return &beams_ == &lslidar_c16_v3(); }
   const BeamTable& beams_;
+  int firmware_;
+  char model_;  // as it names itself at the end of a packet
 };
 
 }  // namespace pose_wall::tools::live

@@ -95,7 +95,8 @@ std::vector<std::string> VelodyneEncoder::packets(const RangeImage& image, std::
   return packets;
 }
 
-std::vector<std::string> HesaiEncoder::packets(const RangeImage& image, std::int64_t, std::int64_t) {
+std::vector<std::string> HesaiEncoder::packets(const RangeImage& image, std::int64_t began_ns, std::int64_t turn_ns) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
   demand_rings(image, traits_.beams);
   const auto of_packet = static_cast<std::uint32_t>(traits_.blocks);
   std::vector<std::string> packets;
@@ -106,7 +107,9 @@ std::vector<std::string> HesaiEncoder::packets(const RangeImage& image, std::int
     if (traits_.head_bytes == kHesaiShortHeadBytes) {
       packet = "\xEE\xFF" + sizes + std::string(2, '\0');
     } else if (traits_.head_bytes > 0) {
-      packet = std::string("\xEE\xFF\x06\x01", 4) + std::string(2, '\0') + sizes + std::string("\x01\0", 2);
+      packet = "\xEE\xFF";
+      put(&packet, traits_.protocol);
+      packet += std::string(2, '\0') + sizes + std::string("\x01\0", 2);
     }
     for (std::uint32_t firing = first; firing < first + of_packet; ++firing) {
       if (traits_.block_head_bytes > 2) put(&packet, std::uint16_t{0xEEFF});
@@ -118,6 +121,9 @@ std::vector<std::string> HesaiEncoder::packets(const RangeImage& image, std::int
     }
     std::string tail(traits_.tail_bytes, '\0');
     tail[traits_.mode_offset] = '\x37';  // the strongest return
+    std::string clock;
+    put(&clock, static_cast<std::uint32_t>((began_ns + turn_ns * first / image.columns) % kSecond_ns / 1000));
+    tail.replace(traits_.micros_offset, clock.size(), clock);
     packets.push_back(packet + tail);
   }
   return packets;

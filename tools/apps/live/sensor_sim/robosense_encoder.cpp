@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kBytes = 1248;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
+constexpr const char* kFirstHead = "\x55\xAA\x05\x0A\x5A\xA5\x50\xA0";
+
 // What differs between the packets of these sensors.
 struct Form {
   std::string head;      // first bytes
@@ -22,13 +24,18 @@ struct Form {
   std::size_t angles;    // for so many lasers it has room
   std::size_t type_at;   // where the head names its kind
   std::string type;      // and how
+
+  bool has_first_head() const { return head == kFirstHead; }
 };
 
 Form form_of(const BeamTable& beams) {
-  const std::string first = "\x55\xAA\x05\x0A\x5A\xA5\x50\xA0", second = "\x55\xAA\x05\x5A";
+  const std::string first = kFirstHead, second = "\x55\xAA\x05\x5A";
   if (&beams == &robosense_rs16()) return {first, 32, 12, true, 0.0001, 16, 30, "\x01"};
   if (&beams == &robosense_rs32()) return {first, 32, 12, true, 0.001, 32, 30, "\x02"};
   if (&beams == &robosense_bpearl()) return {first, 32, 12, true, 0.01, 32, 30, "\x03"};
+  // The kind alone parts a later Bpearl from the first.
+  if (&beams == &robosense_bpearl4()) return {first, 32, 12, false, 0.01, 32, 31, "\x03\x04"};
+  if (&beams == &robosense_helios16p()) return {second, 32, 12, false, 0.01, 32, 31, "\x06\x03"};
   if (&beams == &robosense_helios32()) return {second, 32, 12, false, 0.01, 32, 31, "\x06\x01"};
   if (&beams == &robosense_airy()) return {second, 48, 8, false, 0.01, 96, 32, "\x02"};
   throw std::invalid_argument(beams.title + ": no packets of such a sensor are known");
@@ -75,8 +82,8 @@ std::string RoboSenseEncoder::packet(const RangeImage& image, std::uint32_t firs
   put_text(&bytes, 0, form.head);
   put_time(&bytes, time_ns, form.is_calendar);
   put_text(&bytes, form.type_at, form.type);
-  // Helios: distances in 2.5 mm. Airy: one return.
-  if (!form.is_calendar) bytes[17] = '\x01';
+  // Helios: distances in 2.5 mm. Airy: one return. Nothing is known of a first head's.
+  if (!form.has_first_head()) bytes[17] = '\x01';
   for (std::size_t slot = 0; slot < form.blocks * form.channels; ++slot) {
     const std::size_t block = slot / form.channels, channel = slot % form.channels;
     const std::size_t start = 42 + block * block_bytes;
@@ -112,7 +119,7 @@ std::string RoboSenseEncoder::device_packet(std::int64_t turn_ns) const {
   put_big(&bytes, 34, 36'000, 2);
   put_text(&bytes, 40, std::string("\0\x06\x23\x09\0\x08\x03\x01\x01\x01", 10));  // firmware of both boards
   put_text(&bytes, 292, "SIMUL8");
-  bytes[300] = form.is_calendar ? '\x01' : '\x04';  // the strongest return
+  bytes[300] = form.has_first_head() ? '\x01' : '\x04';  // the strongest return
   for (std::size_t k = 0; k < beams_.lasers.size(); ++k) {
     const Laser& laser = beams_.lasers[k];
     if (form.angles == 16) {
