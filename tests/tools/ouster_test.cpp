@@ -450,6 +450,33 @@ TEST(OusterMetadata, AWindowThatIsToldAsAnglesIsThatOfColumns) {
 }
 
 // Firmware 1 tells no layout of its packets: it has one.
+// ouster-sdk, sensor_info.cpp: before 2.0 the sensor does not tell where its beams begin.
+TEST(OusterMetadata, BeforeFirmware2BeamsBeginWhereTheDesignHasThem) {
+  const std::pair<const char*, double> origins_mm[] = {
+      {"OS-0-32-U0", 27.67}, {"OS-1-64", 15.806}, {"OS-2-128", 13.762}, {"", 12.163}};
+  for (const auto& [product, origin_mm] : origins_mm) {
+    const std::string text = std::string("{\"prod_line\": \"") + product +
+                             "\", \"lidar_mode\": \"1024x10\", \"beam_altitude_angles\": [1, 0, -1], "
+                             "\"beam_azimuth_angles\": [3, 1, -1], \"lidar_data_format\": \"error: Command not "
+                             "recognized.\", \"lidar_to_sensor_transform\": [1,0,0,0, 0,1,0,0, 0,0,1,36, 0,0,0,1]}";
+    EXPECT_DOUBLE_EQ(parse_ouster_metadata(text).beam_origin_out_m, 1e-3 * origin_mm) << product;
+  }
+}
+
+// Firmware 1.13 lists 64 lasers of an OS-1-16, of which 48 are not there. What their rows hold is no point.
+TEST(OusterMetadata, RowsWithoutALaserAreNoBeams) {
+  const auto of_angles = [](const char* altitudes, const char* azimuths) {
+    return std::string("{\"prod_line\": \"OS-1-16-A0\", \"lidar_mode\": \"512x10\", \"beam_altitude_angles\": [") +
+           altitudes + "], \"beam_azimuth_angles\": [" + azimuths +
+           "], \"lidar_to_sensor_transform\": [1,0,0,0, 0,1,0,0, 0,0,1,36, 0,0,0,1]}";
+  };
+  const OusterMetadata metadata = parse_ouster_metadata(of_angles("0, 14.8, 0, -16.9", "0, -3.4, 0, -3.0"));
+  EXPECT_EQ(metadata.rings, 4U);
+  for (std::size_t ring = 0; ring < 4; ++ring) EXPECT_EQ(metadata.has_laser(ring), ring % 2 == 1) << ring;
+  EXPECT_TRUE(parse_ouster_metadata(of_angles("1, 0, -1", "0, 0, 0")).has_laser(1)) << "one row of zeros is a beam";
+  EXPECT_NE(test::said_by<FrameError>([&] { parse_ouster_metadata(of_angles("0, 0, 0", "0, 0, 0")); }), "");
+}
+
 TEST(OusterMetadata, ThatOfFirmware1IsReadByItsMode) {
   const std::string text =
       "{\"prod_line\": \"OS-1-16\", \"lidar_mode\": \"2048x10\", \"beam_altitude_angles\": [1, 0, -1], "

@@ -96,8 +96,10 @@ TEST(PacketFacts, MissingPacketsAreCounted) {
   numbers.insert(numbers.begin() + 20, 18);                   // twice
   const SourceSender sender = only_sender(folder.write("a.pcap", vlp16_capture(numbers)));
   EXPECT_EQ(found(sender, "packets lost"), "2.50 % (3)");
-  ASSERT_EQ(sender.oddities.size(), 1U);
-  EXPECT_EQ(sender.oddities.front().find("3 of its packets are not in the recording, 2.50 %"), 0U);
+  ASSERT_EQ(sender.oddities.size(), 3U);
+  EXPECT_EQ(sender.oddities[0].find("3 of its packets are not in the recording, 2.50 %"), 0U);
+  EXPECT_EQ(sender.oddities[1].find("1 of its packets came twice"), 0U);
+  EXPECT_EQ(sender.oddities[2].find("1 of its packets came behind later ones"), 0U);
 }
 
 TEST(PacketFacts, AFieldOfViewIsNoLoss) {

@@ -18,13 +18,16 @@ namespace pose_wall::tools {
 
 bool has_no_input(const char* verb, const FrameSequence& inputs, const std::string& output) {
   std::error_code ignored;
-  const bool nothing_to_read =
-      std::none_of(inputs.files().begin(), inputs.files().end(),
-                   [&](const std::filesystem::path& file) { return std::filesystem::exists(file, ignored); });
+  const bool nothing_to_read = inputs.frames() == 0 || std::none_of(inputs.files().begin(), inputs.files().end(),
+                                                                    [&](const std::filesystem::path& file) {
+                                                                      return std::filesystem::exists(file, ignored);
+                                                                    });
   if (!nothing_to_read) return false;
   for (const std::string& error : inputs.errors()) fmt::print(stderr, "pose_wall {}: {}\n", verb, error);
-  for (const auto& file : inputs.files())
+  for (const auto& file : inputs.files()) {
+    if (std::filesystem::exists(file, ignored)) continue;
     fmt::print(stderr, "{}", say("pose_wall {}: {}: no such file or folder\n", verb, file.string()));
+  }
   fmt::print(stderr, "{}",
              std::filesystem::exists(output)
                  ? say("pose_wall {}: there is no input; {} is left as it was\n", verb, output)

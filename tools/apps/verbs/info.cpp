@@ -91,7 +91,11 @@ Looked look_at(const std::string& input, const InfoOptions& options) {
   of_this.of_others = options.inputs.size() > 1;
   FrameSequence frames({input}, of_this);
   for (const std::string& error : frames.errors()) fmt::print(stderr, "pose_wall info: {}\n", error);
-  if (!frames.errors().empty()) return {};
+  // Of a bag the topics are told even where none of them holds a frame.
+  if (!frames.errors().empty() && frames.about().topics.empty()) return {};
+  if (!options.quiet) {
+    for (const std::string& note : frames.notes()) fmt::print(stderr, "{}\n", note);
+  }
   InputFacts facts;
   gather(frames, input, options, facts);
   if (InterruptWatch::is_interrupted()) {
@@ -106,7 +110,7 @@ Looked look_at(const std::string& input, const InfoOptions& options) {
   const bool has_choice = about.topics.size() > 1;
   Looked looked;
   looked.json = facts_json(input, about, facts);
-  looked.complete = facts.unreadable() == 0;
+  looked.complete = facts.unreadable() == 0 && frames.errors().empty();
   looked.sensor = facts.sensor();
   if (has_choice) looked.topic = about.topic;
   for (const SourceSender& sender : about.senders) {

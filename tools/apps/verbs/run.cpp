@@ -113,10 +113,16 @@ std::string process_frames(const RunOptions& options, FrameSequence& inputs, Fra
   return "";
 }
 
-void print_end(const Closing& closing, double wall_s) {
+void print_end(const Closing& closing, double wall_s, bool has_motion) {
   const std::string next = closing.next.text(), times = closing.times.doubt();
   fmt::print(stderr, "\n{}{}{}{}{}", closing.summary.text(wall_s), times, times.empty() ? "" : "\n",
              next.empty() ? "" : "\n", next);
+  if (closing.summary.frames() == 1 && has_motion) {
+    fmt::print(
+        stderr, "{}",
+        tr("One frame alone: nothing tells how the machine moved during its scan, so no value is valid. Give two "
+           "frames or more, or -s motion=off where the machine stood.\n"));
+  }
 }
 
 int run(const RunOptions& options) {
@@ -137,7 +143,7 @@ int run(const RunOptions& options) {
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (!fault.empty()) fmt::print(stderr, "pose_wall run: {}\n", fault);
   const RunSummary& summary = closing.summary;
-  if (!options.frames.quiet && summary.frames() > 0) print_end(closing, wall_s);
+  if (!options.frames.quiet && summary.frames() > 0) print_end(closing, wall_s, runner.moved().has_value());
   if (InterruptWatch::is_interrupted()) return tell_interrupted(summary.frames());
   return fault.empty() && inputs.errors().empty() && summary.unreadable() == 0 ? kExitDone : kExitUnreadable;
 }

@@ -4,6 +4,7 @@
 #include "io/frames/input_list.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -45,7 +46,9 @@ std::vector<fs::path> frames_in(const fs::path& folder, std::error_code& error) 
     if (has_frame_ending(entry.path())) files.push_back(entry.path());
     if (has_text_ending(entry.path())) texts.push_back(entry.path());
   }
-  if (files.empty()) {
+  // Tables beside a folder of frames tell of these.
+  std::error_code none;
+  if (files.empty() && !fs::is_directory(folder / "frames", none)) {
     std::copy_if(texts.begin(), texts.end(), std::back_inserter(files),
                  [](const fs::path& file) { return begins_like_points(beginning_of(file)); });
   }
@@ -65,19 +68,25 @@ std::string order_note(const fs::path& folder, const std::vector<fs::path>& file
   return "";
 }
 
-// What is likely meant by a folder without frames: the folder of frames in it, as `sim` makes it, or a recording.
-std::string what_is_meant(const fs::path& folder) {
+std::vector<std::string> recordings_in(const fs::path& folder) {
   std::error_code ignored;
-  const fs::path inner = folder / "frames";
-  if (!frames_in(inner, ignored).empty()) return say("; did you mean '{}'?", inner.string());
   std::vector<std::string> recordings;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const fs::path ending = entry.path().extension();
     if (std::find(kRecordingEndings.begin(), kRecordingEndings.end(), ending) == kRecordingEndings.end()) continue;
     recordings.push_back(entry.path().string());
   }
-  if (recordings.empty()) return "";
-  return say("; bags and captures are named themselves: {}", *std::min_element(recordings.begin(), recordings.end()));
+  std::sort(recordings.begin(), recordings.end());
+  return recordings;
+}
+
+// What is likely meant by a folder without frames: the folder of frames in it, as `sim` makes it, or a recording.
+std::string what_is_meant(const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path inner = folder / "frames";
+  if (!frames_in(inner, ignored).empty()) return say("; did you mean '{}'?", inner.string());
+  const std::vector<std::string> recordings = recordings_in(folder);
+  return recordings.empty() ? "" : say("; bags and captures are named themselves: {}", recordings.front());
 }
 
 void add_folder(const fs::path& folder, FrameInputs& inputs) {
@@ -93,6 +102,11 @@ void add_folder(const fs::path& folder, FrameInputs& inputs) {
   }
   const std::string note = order_note(folder, files);
   if (!note.empty()) inputs.notes.push_back(note);
+  const std::vector<std::string> recordings = recordings_in(folder);
+  if (!files.empty() && !recordings.empty()) {
+    inputs.notes.push_back(say("{}: its frame files are read; bags and captures are named themselves: {}",
+                               folder.string(), fmt::format("{}", fmt::join(recordings, ", "))));
+  }
   inputs.files.insert(inputs.files.end(), files.begin(), files.end());
 }
 

@@ -131,7 +131,9 @@ void FrameSequence::add_bag(const std::string& argument, const std::vector<std::
     } else {
       const std::string note = bag->choose_source(topic);
       if (!note.empty()) notes_.push_back(fmt::format("{}: {}", argument, note));
+      const std::string empty = say("topic {} holds no message, so there is no frame", topic);
       sources_.push_back(std::make_unique<BagSource>(std::move(bag), std::move(topic)));
+      if (sources_.back()->frames() == 0) errors_.push_back(fmt::format("{}: {}", argument, empty));
     }
   } catch (const std::invalid_argument& fault) {
     throw std::invalid_argument(fmt::format("{}: {}", argument, fault.what()));

@@ -132,7 +132,8 @@ std::unique_ptr<FrameSource> open_bag_packets(std::unique_ptr<Bag> bag, const st
   recording.name = bag->files().front().path.string();
   recording.about = bag->about(topic);
   const std::string beside = topic_beside(topic);
-  const bool is_looked_for = options.metadata.empty() && may_be_ousters(*bag, topic, options);
+  recording.may_be_ousters = may_be_ousters(*bag, topic, options);
+  const bool is_looked_for = options.metadata.empty() && recording.may_be_ousters;
   const std::string metadata = is_looked_for ? first_text(*bag, beside) : "";
   if (is_looked_for && metadata.empty()) {
     recording.ouster_hint = "its metadata is what --metadata names, or a text on the topic " + beside + " of the bag";

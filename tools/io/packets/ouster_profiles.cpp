@@ -99,4 +99,14 @@ std::size_t ouster_packet_bytes(const OusterProfile& profile, std::uint32_t ring
   return around + columns * ouster_column_bytes(profile, rings);
 }
 
+bool may_be_ouster_packet(std::size_t bytes) {
+  constexpr std::uint32_t kColumns = 16;  // as it leaves the factory
+  for (const OusterProfile& profile : ouster_profiles()) {
+    for (const std::uint32_t rings : {16U, 32U, 64U, 128U}) {
+      if (ouster_packet_bytes(profile, rings, kColumns) == bytes) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace pose_wall::tools

@@ -63,5 +63,7 @@ const char* ouster_header_name(OusterHeader header);
 // Of a packet whose columns have so many pixels.
 std::size_t ouster_column_bytes(const OusterProfile& profile, std::uint32_t rings);
 std::size_t ouster_packet_bytes(const OusterProfile& profile, std::uint32_t rings, std::uint32_t columns);
+// Whether some Ouster sends packets of this size.
+bool may_be_ouster_packet(std::size_t bytes);
 
 }  // namespace pose_wall::tools

@@ -5,14 +5,67 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <utility>
 
 #include "io/language/language.hpp"
 #include "io/packets/one_sender.hpp"
+#include "io/packets/ouster_profiles.hpp"
 #include "io/packets/sender_facts.hpp"
 
 namespace pose_wall::tools {
+namespace {
+
+constexpr std::size_t kKindsKept = 4;
+constexpr std::uint16_t kVelodynePositionPort = 8308;  // manual of the VLP-16
+
+}  // namespace
+
+// Datagrams that are no data of the sensor: what is there instead.
+class PacketFrames::Others {
+ public:
+  void add(const Datagram& datagram) {
+    const auto is_same = [&](const Kind& kind) {
+      return kind.to_port == datagram.from.to_port && kind.bytes == datagram.payload.size;
+    };
+    const auto known = std::find_if(kinds_.begin(), kinds_.end(), is_same);
+    if (known != kinds_.end()) {
+      ++known->count;
+    } else if (kinds_.size() < kKindsKept) {
+      kinds_.push_back({datagram.from.to_port, datagram.payload.size, 1});
+    } else {
+      ++more_;
+    }
+  }
+
+  std::string text() const {
+    if (kinds_.empty()) return tr("; it holds no UDP packet");
+    std::string text;
+    for (const Kind& kind : kinds_) {
+      text += text.empty() ? "; " : ", ";
+      text += kind.to_port != 0 ? say("{} packets of {} bytes to port {}", kind.count, kind.bytes, kind.to_port)
+                                : say("{} packets of {} bytes", kind.count, kind.bytes);
+    }
+    return more_ > 0 ? text + say(", and {} others", more_) : text;
+  }
+
+  bool may_be_ousters() const {
+    return std::any_of(kinds_.begin(), kinds_.end(), [](const Kind& kind) { return may_be_ouster_packet(kind.bytes); });
+  }
+  bool are_positions() const {
+    return std::any_of(kinds_.begin(), kinds_.end(),
+                       [](const Kind& kind) { return kind.to_port == kVelodynePositionPort; });
+  }
+
+ private:
+  struct Kind {
+    std::uint16_t to_port;
+    std::size_t bytes, count;
+  };
+  std::vector<Kind> kinds_;
+  std::size_t more_ = 0;
+};
 
 // Scans of a recording one by one, the incomplete ones at its ends left out.
 class PacketFrames::ScanWalk {
@@ -52,6 +105,7 @@ class PacketFrames::ScanWalk {
   const OneSender& assembler() const { return assembler_; }
   const char* other() const { return other_; }
   const std::string& unread() const { return unread_; }
+  const Others& others() const { return others_; }
 
  private:
   std::optional<Scan> assembled_next() {
@@ -81,6 +135,7 @@ class PacketFrames::ScanWalk {
     }
     if (facts_ != nullptr) facts_->hear(*datagram);
     if (!assembler_.add(*datagram)) {
+      others_.add(*datagram);
       if (other_ == nullptr) other_ = recognised_title(*datagram);
       if (unread_.empty()) unread_ = unread_sensor(datagram->payload);
     }
@@ -98,12 +153,14 @@ class PacketFrames::ScanWalk {
   std::deque<std::string> faults_;
   const char* other_ = nullptr;  // whose packets the assembler did not take
   std::string unread_;
+  Others others_;
   std::string refusal_;  // of a sender's packets
   std::size_t given_ = 0;
   bool ended_ = false;
 };
 
 PacketFrames::PacketFrames(PacketRecording recording, const SensorChoice& choice) : recording_(std::move(recording)) {
+  if (choice.kind == SensorKind::kOuster && choice.metadata.empty()) refuse_without_metadata();
   {
     SenderFacts facts(choice.metadata);
     ScanWalk survey(recording_.open(), choice, &facts);
@@ -135,18 +192,40 @@ void PacketFrames::refuse_empty(const ScanWalk& survey, const SensorChoice& choi
   } else if (!choice.metadata.empty() && recording_.ouster_hint.empty()) {
     wanted = tr("of an Ouster as its metadata says");
   } else {
-    for (const KnownSensor& sensor : known_sensors()) {
-      if (sensor.kind == SensorKind::kAutomatic || sensor.needs_metadata) continue;
-      wanted += fmt::format("{}{}", wanted.empty() ? tr("of a ") : ", ", sensor.title);
-    }
-    wanted += say(", nor of an Ouster: {}", recording_.ouster_hint);
+    wanted = tr("of a sensor that is read (--help lists them)");
   }
   std::string there;
   if (survey.other() != nullptr) there = say("; there are packets of a {}", survey.other());
   if (!survey.unread().empty()) there += say("; there is data of {}, which is not read", survey.unread());
+  const bool is_unknown = there.empty();
+  if (is_unknown) there = survey.others().text();
+  const bool may_be_ousters = survey.others().may_be_ousters() || (is_unknown && recording_.may_be_ousters);
+  if (may_be_ousters && !recording_.ouster_hint.empty()) {
+    there += say("; they may be an Ouster's: {}", recording_.ouster_hint);
+  }
+  if (survey.others().are_positions()) {
+    there += tr("; at port 8308 a Velodyne tells its position: record its data, port 2368, too");
+  }
   const std::string hint = survey.assembler().hint();
   if (!hint.empty()) there += "; " + hint;
   throw FrameError(say("no data packets {}{}", wanted, there));
+}
+
+// Where the name is a mistake no metadata would help.
+void PacketFrames::refuse_without_metadata() const {
+  const KnownSensor& ouster = known_sensor(SensorKind::kOuster);
+  ScanWalk survey(recording_.open(), SensorChoice{}, nullptr);
+  bool is_another = false;
+  try {
+    is_another = survey.next().has_value();
+  } catch (const FrameError&) {
+    is_another = true;  // of another sensor, which contradicts itself
+  }
+  if (is_another) {
+    throw FrameError(say("no data packets {}{}", say("of an {} ({})", ouster.title, ouster.name),
+                         say("; there are {}", survey.assembler().kind())));
+  }
+  throw FrameError(say("packets of an {} are read with its metadata: {}", ouster.title, recording_.ouster_hint));
 }
 
 std::optional<SourcedFrame> PacketFrames::next() {

@@ -23,7 +23,8 @@ struct PacketRecording {
   std::string name;  // of frames: "a.pcap", behind it "#12"
   SourceAbout about;
   std::function<std::unique_ptr<DatagramSource>()> open;
-  std::string ouster_hint;  // where metadata was looked for and is not; "" where it is there
+  bool may_be_ousters = false;  // by the type of their messages
+  std::string ouster_hint;      // where metadata was looked for and is not; "" where it is there
 };
 
 class PacketFrames : public FrameSource {
@@ -39,9 +40,11 @@ class PacketFrames : public FrameSource {
   std::string note() const override { return note_; }
 
  private:
+  class Others;
   class ScanWalk;
 
   [[noreturn]] void refuse_empty(const ScanWalk& survey, const SensorChoice& choice) const;
+  [[noreturn]] void refuse_without_metadata() const;
 
   PacketRecording recording_;
   std::unique_ptr<ScanWalk> walk_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/frames/file_content.hpp"
+#include "io/language/language.hpp"
 #include "io/packets/ouster_metadata.hpp"
 #include "io/packets/packet_frames.hpp"
 #include "io/packets/udp_capture.hpp"
@@ -21,12 +22,15 @@ bool is_packet_capture(const std::filesystem::path& file) {
 }
 
 std::unique_ptr<FrameSource> open_packet_capture(const std::filesystem::path& file, const SensorOptions& options) {
+  std::error_code unknown;
+  if (std::filesystem::file_size(file, unknown) == 0) throw FrameError(tr("the file is empty"));
   SensorOptions described = options;
   const std::filesystem::path beside = ouster_metadata_beside(file);
   const bool may_be_ouster = options.sensor.empty() || options.sensor == known_sensor(SensorKind::kAutomatic).name ||
                              options.sensor == known_sensor(SensorKind::kOuster).name;
   PacketRecording recording;
   std::error_code ignored;
+  // Of another sensor that is named metadata is not looked for.
   if (options.metadata.empty() && may_be_ouster) {
     if (std::filesystem::exists(beside, ignored)) {
       described.metadata = beside.string();

@@ -60,6 +60,16 @@ void add_missing(SourceSender* sender, const MissingPackets& packets) {
             "computer lost them, or the recording left them out",
             missing, 100.0 * packets.share()));
   }
+  if (packets.repeated() > 0) {
+    sender->oddities.push_back(
+        say("{} of its packets came twice: a bridge, or a capture of all network cards? Each is "
+            "read once",
+            packets.repeated()));
+  }
+  if (packets.late() > 0) {
+    sender->oddities.push_back(
+        say("{} of its packets came behind later ones: the network put them out of order", packets.late()));
+  }
 }
 
 std::optional<std::uint64_t> missing_of(const MissingPackets& packets) {
@@ -458,7 +468,10 @@ class LslidarWords : public PacketWords {
 }  // namespace
 
 void MissingPackets::hear(std::int64_t number, double unit, std::int64_t modulus) {
-  if (std::find(last_ones_.begin(), last_ones_.end(), number) != last_ones_.end()) return;
+  if (std::find(last_ones_.begin(), last_ones_.end(), number) != last_ones_.end()) {
+    ++repeated_;
+    return;
+  }
   last_ones_.push_back(number);
   if (last_ones_.size() > kNumbersKept) last_ones_.pop_front();
   if (++heard_ == 1) {
@@ -470,7 +483,8 @@ void MissingPackets::hear(std::int64_t number, double unit, std::int64_t modulus
   if (ahead > modulus / 2) ahead -= modulus;
   const double packets = std::round(static_cast<double>(ahead) / unit);
   if (packets < 0.0 && packets > -static_cast<double>(kNumbersKept)) {
-    if (missing_ > 0) --missing_;  // it came late
+    ++late_;
+    if (missing_ > 0) --missing_;
     return;
   }
   last_ = number;

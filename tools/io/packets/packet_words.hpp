@@ -26,13 +26,16 @@ class MissingPackets {
   // Whether the numbers rise at all.
   bool is_told() const { return steps_ > 0; }
   std::uint64_t missing() const { return missing_; }
+  // Those that came again, and those that came behind a later one.
+  std::uint64_t repeated() const { return repeated_; }
+  std::uint64_t late() const { return late_; }
   // Of all that were sent.
   double share() const;
 
  private:
   std::deque<std::int64_t> last_ones_;
   std::int64_t last_ = 0;
-  std::uint64_t heard_ = 0, missing_ = 0, steps_ = 0;
+  std::uint64_t heard_ = 0, missing_ = 0, steps_ = 0, repeated_ = 0, late_ = 0;
 };
 
 // A sensor's clock beside the times at which its packets arrived.

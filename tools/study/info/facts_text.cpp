@@ -55,19 +55,33 @@ void add_stamps(Facts& rows, const StampFacts& stamps, std::size_t frames) {
   rows.add(tr("rate"), steps_text(stamps.steps));
 }
 
-void add_sensor(Facts& rows, const SensorFacts& sensor) {
+bool is_named(const SourceAbout& about) {
+  return std::any_of(about.senders.begin(), about.senders.end(), [](const SourceSender& sender) {
+    return sender.is_read && std::any_of(sender.facts.begin(), sender.facts.end(),
+                                         [](const SourceFact& fact) { return std::string_view(fact.word) == "model"; });
+  });
+}
+
+// Packets name their sensor: then only whose settings fit is told.
+void add_sensor(Facts& rows, const SensorFacts& sensor, bool is_named) {
   rows.add(tr("ranges"), ranges_text(sensor.ranges));
   if (is_unit_doubtful(sensor.ranges)) rows.add(tr("unit?"), unit_doubt(sensor.ranges));
   rows.add(tr("rings"), say("{} ({})", rings_text(sensor), rings_source_text(sensor)));
   rows.add(tr("view"), say("elevation {:.1f}° to {:.1f}°, {:.0f}° of azimuth, about the sensor's axes",
                            sensor.elevation_min_deg, sensor.elevation_max_deg, sensor.azimuth_span_deg));
-  rows.add(tr("looks like"), class_text(sensor));
+  if (is_named) {
+    rows.add(tr("settings"),
+             sensor.is_known() ? say("{}; those of a {}", config_text(sensor), sensor.title) : config_text(sensor));
+  } else {
+    rows.add(tr("looks like"), class_text(sensor));
+  }
 }
 
-void add_times(Facts& rows, const ScanTimeFacts& times) {
+void add_times(Facts& rows, const ScanTimeFacts& times, bool are_of_packets) {
   const std::string doubt = times_doubt(times);
   if (doubt.empty()) return;
-  const std::string advice = times_advice(times);
+  // Of packets the times are the sensor's own: where packets are missing, scans begin late or end early.
+  const std::string advice = are_of_packets ? tr("Where packets are lost, mend that first") : times_advice(times);
   rows.add(tr("times?"), advice.empty() ? doubt : fmt::format("{}. {}", doubt, advice));
 }
 
@@ -145,8 +159,8 @@ std::string facts_text(const SourceAbout& about, const InputFacts& facts) {
     add_stamps(rows, facts.stamps(), facts.points().size());
     rows.add(tr("no return"), say("{:.1f} % at zero, {:.1f} % not finite", 100.0 * facts.zero_share(),
                                   100.0 * facts.not_finite_share()));
-    if (facts.has_returns()) add_sensor(rows, facts.sensor());
-    add_times(rows, facts.scan_times());
+    if (facts.has_returns()) add_sensor(rows, facts.sensor(), is_named(about));
+    add_times(rows, facts.scan_times(), is_named(about));
   }
   std::string text = rows.text();
   if (!about.topics.empty()) text += '\n' + topics_text(about);
