@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,92 @@ TEST_P(RoundTrip, BurstsOfPacketsMoveNoTimeWithinAScan) {
     most_us = std::max(most_us, 1e-3 * std::abs(static_cast<double>(steady.points[i].t_ns) - bursts.points[i].t_ns));
   }
   EXPECT_LE(most_us, 1.0);
+}
+
+constexpr double kSphere_m = 10.0;
+
+// Datagrams around a sensor in the middle of a sphere: a device packet, where there is one, and some of a turn.
+std::vector<std::string> sent_in_a_sphere(const sim::Sensor& sensor, double radius_m, float intensity) {
+  const std::unique_ptr<PacketEncoder> encoder = make_encoder(sensor);
+  RangeImage image;
+  image.rings = static_cast<std::uint32_t>(sensor.rings);
+  image.columns = static_cast<std::uint32_t>(sensor.columns);
+  image.range_m.assign(std::size_t{image.rings} * image.columns, radius_m);
+  image.intensity.assign(image.range_m.size(), intensity);
+  const std::int64_t turn_ns = turn_ns_of(sensor);
+  std::vector<std::string> sent = encoder->packets(image, turn_ns, turn_ns);
+  constexpr std::size_t kEnough = 12;  // to know clock, model and steps
+  sent.resize(std::min(sent.size(), kEnough));
+  sent.insert(sent.begin() + 1, encoder->device_packet(turn_ns));
+  return sent;
+}
+
+// How far a point lies off the sphere at most; nothing where the packets are refused or give no scan.
+std::optional<double> off_the_sphere_m(const sim::Sensor& sensor, const std::vector<std::string>& sent) {
+  const auto encoder = make_encoder(sensor);
+  const auto* const ouster = dynamic_cast<const OusterEncoder*>(encoder.get());
+  SensorChoice choice;
+  if (ouster != nullptr) choice.metadata = ouster->metadata();
+  std::optional<double> off_m;
+  try {
+    const std::unique_ptr<ScanAssembler> decoder = make_assembler(choice);
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+      const ByteView bytes{reinterpret_cast<const std::byte*>(sent[i].data()), sent[i].size()};
+      decoder->add({static_cast<std::int64_t>(i) * 1'000'000, {}, bytes});
+    }
+    decoder->finish();
+    while (const std::optional<Scan> scan = decoder->take()) {
+      for (const ScanPoint& point : scan->points) {
+        if (point.x_m == 0.0F && point.y_m == 0.0F && point.z_m == 0.0F) continue;
+        off_m = std::max(off_m.value_or(0.0), std::abs(std::hypot(point.x_m, point.y_m, point.z_m) - kSphere_m));
+      }
+    }
+  } catch (const FrameError&) {
+    return std::nullopt;
+  }
+  return off_m;
+}
+
+// The unit of a C32 of firmware 3 stands in this byte of its device packet and nowhere else.
+bool tells_unit_alone(const sim::Sensor& sensor, bool is_device, std::size_t offset) {
+  return is_device && offset == 1203 && sensor.name.rfind("lslidar-c32-v3", 0) == 0;
+}
+
+// Whatever a byte that is no return is changed to, in all packets alike: they are refused, or distances stay.
+TEST_P(RoundTrip, NoChangedByteMakesAnotherUnit) {
+  const sim::Sensor& sensor = sim::find_sensor(GetParam())->sensor;
+  const std::vector<std::string> good = sent_in_a_sphere(sensor, kSphere_m, 7.0F),
+                                 other = sent_in_a_sphere(sensor, 7.0 * kSphere_m, 99.0F);
+  // A byte that names another model may bring the lens of that one: the highest is a Bpearl 4's. A unit would be
+  // metres.
+  const double allowed_m = robosense_bpearl4().reach_m() + 0.01;
+  ASSERT_LE(off_the_sphere_m(sensor, good).value(), allowed_m);
+  std::minstd_rand random(7);
+  std::size_t accepted = 0;
+  for (const bool is_device : {false, true}) {
+    const std::string& first = good[is_device ? 1 : 0];
+    std::vector<std::size_t> offsets;
+    for (std::size_t offset = 0; offset < first.size(); ++offset) {
+      const bool is_of_return = !is_device && first[offset] != other[0][offset];
+      if (!is_of_return && !tells_unit_alone(sensor, is_device, offset)) offsets.push_back(offset);
+    }
+    // All of a head and a tail; of long packets that leave much empty some.
+    constexpr std::size_t kTriesAbout = 1'500;
+    for (std::size_t tried = 0; tried < kTriesAbout && !offsets.empty(); ++tried) {
+      const std::size_t offset =
+          offsets[tried < offsets.size() && offsets.size() < kTriesAbout ? tried : random() % offsets.size()];
+      const auto byte = static_cast<char>(random() >> 8U);
+      std::vector<std::string> changed = good;
+      for (std::size_t i = 0; i < changed.size(); ++i) {
+        if ((i == 1) == is_device) changed[i][offset] = byte;
+      }
+      const std::optional<double> off_m = off_the_sphere_m(sensor, changed);
+      if (off_m) ++accepted;
+      ASSERT_LE(off_m.value_or(0.0), allowed_m) << (is_device ? "device packet, " : "") << "byte " << offset << ": "
+                                                << static_cast<int>(static_cast<unsigned char>(byte));
+    }
+  }
+  EXPECT_GT(accepted, 20U);
 }
 
 std::vector<std::string> sensors_that_come_back() {

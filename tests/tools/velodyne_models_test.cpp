@@ -108,10 +108,20 @@ TEST(VelodyneModels, ProductByteAndClockTellTheModel) {
   EXPECT_EQ(told(packets_of(0x21, 553)), "packets of a Velodyne HDL-32E");
   EXPECT_EQ(told(packets_of(0x28, 663)), "packets of a Velodyne VLP-32C");
   EXPECT_EQ(told(packets_of(0x28, 332, 8, 0x39)), "packets of a Velodyne VLP-32C");
-  // A clock that stands still, or goes at no known pace, says nothing; nor does a single packet's.
+  // A clock that stands still says nothing; nor does a single packet's.
   EXPECT_EQ(told(packets_of(0x21, 0)), "packets of a Velodyne HDL-32E");
-  EXPECT_EQ(told(packets_of(0x21, 1000)), "packets of a Velodyne HDL-32E");
   EXPECT_EQ(told(packets_of(0x21, 1327, 1)), "packets of a Velodyne HDL-32E");
+}
+
+// One that runs as no Velodyne's: the unit may be another, too. Where so many are lost that no two follow each other it
+// says nothing.
+TEST(VelodyneModels, AClockThatRunsAsNoVelodynesIsAContradiction) {
+  const std::string refused = told(packets_of(0x22, 1200));
+  for (const char* word : {"0x22", "1200 us", "another unit", "vlp16"}) {
+    EXPECT_NE(refused.find(word), std::string::npos) << word << ": " << refused;
+  }
+  EXPECT_EQ(told(packets_of(0x22, 1200), VelodyneModel::kVlp16), "packets of a Velodyne VLP-16") << "two of three";
+  EXPECT_EQ(told(packets_of(0x22, 1327 * 100 + 300)), "packets of a Velodyne VLP-16") << "of a hundred one is there";
 }
 
 TEST(VelodyneModels, PacketsThatWereLostDoNotChangeWhatTheClockSays) {

@@ -25,6 +25,7 @@ namespace {
 SceneSetup exact_road(const std::string& sensor) {
   SceneSetup setup = make_setup("clean", sensor, false, 1);
   setup.sensor.range_noise_m = setup.sensor.range_quantum_m = setup.sensor.divergence_deg = 0.0;
+  setup.mount.mount_roll_deg = 0.0;  // of a sensor that hangs, too: its axes are the road's
   return setup;
 }
 

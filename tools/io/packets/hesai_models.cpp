@@ -188,7 +188,7 @@ std::string unread_hesai(ByteView payload) {
   // Pandar64 and Pandar20 have a shorter head.
   const bool is_short = byte_at(payload, 2) == 64 || byte_at(payload, 2) == 20;
   const std::size_t lasers = head_places(is_short ? kHesaiShortHeadBytes : kHesaiHeadBytes).lasers;
-  const std::string name = is_short ? "" : name_by_protocol(payload);
+  std::string name = is_short ? "" : name_by_protocol(payload);
   if (!name.empty()) return name;
   return say("a Hesai of {} lasers in {} blocks", byte_at(payload, lasers), byte_at(payload, lasers + 1));
 }

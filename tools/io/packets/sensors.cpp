@@ -240,6 +240,14 @@ void check_metadata(const SensorChoice& choice) {
   }
 }
 
+KnownSensor lslidar_sensor(SensorKind kind, const char* name, const char* title) {
+  return {kind, name, title, 2368, SensorMetadata::kNone, false, 2369};
+}
+
+KnownSensor robosense_sensor(SensorKind kind, const char* name, const char* title) {
+  return {kind, name, title, kRoboSensePort, SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort};
+}
+
 }  // namespace
 
 bool is_ouster_metadata(const std::string& text) {
@@ -260,30 +268,23 @@ const std::vector<KnownSensor>& known_sensors() {
       {SensorKind::kHesai40p, "hesai_40p", "Hesai Pandar40P", 2368, SensorMetadata::kHesaiAngles, false},
       {SensorKind::kHesaiQt64, "hesai_qt64", "Hesai PandarQT", 2368, SensorMetadata::kHesaiAngles, false},
       {SensorKind::kMid360, "mid360", "Livox Mid-360", kLivoxHostPort, SensorMetadata::kNone, false},
-      {SensorKind::kLslidarC16, "lslidar_c16", "LSLidar C16", 2368, SensorMetadata::kNone, false, 2369},
-      {SensorKind::kLslidarC16Of15, "lslidar_c16_15deg", "LSLidar C16 of firmware 2 or 3, -15 to 15 degrees", 2368,
-       SensorMetadata::kNone, false, 2369},
-      {SensorKind::kLslidarC16Of10, "lslidar_c16_10deg", "LSLidar C16 of firmware 2 or 3, -10 to 10 degrees", 2368,
-       SensorMetadata::kNone, false, 2369},
-      {SensorKind::kLslidarC32, "lslidar_c32", "LSLidar C32", 2368, SensorMetadata::kNone, false, 2369},
-      {SensorKind::kLslidarC32w, "lslidar_c32w", "LSLidar C32W", 2368, SensorMetadata::kNone, false, 2369},
-      {SensorKind::kLslidarCh32r, "lslidar_ch32r", "LSLidar CH32R", 2368, SensorMetadata::kNone, false, 2369},
-      {SensorKind::kLslidarC8, "lslidar_c8", "LSLidar C8", 2368, SensorMetadata::kNone, false, 2369},
-      {SensorKind::kLslidarCh128x1, "lslidar_ch128x1", "LSLidar CH128X1", 2368, SensorMetadata::kNone, false, 2369},
-      {SensorKind::kRoboSense16, "robosense_rs16", "RoboSense RS-LiDAR-16", kRoboSensePort,
-       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
-      {SensorKind::kRoboSense32, "robosense_rs32", "RoboSense RS-LiDAR-32", kRoboSensePort,
-       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
-      {SensorKind::kRoboSenseHelios32, "robosense_helios32", "RoboSense RS-Helios", kRoboSensePort,
-       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
-      {SensorKind::kRoboSenseHelios16p, "robosense_helios16p", "RoboSense RS-Helios-16P", kRoboSensePort,
-       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
-      {SensorKind::kRoboSenseBpearl, "robosense_bpearl", "RoboSense RS-Bpearl", kRoboSensePort,
-       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
-      {SensorKind::kRoboSenseBpearl4, "robosense_bpearl4", "RoboSense RS-Bpearl 4", kRoboSensePort,
-       SensorMetadata::kRoboSenseDevice, false, kRoboSenseDevicePort},
-      {SensorKind::kRoboSenseAiry, "robosense_airy", "RoboSense Airy", kRoboSensePort, SensorMetadata::kRoboSenseDevice,
-       false, kRoboSenseDevicePort},
+      lslidar_sensor(SensorKind::kLslidarC16, "lslidar_c16", "LSLidar C16"),
+      lslidar_sensor(SensorKind::kLslidarC16Of15, "lslidar_c16_15deg",
+                     "LSLidar C16 of firmware 2 or 3, -15 to 15 degrees"),
+      lslidar_sensor(SensorKind::kLslidarC16Of10, "lslidar_c16_10deg",
+                     "LSLidar C16 of firmware 2 or 3, -10 to 10 degrees"),
+      lslidar_sensor(SensorKind::kLslidarC32, "lslidar_c32", "LSLidar C32"),
+      lslidar_sensor(SensorKind::kLslidarC32w, "lslidar_c32w", "LSLidar C32W"),
+      lslidar_sensor(SensorKind::kLslidarCh32r, "lslidar_ch32r", "LSLidar CH32R"),
+      lslidar_sensor(SensorKind::kLslidarC8, "lslidar_c8", "LSLidar C8"),
+      lslidar_sensor(SensorKind::kLslidarCh128x1, "lslidar_ch128x1", "LSLidar CH128X1"),
+      robosense_sensor(SensorKind::kRoboSense16, "robosense_rs16", "RoboSense RS-LiDAR-16"),
+      robosense_sensor(SensorKind::kRoboSense32, "robosense_rs32", "RoboSense RS-LiDAR-32"),
+      robosense_sensor(SensorKind::kRoboSenseHelios32, "robosense_helios32", "RoboSense RS-Helios"),
+      robosense_sensor(SensorKind::kRoboSenseHelios16p, "robosense_helios16p", "RoboSense RS-Helios-16P"),
+      robosense_sensor(SensorKind::kRoboSenseBpearl, "robosense_bpearl", "RoboSense RS-Bpearl"),
+      robosense_sensor(SensorKind::kRoboSenseBpearl4, "robosense_bpearl4", "RoboSense RS-Bpearl 4"),
+      robosense_sensor(SensorKind::kRoboSenseAiry, "robosense_airy", "RoboSense Airy"),
       {SensorKind::kRoboSenseM1, "robosense_m1", "RoboSense M1", kRoboSensePort, SensorMetadata::kNone, false},
       {SensorKind::kHesaiXt16, "hesai_xt16", "Hesai PandarXT-16", 2368, SensorMetadata::kHesaiAngles, false},
       {SensorKind::kMid360s, "mid360s", "Livox Mid-360S", kLivoxHostPort, SensorMetadata::kNone, false},

@@ -82,17 +82,28 @@ struct Clock {
     }
     return who;
   }
+  // By which it may be named.
+  std::string words_with(const VelodyneTraits& told) const {
+    std::string words = told.word;
+    for (const VelodyneTraits& traits : all_traits()) {
+      if (&traits != &told && fits(traits)) words += std::string(", ") + traits.word;
+    }
+    return words;
+  }
   // With packets lost between any two, where no other Velodyne's time is seen.
   bool confirms(const VelodyneTraits& traits) const {
-    if (fits(traits) || !who().empty()) return fits(traits);
-    bool seen = false;
-    for (const std::uint32_t gap_us : gaps_us) {
+    if (contradicts(traits)) return false;
+    return fits(traits) || std::any_of(gaps_us.begin(), gaps_us.end(), [&](std::uint32_t gap_us) {
+             return gap_us / traits.packet_us(is_dual) <= kPacketsBetween + 0.5;
+           });
+  }
+  // It runs, and as another one's or as no Velodyne's.
+  bool contradicts(const VelodyneTraits& traits) const {
+    if (fits(traits) || !who().empty()) return !fits(traits);
+    return std::any_of(gaps_us.begin(), gaps_us.end(), [&](std::uint32_t gap_us) {
       const double packets = gap_us / traits.packet_us(is_dual);
-      if (packets > kPacketsBetween + 0.5) continue;
-      if (std::fabs(packets - std::round(packets)) > 0.01 * packets) return false;
-      seen = true;
-    }
-    return seen;
+      return packets <= kPacketsBetween + 0.5 && std::fabs(packets - std::round(packets)) > 0.01 * packets;
+    });
   }
 };
 
@@ -188,9 +199,15 @@ VelodyneModel identify_velodyne(const std::vector<ByteView>& packets, std::optio
   const Clock clock = clock_of(packets);
   if (stated) return with_stated(velodyne_traits(*stated), product, clock);
   if (const VelodyneTraits* const told = model_of_product(product)) {
-    if (clock.who().empty() || clock.fits(*told)) return told->model;
-    throw FrameError(say("the packets contradict themselves: {}, {}; name the sensor that it is",
-                         product_says(product, *told), clock_says(clock)));
+    if (!clock.contradicts(*told)) return told->model;
+    const std::string words = clock.words_with(*told);
+    throw FrameError(clock.who().empty()
+                         ? say("the packets contradict themselves: {}, {}; sensors of LSLidar and others send such "
+                               "packets in another "
+                               "unit, which would scale all distances. If it is that one, name it: {}",
+                               product_says(product, *told), clock_says(clock), words)
+                         : say("the packets contradict themselves: {}, {}; name it as its type plate does: {}",
+                               product_says(product, *told), clock_says(clock), words));
   }
   if (const char* const other = stranger(product)) {
     throw FrameError(say("packets of {} (product byte 0x{:02x}) are not read", other, product));
