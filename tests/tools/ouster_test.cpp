@@ -449,24 +449,33 @@ TEST(OusterMetadata, AWindowThatIsToldAsAnglesIsThatOfColumns) {
   EXPECT_EQ(window_of(512, "[-1, 7]"), "none");
 }
 
-// Firmware 1 tells no layout of its packets: it has one.
 // ouster-sdk, sensor_info.cpp: before 2.0 the sensor does not tell where its beams begin.
 TEST(OusterMetadata, BeforeFirmware2BeamsBeginWhereTheDesignHasThem) {
   const std::pair<const char*, double> origins_mm[] = {
-      {"OS-0-32-U0", 27.67}, {"OS-1-64", 15.806}, {"OS-2-128", 13.762}, {"", 12.163}};
+      {"OS-0-32-U0", 27.67}, {"OS-1-64", 15.806}, {"OS-2-128", 13.762}};
   for (const auto& [product, origin_mm] : origins_mm) {
-    const std::string text = std::string("{\"prod_line\": \"") + product +
-                             "\", \"lidar_mode\": \"1024x10\", \"beam_altitude_angles\": [1, 0, -1], "
-                             "\"beam_azimuth_angles\": [3, 1, -1], \"lidar_data_format\": \"error: Command not "
-                             "recognized.\", \"lidar_to_sensor_transform\": [1,0,0,0, 0,1,0,0, 0,0,1,36, 0,0,0,1]}";
+    const std::string text =
+        std::string("{\"prod_line\": \"") + product +
+        "\", \"build_rev\": \"v1.13.0\", \"lidar_mode\": \"1024x10\", \"beam_altitude_angles\": [1, 0, -1], "
+        "\"beam_azimuth_angles\": [3, 1, -1], \"lidar_data_format\": \"error: Command not "
+        "recognized.\", \"lidar_to_sensor_transform\": [1,0,0,0, 0,1,0,0, 0,0,1,36, 0,0,0,1]}";
     EXPECT_DOUBLE_EQ(parse_ouster_metadata(text).beam_origin_out_m, 1e-3 * origin_mm) << product;
+    // Of later firmware it is missing, and of another product it is not known.
+    for (const auto& [from, to] : {std::pair<std::string, std::string>{"v1.13", "v2.0"}, {"\"OS-", "\"XS-"}}) {
+      std::string other = text;
+      other.replace(other.find(from), from.size(), to);
+      EXPECT_TRUE(contains(test::said_by<FrameError>([&] { parse_ouster_metadata(other); }),
+                           "no 'lidar_origin_to_beam_origin_mm'"));
+    }
   }
 }
 
 // Firmware 1.13 lists 64 lasers of an OS-1-16, of which 48 are not there. What their rows hold is no point.
 TEST(OusterMetadata, RowsWithoutALaserAreNoBeams) {
   const auto of_angles = [](const char* altitudes, const char* azimuths) {
-    return std::string("{\"prod_line\": \"OS-1-16-A0\", \"lidar_mode\": \"512x10\", \"beam_altitude_angles\": [") +
+    return std::string(
+               "{\"prod_line\": \"OS-1-16-A0\", \"build_rev\": \"v1.13.0\", \"lidar_mode\": \"512x10\", "
+               "\"beam_altitude_angles\": [") +
            altitudes + "], \"beam_azimuth_angles\": [" + azimuths +
            "], \"lidar_to_sensor_transform\": [1,0,0,0, 0,1,0,0, 0,0,1,36, 0,0,0,1]}";
   };
@@ -477,6 +486,7 @@ TEST(OusterMetadata, RowsWithoutALaserAreNoBeams) {
   EXPECT_NE(test::said_by<FrameError>([&] { parse_ouster_metadata(of_angles("0, 0, 0", "0, 0, 0")); }), "");
 }
 
+// Firmware 1 tells no layout of its packets: it has one.
 TEST(OusterMetadata, ThatOfFirmware1IsReadByItsMode) {
   const std::string text =
       "{\"prod_line\": \"OS-1-16\", \"lidar_mode\": \"2048x10\", \"beam_altitude_angles\": [1, 0, -1], "

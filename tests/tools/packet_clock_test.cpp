@@ -85,16 +85,71 @@ TEST(PacketClock, StampsFollowAComputerWhoseClockRunsOtherwise) {
   }
 }
 
-// A computer whose clock is set: back at once, since no packet arrives before it is sent; ahead within two seconds.
 TEST(PacketClock, StampsFollowAComputerWhoseClockIsSet) {
   for (const std::int64_t set_ns : {std::int64_t{-3'000'000'000}, std::int64_t{3'000'000'000}}) {
     PacketClock clock;
     for (std::int64_t i = 0; i < 10'000; ++i) {
       const std::int64_t arrival_ns = kBegan_ns + i * kStep_ns + (i >= 4'000 ? set_ns : 0);
-      const std::int64_t off_ns = clock.moment_ns(arrival_ns, i * kStep_ns, 0) + clock.offset_ns() - arrival_ns;
-      const bool is_after = i >= 4'000 + (set_ns > 0 ? 2'000'000'000 / kStep_ns + 2 : 0);
-      if (i >= 4'000 && !is_after) continue;
-      EXPECT_EQ(off_ns, 0) << set_ns << ", " << i;
+      EXPECT_EQ(clock.moment_ns(arrival_ns, i * kStep_ns, 0) + clock.offset_ns(), arrival_ns) << set_ns << ", " << i;
+    }
+  }
+}
+
+// One time of arrival that is damaged harms its own packet alone.
+TEST(PacketClock, ADamagedTimeOfArrivalIsForgotten) {
+  PacketClock clock;
+  for (std::int64_t i = 0; i < 5'000; ++i) {
+    const std::int64_t arrival_ns = i == 3'000 ? 0 : kBegan_ns + i * kStep_ns;
+    const std::int64_t stamp_ns = clock.moment_ns(arrival_ns, i * kStep_ns, 0) + clock.offset_ns();
+    EXPECT_EQ(stamp_ns, arrival_ns) << i;
+  }
+}
+
+// Later than any late packet that is believed: the others keep their moments.
+TEST(PacketClock, APacketThatComesFarTooLateMovesNoOther) {
+  PacketClock clock;
+  for (std::int64_t i = 0; i < 3'000; ++i) {
+    const bool is_late = i == 2'000;
+    const std::int64_t clock_ns = (is_late ? i - 50 : i) * kStep_ns % kClockSecond_ns;
+    const std::int64_t moment_ns = clock.moment_ns(kBegan_ns + i * kStep_ns, clock_ns, kClockSecond_ns);
+    if (is_late) continue;
+    EXPECT_EQ(moment_ns, kBegan_ns + i * kStep_ns) << i;
+  }
+}
+
+// A bridge may send each packet again, some time later.
+TEST(PacketClock, PacketsThatComeTwiceMoveNoOther) {
+  PacketClock clock;
+  for (std::int64_t i = 0; i < 3'000; ++i) {
+    const std::int64_t arrival_ns = kBegan_ns + i * kStep_ns, clock_ns = i * kStep_ns;
+    EXPECT_EQ(clock.moment_ns(arrival_ns, clock_ns, 0), arrival_ns) << i;
+    clock.moment_ns(arrival_ns + 700'000, clock_ns, 0);
+  }
+}
+
+// Held back for most of the second in which the clock begins anew, then handed on at once.
+TEST(PacketClock, AStallOfMostOfASecondMovesNoMoment) {
+  PacketClock clock;
+  const std::int64_t first = 2'000, last = first + 850'000'000 / kStep_ns;
+  for (std::int64_t i = 0; i < 4'000; ++i) {
+    const std::int64_t sent = i >= first && i < last ? last : i;
+    const std::int64_t moment_ns =
+        clock.moment_ns(kBegan_ns + sent * kStep_ns, i * kStep_ns % kClockSecond_ns, kClockSecond_ns);
+    EXPECT_EQ(moment_ns, kBegan_ns + i * kStep_ns) << i;
+    EXPECT_EQ(clock.offset_ns(), 0) << i;
+  }
+}
+
+// GPS or PTP set the sensor's clock on the way: no packet arrives before it is sent, so stamps do not go back.
+TEST(PacketClock, ASensorWhoseClockIsSetAheadSendsNoStampBack) {
+  for (const std::int64_t set_ns : {std::int64_t{60'000'000}, std::int64_t{300'000'000}, std::int64_t{399'000'000}}) {
+    PacketClock clock;
+    for (std::int64_t i = 0; i < 5'000; ++i) {
+      const std::int64_t arrival_ns = kBegan_ns + i * kStep_ns;
+      const std::int64_t clock_ns = (i * kStep_ns + (i >= 3'000 ? set_ns : 0)) % kClockSecond_ns;
+      const std::int64_t moment_ns = clock.moment_ns(arrival_ns, clock_ns, kClockSecond_ns);
+      EXPECT_EQ(moment_ns, arrival_ns) << set_ns << ", " << i;
+      EXPECT_EQ(clock.offset_ns(), 0) << set_ns << ", " << i;
     }
   }
 }
@@ -154,7 +209,9 @@ void expect_times_by_azimuth(ScanAssembler* assembler, const std::vector<SentBlo
   for (std::size_t column = 1; column < columns; ++column) {
     const double turned_ms = (azimuth_deg(column) - azimuth_deg(0)) / 3.6;
     const double went_ms = 1e-6 * (scan.points[ring * columns + column].t_ns - scan.points[ring * columns].t_ns);
-    EXPECT_NEAR(went_ms, turned_ms, 0.15) << who << ", column " << column;
+    // A block is 56 us and more. Azimuths are rounded to 2.8 us of turning, and 0.2 degrees of an RS-LiDAR-32
+    // take 55.52 us by its maker and 55.56 at 600 turns a minute: 18 us of the hole.
+    EXPECT_NEAR(went_ms, turned_ms, 0.025) << who << ", column " << column;
   }
 }
 
@@ -207,19 +264,52 @@ TEST(FieldOfViewTimes, AnLslidarsPacketAcrossTheHole) {
   }
 }
 
-// Two firings a packet: the step across the hole is the only one.
+void set_clock(std::string* payload, HesaiModel model, double clock_us) {
+  const HesaiTraits& traits = hesai_traits(model);
+  const auto us = static_cast<std::uint32_t>(std::llround(clock_us));
+  payload->replace(traits.tail_at() + traits.micros_offset, 4, test::raw(us));
+}
+
+// Two firings a packet: the step across the hole is the only one. The clock is that of a packet's begin.
 TEST(FieldOfViewTimes, AHesaisPacketOfTwoFiringsAcrossTheHole) {
-  std::vector<SentBlock> sent;
-  for (std::size_t i = 0; i < 20; ++i) {
-    test::HesaiPacket packet = test::qt128_packet();
-    packet.first_deg = 20.0 + 0.8 * static_cast<double>(i) + (i > 9 ? kHole_deg : 0.0);
-    packet.step_deg = 0.4 + (i == 9 ? kHole_deg : 0.0);
-    const double end_us = 2.0 * 111.11 * static_cast<double>(i + 1) + (i >= 9 ? kHole_us : 0.0);
-    sent.push_back({payload_of(packet), kBegan_ns + std::llround(1e3 * end_us)});
+  for (const bool clock_runs : {true, false}) {
+    std::vector<SentBlock> sent;
+    for (std::size_t i = 0; i < 20; ++i) {
+      test::HesaiPacket packet = test::qt128_packet();
+      packet.first_deg = 20.0 + 0.8 * static_cast<double>(i) + (i > 9 ? kHole_deg : 0.0);
+      packet.step_deg = 0.4 + (i == 9 ? kHole_deg : 0.0);
+      const double packet_us = 2.0 * 111.11, begin_us = packet_us * static_cast<double>(i) + (i > 9 ? kHole_us : 0.0);
+      const double end_us = begin_us + packet_us + (i == 9 ? kHole_us : 0.0);
+      std::string payload = payload_of(packet);
+      if (clock_runs) set_clock(&payload, HesaiModel::kQt128, 1'000.0 + begin_us);
+      sent.push_back({payload, kBegan_ns + std::llround(1e3 * end_us)});
+    }
+    HesaiAssembler assembler(std::nullopt, "");
+    expect_times_by_azimuth(&assembler, sent, clock_runs ? "its clock" : "arrival");
+    EXPECT_EQ(assembler.hint(), "") << "it does not turn the other way";
   }
-  HesaiAssembler assembler(std::nullopt, "");
-  expect_times_by_azimuth(&assembler, sent, "arrival");
-  EXPECT_EQ(assembler.hint(), "") << "it does not turn the other way";
+}
+
+// Its clock is that of a packet's end.
+TEST(FieldOfViewTimes, AnXt32sPacketAcrossTheHole) {
+  for (const bool clock_runs : {true, false}) {
+    std::vector<SentBlock> sent;
+    for (std::size_t i = 0; i < 20; ++i) {
+      test::HesaiPacket packet;
+      packet.step_deg = 0.18;
+      packet.first_deg = 20.0 + 1.44 * static_cast<double>(i) + (i > 9 ? kHole_deg : 0.0);
+      std::string payload = payload_of(packet);
+      for (std::size_t block = 4; i == 9 && block < 8; ++block) {
+        const double azimuth_deg = packet.first_deg + 0.18 * static_cast<double>(block) + kHole_deg;
+        payload.replace(12 + 130 * block, 2, test::raw(static_cast<std::uint16_t>(std::lround(100.0 * azimuth_deg))));
+      }
+      const double end_us = 400.0 * static_cast<double>(i + 1) + (i >= 9 ? kHole_us : 0.0);
+      if (clock_runs) set_clock(&payload, HesaiModel::kXt32, 1'000.0 + end_us);
+      sent.push_back({payload, kBegan_ns + std::llround(1e3 * end_us)});
+    }
+    HesaiAssembler assembler(std::nullopt, "");
+    expect_times_by_azimuth(&assembler, sent, clock_runs ? "its clock" : "arrival");
+  }
 }
 
 // A packet of one firing tells no step; the packets do.
@@ -232,6 +322,20 @@ TEST(FieldOfViewTimes, PacketsOfOneFiringTellWhichWayTheHeadTurns) {
     EXPECT_TRUE(test::add(assembler, payload_of(packet), kBegan_ns + 111'110 * static_cast<std::int64_t>(i)));
   }
   EXPECT_NE(assembler.hint(), "") << "counterclockwise";
+}
+
+// One that comes late turns no head back, and joins its turn.
+TEST(FieldOfViewTimes, APacketOfOneFiringThatComesLateJoinsItsTurn) {
+  HesaiAssembler assembler(std::nullopt, "");
+  for (std::size_t i = 0; i < 40; ++i) {
+    test::HesaiPacket packet = test::qt128_packet();
+    packet.mode = 0x39;
+    packet.first_deg = 100.0 + 0.4 * static_cast<double>(i == 20 ? 21 : i == 21 ? 20 : i);
+    EXPECT_TRUE(test::add(assembler, payload_of(packet), kBegan_ns + 111'110 * static_cast<std::int64_t>(i)));
+  }
+  assembler.finish();
+  EXPECT_EQ(assembler.hint(), "");
+  EXPECT_EQ(assembler.take().value().points.size(), 40U * 128U);
 }
 
 }  // namespace

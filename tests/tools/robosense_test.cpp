@@ -12,7 +12,9 @@
 #include "io/packets/robosense.hpp"
 #include "io/packets/robosense_m1.hpp"
 #include "io/packets/sensors.hpp"
+#include "lab/sim/scenes.hpp"
 #include "robosense_packets.hpp"
+#include "support/sim_run.hpp"
 
 namespace pose_wall::tools {
 namespace {
@@ -444,6 +446,96 @@ TEST(RoboSenseM1, FramesAreCutByTheNumbersOfPackets) {
   EXPECT_TRUE(whole.is_complete);
   EXPECT_EQ(whole.points.size(), 630U * 125U);
   EXPECT_FALSE(assembler.take());
+}
+
+// A road as an M1 sees it: 120 by 25 degrees ahead of it.
+sim::SceneSetup road_before_an_m1() {
+  sim::SceneSetup setup = sim::make_setup("clean", "mid360", false, 1);
+  setup.sensor.pattern_points = 200'000.0;  // a third of them within the view
+  setup.sensor.elevation_min_deg = -12.5;
+  setup.sensor.elevation_max_deg = 12.5;
+  setup.sensor.window_from_deg = -60.0;
+  setup.sensor.window_to_deg = 60.0;
+  setup.mount.mount_roll_deg = 0.0;
+  setup.machine.turned_left_deg = 4.0;
+  setup.machine.lateral_m = 0.3;
+  return setup;
+}
+
+constexpr std::size_t kM1PacketPoints = 125, kM1Packets = 630;
+constexpr std::int64_t kM1Packet_us = 158;
+
+// Returns one after another, five of a moment; behind them nothing comes back. The clock is in each packet.
+std::vector<std::string> m1_packets(const sim::Frame& frame) {
+  std::vector<std::string> packets;
+  for (std::size_t number = 0; number < kM1Packets; ++number) {
+    std::string payload = m1_payload(static_cast<std::uint16_t>(number));
+    test::put_at(&payload, 10, test::robosense_time(900'000 + kM1Packet_us * static_cast<std::int64_t>(number), false));
+    for (std::size_t k = 0; k < kM1PacketPoints; ++k) {
+      const std::size_t i = number * kM1PacketPoints + k, at = 32 + 47 * (k / 5) + 2 + 9 * (k % 5);
+      if (i >= frame.count()) {
+        test::put_at(&payload, at, test::big_number(0, 2));
+        continue;
+      }
+      const float* const p = &frame.xyz_intensity[4 * i];
+      const double range_m = std::hypot(p[0], p[1], p[2]);
+      const auto of_zero = [](double rad) {
+        return static_cast<std::uint64_t>(std::lround(32'768.0 + 100.0 * rad / kRad));
+      };
+      test::put_at(&payload, at,
+                   test::big_number(static_cast<std::uint64_t>(std::lround(range_m / 0.005)), 2) +
+                       test::big_number(of_zero(std::asin(p[2] / range_m)), 2) +
+                       test::big_number(of_zero(std::atan2(p[1], p[0])), 2));
+    }
+    packets.push_back(payload);
+  }
+  return packets;
+}
+
+TEST(RoboSenseM1, ARoadComesBackWithItsTimesAndItsValues) {
+  const sim::SceneSetup setup = road_before_an_m1();
+  const sim::Simulator simulator(setup, 1);
+  const sim::Frame frame = simulator.render(0);
+  ASSERT_GT(frame.count(), 50'000U);
+  ASSERT_LT(frame.count(), kM1Packets * kM1PacketPoints);
+  RoboSenseM1Assembler assembler;
+  std::int64_t arrives_ns = kCaptured_ns;
+  for (const std::string& packet : m1_packets(frame)) {
+    EXPECT_TRUE(add(assembler, packet, arrives_ns));
+    if (packet[5] % 16 == 0) arrives_ns += 16 * 1000 * kM1Packet_us;  // in bursts
+  }
+  assembler.finish();
+  const Scan scan = assembler.take().value();
+  ASSERT_EQ(scan.points.size(), kM1Packets * kM1PacketPoints);
+  for (std::size_t i = 0; i < frame.count(); ++i) {
+    const float* const p = &frame.xyz_intensity[4 * i];
+    const ScanPoint& point = scan.points[i];
+    // Half of 5 mm, and half of a hundredth of a degree both ways.
+    ASSERT_LE(std::hypot(point.x_m - p[0], point.y_m - p[1], point.z_m - p[2]),
+              0.0026 + 1.3e-4 * std::hypot(p[0], p[1], p[2]))
+        << i;
+    const auto moment = static_cast<std::int64_t>(i / 5 % 25) * 6;
+    EXPECT_NEAR(point.t_ns,
+                1000.0 * static_cast<double>(kM1Packet_us * static_cast<std::int64_t>(i / kM1PacketPoints) + moment),
+                1'000.0)
+        << i;
+  }
+  pose_wall_config config = pose_wall::test::config_with();
+  for (const EngineSetting& setting : sim::find_sensor("mid360")->engine) {
+    pose_wall::test::set(&config, setting.key.c_str(), setting.value.c_str());
+  }
+  pose_wall::test::EngineUnderTest engine(pose_wall::test::config_for(setup, config));
+  const Frame decoded_frame = frame_of(scan);
+  const pose_wall::test::JudgedFrame judged{engine.process(decoded_frame.cloud), simulator.truth(0),
+                                            simulator.surveyed_truth(0)};
+  // It looks ahead: floor nearby and walls behind are what it does not see.
+  for (const std::uint32_t q : {POSE_WALL_YAW, POSE_WALL_D_LF, POSE_WALL_D_RF}) {
+    EXPECT_TRUE(judged.is(q, POSE_WALL_VALID)) << pose_wall_quantity_name(q);
+  }
+  for (std::uint32_t q = 0; q < POSE_WALL_QUANTITIES; ++q) {
+    if (judged.is(q, POSE_WALL_INVALID)) continue;
+    EXPECT_LE(std::fabs(judged.error(q)), judged.result.quantity[q].protection_level) << pose_wall_quantity_name(q);
+  }
 }
 
 TEST(RoboSenseM1, TwoReturnsAreRefused) {

@@ -15,13 +15,14 @@ namespace pose_wall::tools {
 constexpr const char* kInputHelp = translatable(
     "Frame files (.pcd, .bin, .ply, .xyz, .asc, .txt, .csv), folders of them in the order of the numbers in their "
     "names, "
-    "bags (ROS 1, MCAP, SQLite, folders of rosbag2) or captures of packets (Velodyne, Ouster, Hesai, Livox)");
+    "bags (ROS 1, MCAP, SQLite, folders of rosbag2) or captures of packets (Velodyne, Ouster, Hesai, Livox, RoboSense, "
+    "LSLidar)");
 
 // Of verbs that take planar scans, too.
 constexpr const char* kScanInputHelp = translatable(
     "A log of CARMEN (FLASER, ROBOTLASER1; .clf, .log, also packed by gzip); or frames: files (.pcd, .bin, .ply, .xyz, "
     ".asc, .txt, .csv), folders of them in the order of the numbers in their names, bags (ROS 1, MCAP, SQLite, folders "
-    "of rosbag2) or captures of packets (Velodyne, Ouster, Hesai, Livox)");
+    "of rosbag2) or captures of packets (Velodyne, Ouster, Hesai, Livox, RoboSense, LSLidar)");
 
 // How inputs are to be read.
 void add_input_options(CLI::App* verb, InputOptions* options);

@@ -3,8 +3,8 @@
 
 // The light of an LSLidar leaves beside the head's azimuth, and the lens turns with a laser's own offset. Lens, unit,
 // order of lasers and angles: the maker's Lslidar_ROS1_driver, f29e947a, lslidar_cx_driver.{hpp,cpp}; of firmware 2 and
-// 3 also its older drivers in tianb03/lslidar_c16, 5a86ad87, and LarryDong/lslidar, 26220e90. 32 equal steps of azimuth
-// from block to block. Accuracy 3 cm. The driver calls azimuth 0 its y; here it is x, as everywhere.
+// 3 also its older drivers in tianb03/lslidar_c16, 5a86ad87, and LarryDong/lslidar, 26220e90. The head turns evenly
+// over the 32 returns of a block. Accuracy 3 cm. The driver calls azimuth 0 its y; here it is x, as everywhere.
 
 #include <array>
 
@@ -17,7 +17,7 @@ constexpr std::size_t kReturnsOfBlock = 32, kBlocksOfPacket = 12;
 // The older drivers: 20,000 firings a second of a C16, two in a block; 650,000 points a second of a C32. The others are
 // taken to be like the one that has as many lasers.
 constexpr double kBlockOfC16_ns = 100'000.0, kBlockOfC32_ns = 49'230.0;
-constexpr double kTurn_ns = 1e8;
+constexpr double kTurn_ns = 1e8;                         // at 600 turns a minute
 constexpr double kNearest_m = 0.3, kFarthest_m = 150.0;  // judgement, 2026-11-28: no sheet was at hand
 
 constexpr Lens kLensC16V3 = {0.0431, -14.68, false, true}, kLensC32V3 = {0.0494, -12.98, false, true};
@@ -55,16 +55,18 @@ BeamTable with_eight_ahead(BeamTable table) {
 }
 
 // In two columns by turns of elevation, which are two and two in the order of firing. How far apart they are each
-// sensor tells in its device packet; the drivers agree for 3 to 4.6 degrees.
+// sensor tells in its device packet; the drivers agree for 3 to 4.6 degrees. Four are judgement, 2026-12-01.
 BeamTable in_two_columns(BeamTable table) {
+  table.source = "lslidar 26220e90";
   for (std::size_t i = 0; i < table.lasers.size(); ++i) table.lasers[i].azimuth_deg = i % 4 < 2 ? 2.0 : -2.0;
   return table;
 }
 
-// In four columns, by the older driver's four lists; told by each sensor, too.
+// In four columns, by the older driver's four lists. Each sensor tells their angles; these are judgement, 2026-12-01.
 BeamTable in_four_columns(BeamTable table) {
   constexpr std::array<std::size_t, kReturnsOfBlock> column = {3, 3, 2, 2, 3, 1, 2, 0, 3, 3, 2, 2, 3, 1, 2, 0,
                                                                3, 3, 2, 2, 1, 3, 0, 2, 3, 3, 2, 2, 1, 3, 0, 2};
+  table.source = "lslidar 26220e90";
   constexpr std::array<double, 4> kColumns_deg = {-4.5, -1.5, 1.5, 4.5};
   for (std::size_t i = 0; i < table.lasers.size(); ++i) table.lasers[i].azimuth_deg = kColumns_deg[column[i]];
   return table;

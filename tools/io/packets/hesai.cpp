@@ -14,6 +14,7 @@ namespace {
 
 // Between packets that follow each other; a QT128C2X turns 0.8 degrees at 1,200 turns a minute.
 constexpr double kSingleStepMost_deg = 2.0;
+constexpr double kSingleStepsAlike_deg = 0.05;  // azimuths are rounded to a hundredth
 
 double azimuth_of(const HesaiTraits& traits, ByteView payload, std::size_t block) {
   const std::size_t start = traits.head_bytes + block * traits.block_bytes();
@@ -56,23 +57,28 @@ bool HesaiAssembler::add(const Datagram& datagram) {
   for (std::size_t block = 0; block < traits_->blocks; block += step) {
     azimuths_deg.push_back(azimuth_of(*traits_, datagram.payload, block));
   }
-  // A packet of one firing tells no step; the one before does.
-  const double since_deg = turned_deg(last_azimuth_deg_, azimuths_deg.front());
-  if (azimuths_deg.size() == 1 && std::min(since_deg, 360.0 - since_deg) < kSingleStepMost_deg)
-    last_step_deg_ = since_deg;
+  if (azimuths_deg.size() == 1) learn_step(azimuths_deg.front());
   const PacketSteps steps(azimuths_deg, last_step_deg_);
-  const double cycle_ns = traits_->beams.cycle_ns, in_holes_ns = steps.earlier_ns(0, cycle_ns);
-  const bool counts_back = traits_->last_is_known;
-  const std::int64_t sent_ns = datagram.captured_ns - (counts_back ? 0 : std::llround(in_holes_ns));
-  const std::int64_t packet_ns = moment_ns(sent_ns, 1000 * hesai_clock_us(*traits_, datagram.payload), kClockSecond_ns);
+  const double cycle_ns = traits_->beams.cycle_ns;
+  const ClockIs clock_is = traits_->last_is_known ? ClockIs::kOfEnd : ClockIs::kOfBegin;
+  const std::int64_t packet_ns =
+      packet_moment_ns(datagram.captured_ns, 1000 * hesai_clock_us(*traits_, datagram.payload), kClockSecond_ns, steps,
+                       cycle_ns, clock_is);
   for (std::size_t k = 0; k < azimuths_deg.size(); ++k) {
-    const double moved_ns = counts_back ? -steps.earlier_ns(k, cycle_ns) : steps.later_ns(k, cycle_ns);
-    fill_firing(datagram.payload, k * step, step, packet_ns + std::llround(moved_ns));
+    fill_firing(datagram.payload, k * step, step, packet_ns + std::llround(steps.moved_ns(k, cycle_ns, clock_is)));
     add_firing(firing_, steps.after_deg(k));
   }
   last_step_deg_ = steps.after_deg(azimuths_deg.size());
-  last_azimuth_deg_ = azimuths_deg.back();
   return true;
+}
+
+// A packet of one firing tells no step. Two in a row do that agree: one alone may be late, or behind a lost one.
+void HesaiAssembler::learn_step(double azimuth_deg) {
+  const double since_deg = turned_deg(last_azimuth_deg_.value_or(azimuth_deg), azimuth_deg);
+  const bool is_small = std::min(since_deg, 360.0 - since_deg) < kSingleStepMost_deg && since_deg > 0.0;
+  if (is_small && std::abs(since_deg - last_since_deg_) < kSingleStepsAlike_deg) last_step_deg_ = since_deg;
+  last_since_deg_ = since_deg;
+  last_azimuth_deg_ = azimuth_deg;
 }
 
 void HesaiAssembler::fill_firing(ByteView payload, std::size_t block, std::size_t returns, std::int64_t packet_ns) {

@@ -16,8 +16,8 @@
 namespace pose_wall::tools {
 
 // Frames are cut where the azimuth passes 0. Axes as in ROS: x at azimuth 0 (Hesai's own y), y to the left, z up. Of
-// two or three returns the farthest is taken. Stamps are those of the capture: a sensor that nobody gave the time has a
-// date of its own.
+// two or three returns the farthest is taken. Stamps are of arrival (packet_clock.hpp): a sensor that nobody gave the
+// time has a date of its own.
 class HesaiAssembler : public TurnAssembler {
  public:
   // The model of the first packet where none is stated; `angles` is a table as parse_hesai_angles reads it, the design
@@ -35,13 +35,15 @@ class HesaiAssembler : public TurnAssembler {
   };
 
   void set_model(HesaiModel model);
+  void learn_step(double azimuth_deg);
   void fill_firing(ByteView payload, std::size_t block, std::size_t returns, std::int64_t packet_ns);
 
   std::string angles_;
   const HesaiTraits* traits_ = nullptr;  // none: not yet known
   std::vector<Beam> beams_;
-  double last_azimuth_deg_ = 0.0;
-  double last_step_deg_ = 0.0;  // from firing to firing: 600 turns a minute until two were seen
+  std::optional<double> last_azimuth_deg_;  // of packets of one firing
+  double last_since_deg_ = 0.0;             // from the one before to it
+  double last_step_deg_ = 0.0;              // from firing to firing: 600 turns a minute until two were seen
   std::string kind_ = "packets of a Hesai";
   Firing firing_;
 };

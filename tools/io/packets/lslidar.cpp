@@ -157,13 +157,13 @@ void LslidarAssembler::add_blocks(ByteView packet, std::int64_t captured_ns) {
   const PacketSteps steps(azimuths_deg, last_step_deg_);
   std::optional<std::int64_t> clock_ns;
   if (clock_unit_ns_ > 0) clock_ns = clock_unit_ns_ * lslidar_clock(packet, *traits_);
-  const std::int64_t end_ns = moment_ns(captured_ns, clock_ns, kClockSecond_ns);
+  const std::int64_t end_ns =
+      packet_moment_ns(captured_ns, clock_ns, kClockSecond_ns, steps, block_ns_, ClockIs::kOfEnd);
   const double mean_step_deg = step_of(packet, is_dual);
   for (std::size_t block = 0; block < kLslidarBlocks; block += blocks) {
     const double azimuth_deg = azimuths_deg[block / blocks];
     if (block + blocks < kLslidarBlocks) {
-      const double step_deg = turned_deg(azimuth_deg, azimuths_deg[block / blocks + 1]);
-      if (step_deg <= kStepMost_deg) last_step_deg_ = step_deg;  // more is a hole in the field of view
+      last_step_deg_ = steps.after_deg(block / blocks);
     } else if (std::abs(mean_step_deg - last_step_deg_) <= 2.0 * kAzimuthUnit_deg) {
       last_step_deg_ = mean_step_deg;  // azimuths are rounded, and beyond the last there is none
     }
@@ -172,7 +172,7 @@ void LslidarAssembler::add_blocks(ByteView packet, std::int64_t captured_ns) {
     for (std::size_t i = 0; i < firings; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(firings);
       const double before_ns = packet_ns - block_ns_ * (static_cast<double>(block / blocks) + part);
-      firing_.time_ns = end_ns - std::llround(before_ns + steps.earlier_ns(block / blocks, block_ns_));
+      firing_.time_ns = end_ns - std::llround(before_ns - steps.moved_ns(block / blocks, block_ns_, ClockIs::kOfEnd));
       fill_firing({first + i * firing_bytes, firing_bytes}, {second + i * firing_bytes, firing_bytes},
                   azimuth_deg + part * last_step_deg_);
       add_firing(firing_, last_step_deg_);

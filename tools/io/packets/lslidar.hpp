@@ -25,10 +25,10 @@ struct LslidarChoice {
 };
 
 // Frames are cut where the azimuth passes 0. Axes as in ROS: x at azimuth 0 (the maker's y), y to the left, z up. Of
-// two returns the farther is taken. Stamps are those of the capture: the sensor's clock has no date, or one of which
-// the packets do not tell the unit. A sensor of firmware 2 or 3 is read from its first device packet on: data of the
-// two seconds before is kept until then. add and finish throw FrameError where none came, or where what it says cannot
-// be.
+// two returns the farther is taken. Stamps are of arrival (packet_clock.hpp): the sensor's clock has no date, or one of
+// which the packets do not tell the unit. A sensor of firmware 2 or 3 is read from its first device packet on: data of
+// the two seconds before is kept until then. add and finish throw FrameError where none came, or where what it says
+// cannot be.
 class LslidarAssembler : public TurnAssembler {
  public:
   explicit LslidarAssembler(LslidarChoice choice = {}) : choice_(std::move(choice)) {}

@@ -50,6 +50,7 @@ class LslidarHybridAssembler : public ScanAssembler {
   std::int64_t clock_unit_ns_ = 0;  // 0: it stands still, or runs as none
   PacketClock clock_;
   bool frame_begun_ = false;
+  std::int64_t last_end_ns_ = 0;
   Scan scan_;
 };
 

@@ -168,8 +168,9 @@ double designed_origin_mm(const std::string& product) {
   for (const auto& [kind, origin_mm] : kOrigins_mm) {
     if (product.rfind(kind, 0) == 0) return origin_mm;
   }
-  constexpr double kFirstGeneration_mm = 12.163;
-  return kFirstGeneration_mm;
+  throw FrameError(
+      say("the metadata has no 'lidar_origin_to_beam_origin_mm', and '{}' names no product whose design is known",
+          product));
 }
 
 void check_lens(const OusterMetadata& metadata) {
@@ -210,8 +211,10 @@ void read_geometry(const Json& page, OusterMetadata& metadata) {
   } else if (const Json* const origin = find(page, "lidar_origin_to_beam_origin_mm")) {
     if (!origin->is_number()) throw FrameError(tr("the metadata's 'lidar_origin_to_beam_origin_mm' is no number"));
     metadata.beam_origin_out_m = origin->get<double>() * kMetresPerMm;
-  } else {
+  } else if (text_at(page, "build_rev").rfind("v1.", 0) == 0) {
     metadata.beam_origin_out_m = designed_origin_mm(metadata.product) * kMetresPerMm;
+  } else {
+    need(page, "lidar_origin_to_beam_origin_mm");
   }
   const std::vector<double> transform =
       numbers_of(need(page, "lidar_to_sensor_transform"), "lidar_to_sensor_transform", 16);

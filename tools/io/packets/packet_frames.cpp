@@ -17,7 +17,7 @@
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::size_t kKindsKept = 4;
+constexpr std::size_t kKindsKept = 4;                  // as many as one line holds
 constexpr std::uint16_t kVelodynePositionPort = 8308;  // manual of the VLP-16
 
 }  // namespace
@@ -26,6 +26,8 @@ constexpr std::uint16_t kVelodynePositionPort = 8308;  // manual of the VLP-16
 class PacketFrames::Others {
  public:
   void add(const Datagram& datagram) {
+    may_be_ousters_ = may_be_ousters_ || may_be_ouster_packet(datagram.payload.size);
+    are_positions_ = are_positions_ || datagram.from.to_port == kVelodynePositionPort;
     const auto is_same = [&](const Kind& kind) {
       return kind.to_port == datagram.from.to_port && kind.bytes == datagram.payload.size;
     };
@@ -50,13 +52,8 @@ class PacketFrames::Others {
     return more_ > 0 ? text + say(", and {} others", more_) : text;
   }
 
-  bool may_be_ousters() const {
-    return std::any_of(kinds_.begin(), kinds_.end(), [](const Kind& kind) { return may_be_ouster_packet(kind.bytes); });
-  }
-  bool are_positions() const {
-    return std::any_of(kinds_.begin(), kinds_.end(),
-                       [](const Kind& kind) { return kind.to_port == kVelodynePositionPort; });
-  }
+  bool may_be_ousters() const { return may_be_ousters_; }
+  bool are_positions() const { return are_positions_; }
 
  private:
   struct Kind {
@@ -65,6 +62,7 @@ class PacketFrames::Others {
   };
   std::vector<Kind> kinds_;
   std::size_t more_ = 0;
+  bool may_be_ousters_ = false, are_positions_ = false;
 };
 
 // Scans of a recording one by one, the incomplete ones at its ends left out.

@@ -30,7 +30,6 @@ std::unique_ptr<FrameSource> open_packet_capture(const std::filesystem::path& fi
                              options.sensor == known_sensor(SensorKind::kOuster).name;
   PacketRecording recording;
   std::error_code ignored;
-  // Of another sensor that is named metadata is not looked for.
   if (options.metadata.empty() && may_be_ouster) {
     if (std::filesystem::exists(beside, ignored)) {
       described.metadata = beside.string();

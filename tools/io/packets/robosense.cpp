@@ -127,14 +127,14 @@ void RoboSenseAssembler::add_blocks(ByteView payload, std::int64_t captured_ns) 
     azimuths_deg.push_back(0.01 * *azimuth);
   }
   const PacketSteps steps(azimuths_deg, in_block * firing_step_deg_);
-  // Its clock is that of the first block.
-  const std::int64_t sent_ns = captured_ns - std::llround(steps.earlier_ns(0, block_ns));
-  const std::int64_t packet_ns = moment_ns(sent_ns, 1000 * robosense_clock_us(traits, payload), 0);
+  const std::int64_t packet_ns =
+      packet_moment_ns(captured_ns, 1000 * robosense_clock_us(traits, payload), 0, steps, block_ns, ClockIs::kOfBegin);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const bool is_next_there = k + 1 == blocks.size() || blocks[k + 1] == blocks[k] + group;
     const double step_deg = is_next_there ? steps.after_deg(k) / in_block : firing_step_deg_;
     if (step_deg > 0.0 && step_deg <= kFiringStepMost_deg) firing_step_deg_ = step_deg;
-    const double began_ns = block_ns * static_cast<double>(blocks[k] / group) + steps.later_ns(k, block_ns);
+    const double began_ns =
+        block_ns * static_cast<double>(blocks[k] / group) + steps.moved_ns(k, block_ns, ClockIs::kOfBegin);
     for (std::size_t firing = 0; firing < firings; ++firing) {
       const double at_deg = azimuths_deg[k] + firing_step_deg_ * static_cast<double>(firing);
       firing_.azimuth_deg = at_deg < 360.0 ? at_deg : at_deg - 360.0;

@@ -18,9 +18,9 @@
 namespace pose_wall::tools {
 
 // Frames are cut where the azimuth passes 0. Axes as in ROS: x at azimuth 0, y to the left, z up. Of two returns the
-// farther is taken. Stamps are those of arrival: the sensor's calendar has no known time zone. Data is held until a
-// device packet comes, which a sensor sends about once a second. add and finish throw FrameError where packets
-// contradict each other or what is stated, and finish where no device packet came.
+// farther is taken. Stamps are of arrival (packet_clock.hpp): the sensor's calendar has no known time zone. Data is
+// held until a device packet comes, which a sensor sends about once a second. add and finish throw FrameError where
+// packets contradict each other or what is stated, and finish where no device packet came.
 class RoboSenseAssembler : public TurnAssembler {
  public:
   // `device`: the bytes of a device packet that was saved; "": none.

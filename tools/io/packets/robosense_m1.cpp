@@ -20,7 +20,8 @@ constexpr std::size_t kM1BlockBytes = 2 + kM1Channels * kChannelBytes;
 constexpr double kM1Unit_m = 0.005, kM1Nearest_m = 0.2, kM1Farthest_m = 200.0;
 // rs_driver: packets may change places within so many numbers.
 constexpr std::size_t kOutOfOrderMost = 10;
-constexpr std::size_t kLateMost = 300;  // half a frame
+constexpr std::size_t kLateMost = 300;                  // half a frame
+constexpr std::int64_t kFrameGapMost_ns = 100'000'000;  // a frame
 
 double m1_angle_rad(ByteView payload, std::size_t offset) {
   constexpr double kZero = 32'768.0;
@@ -62,6 +63,11 @@ bool RoboSenseM1Assembler::add(const Datagram& datagram) {
   const std::int64_t packet_ns = clock_.moment_ns(
       datagram.captured_ns, 1000 * static_cast<std::int64_t>(robosense_number(datagram.payload, kMicrosAt, 4)),
       kClockSecond_ns);
+  if (!points_.empty() && packet_ns - last_ns_ > kFrameGapMost_ns) {
+    end_frame(false);  // the rest of it is lost, and this is of another
+    first_ = number;
+  }
+  last_ns_ = packet_ns;
   if (points_.empty()) began_ns_ = packet_ns;
   seen_.set(number);
   last_ = points_.empty() ? number : std::max(last_, number);

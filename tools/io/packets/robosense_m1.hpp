@@ -39,7 +39,7 @@ class RoboSenseM1Assembler : public ScanAssembler {
   std::bitset<kNumbers> seen_;  // numbers of this frame's packets
   std::size_t first_ = 0, last_ = 0;
   PacketClock clock_;
-  std::int64_t began_ns_ = 0;
+  std::int64_t began_ns_ = 0, last_ns_ = 0;  // of the frame, and its newest packet
   std::optional<std::uint64_t> return_number_;
 };
 

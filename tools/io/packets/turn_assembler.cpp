@@ -19,10 +19,6 @@ constexpr std::size_t kFiringsMax = 20'000;
 // What falls back by less is late, by more begins a turn. A field of view that is narrower sees no two walls; 30
 // degrees are three packets of the sensor whose packets hold most of a turn (a VLP-16 at 1,200 turns a minute: 9.6).
 constexpr double kLateMost_deg = 30.0;
-// At 1,200 turns a minute 330 degrees take 46 ms: what comes later than this is no late packet.
-constexpr std::int64_t kLateWithin_ns = 40'000'000;
-// Two turns of the slowest head, 300 a minute. Behind it another part of the recording begins.
-constexpr std::int64_t kPause_ns = 400'000'000;
 // Of the fastest and the slowest head: 1,200 and 300 turns a minute.
 constexpr std::int64_t kFastestTurn_ns = 50'000'000, kSlowestTurn_ns = 200'000'000;
 // How long a turn that lacks its end waits for it: two packets of that sensor, which is 5.6 ms at 600 turns a minute.
@@ -70,7 +66,7 @@ double PacketSteps::after_deg(std::size_t block) const {
   return is_hole(steps_deg_[step], step_deg_) ? step_deg_ : steps_deg_[step];
 }
 
-double PacketSteps::earlier_ns(std::size_t block, double block_ns) const {
+double PacketSteps::in_holes_ns(std::size_t block, double block_ns) const {
   double hole_deg = 0.0;
   for (std::size_t i = block; i < steps_deg_.size(); ++i) {
     if (is_hole(steps_deg_[i], step_deg_)) hole_deg += steps_deg_[i] - step_deg_;
@@ -78,12 +74,19 @@ double PacketSteps::earlier_ns(std::size_t block, double block_ns) const {
   return step_deg_ > 0.0 ? hole_deg / step_deg_ * block_ns : 0.0;
 }
 
+std::int64_t TurnAssembler::packet_moment_ns(std::int64_t arrival_ns, std::optional<std::int64_t> clock_ns,
+                                             std::int64_t modulus_ns, const PacketSteps& steps, double block_ns,
+                                             ClockIs clock_is) {
+  const double since_begin_ns = clock_is == ClockIs::kOfBegin ? steps.in_holes_ns(0, block_ns) : 0.0;
+  return clock_.moment_ns(arrival_ns - std::llround(since_begin_ns), clock_ns, modulus_ns);
+}
+
 void TurnAssembler::append(Turn* turn, const Firing& firing) {
   turn->moments.push_back({firing.azimuth_deg, firing.time_ns});
   turn->points.insert(turn->points.end(), firing.points.begin(), firing.points.end());
 }
 
-// Its time is by its neighbours: it arrived later than it was measured.
+// Its time is by its neighbours: where no clock runs it is that of its arrival, which is later.
 void TurnAssembler::insert_late(Turn* turn, const Firing& firing) {
   std::vector<Moment>& moments = turn->moments;
   const auto next = std::lower_bound(moments.begin(), moments.end(), firing.azimuth_deg,
@@ -124,7 +127,7 @@ void TurnAssembler::begin_turn(double azimuth_deg) {
 // By time: a pause, or at least half a turn more than the azimuths say.
 bool TurnAssembler::is_of_another_turn(const Firing& firing, double ahead_deg) const {
   const std::int64_t gap_ns = firing.time_ns - turn_.moments.back().time_ns;
-  if (gap_ns > kPause_ns || gap_ns < -kPause_ns) return true;
+  if (gap_ns > kPacketPause_ns || gap_ns < -kPacketPause_ns) return true;
   return ahead_deg >= 0.0 && static_cast<double>(gap_ns) > (ahead_deg + 180.0) / 360.0 * static_cast<double>(turn_ns_);
 }
 
@@ -141,7 +144,7 @@ void TurnAssembler::add_firing(const Firing& firing, double step_deg) {
     return;
   }
   const double ahead_deg = firing.azimuth_deg - turn_.moments.back().azimuth_deg;
-  const bool may_be_late = firing.time_ns - turn_.moments.back().time_ns < kLateWithin_ns;
+  const bool may_be_late = firing.time_ns - turn_.moments.back().time_ns < kPacketLateMost_ns;
   if (may_be_late && ahead_deg > 360.0 - kLateMost_deg) {  // from before the border
     if (!waiting_.empty()) insert_late(&waiting_, firing);
     return;

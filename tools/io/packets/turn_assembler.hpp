@@ -16,6 +16,37 @@
 
 namespace pose_wall::tools {
 
+// Which moment of a packet the sensor's clock tells, beside a constant.
+enum class ClockIs { kOfBegin, kOfEnd };
+
+// From one azimuth to the next, the way the head turns.
+double turned_deg(double from_deg, double to_deg);
+
+// The steps of azimuth within a packet. Where a sensor's field of view is set, one of them may be a hole of it: nothing
+// was sent there, and the head turned on all the while.
+class PacketSteps {
+ public:
+  // Of a packet's blocks, or pairs of blocks, in order. Where they do not tell the step it is `known_deg`: there is one
+  // alone, or a hole stands beside few others.
+  PacketSteps(const std::vector<double>& azimuths_deg, double known_deg);
+
+  // Beside its number's, when a block was measured: from the moment that the sensor's clock tells of its packet.
+  double moved_ns(std::size_t block, double block_ns, ClockIs clock_is) const {
+    const double from_end_ns = -in_holes_ns(block, block_ns);
+    return clock_is == ClockIs::kOfEnd ? from_end_ns : from_end_ns + in_holes_ns(0, block_ns);
+  }
+  // How long the head turned through holes from a block on to the packet's end.
+  double in_holes_ns(std::size_t block, double block_ns) const;
+  // From this block to the next one, as far as the head turns while it fires.
+  double after_deg(std::size_t block) const;
+
+ private:
+  static bool is_hole(double step_deg, double usual_deg);
+
+  std::vector<double> steps_deg_;
+  double step_deg_;  // the usual one
+};
+
 // All lasers once, at one azimuth.
 struct Firing {
   double azimuth_deg = 0.0;       // 0 to 360
@@ -31,10 +62,11 @@ class TurnAssembler : public ScanAssembler {
   std::string hint() const override;
 
  protected:
-  // When a packet was sent, for the times of its firings.
-  std::int64_t moment_ns(std::int64_t arrival_ns, std::optional<std::int64_t> clock_ns, std::int64_t modulus_ns) {
-    return clock_.moment_ns(arrival_ns, clock_ns, modulus_ns);
-  }
+  // The moment that the times of a packet's blocks count from. Arrival is that of its end: where the clock is that of
+  // its begin, and may stand still, the way through holes lies between them. Whatever else does is the same for each
+  // packet.
+  std::int64_t packet_moment_ns(std::int64_t arrival_ns, std::optional<std::int64_t> clock_ns, std::int64_t modulus_ns,
+                                const PacketSteps& steps, double block_ns, ClockIs clock_is);
   // `step_deg`: how far the head turns from one firing to the next, as far as is known.
   void add_firing(const Firing& firing, double step_deg);
 
@@ -67,34 +99,6 @@ class TurnAssembler : public ScanAssembler {
   double last_began_deg_ = 0.0, last_ended_deg_ = 360.0;
   std::int64_t turn_ns_ = 200'000'000;  // what a turn takes; the slowest head's until one was seen
   bool turns_back_ = false;
-};
-
-// From one azimuth to the next, the way the head turns.
-double turned_deg(double from_deg, double to_deg);
-
-// The steps of azimuth within a packet. Where a sensor's field of view is set, one of them may be a hole of it: nothing
-// was sent there, and the head turned on all the while.
-class PacketSteps {
- public:
-  // Of a packet's blocks, or pairs of blocks, in order. Where they do not tell the step it is `known_deg`: there is one
-  // alone, or a hole stands beside few others.
-  PacketSteps(const std::vector<double>& azimuths_deg, double known_deg);
-
-  // How long the head turned through holes from a block on to the packet's end. A block is earlier by so much than its
-  // number says, counted from the time at which the packet was sent.
-  double earlier_ns(std::size_t block, double block_ns) const;
-  // The same before a block, which is later by so much than its number says, counted from the packet's begin.
-  double later_ns(std::size_t block, double block_ns) const {
-    return earlier_ns(0, block_ns) - earlier_ns(block, block_ns);
-  }
-  // From this block to the next one, as far as the head turns while it fires.
-  double after_deg(std::size_t block) const;
-
- private:
-  static bool is_hole(double step_deg, double usual_deg);
-
-  std::vector<double> steps_deg_;
-  double step_deg_;  // the usual one
 };
 
 }  // namespace pose_wall::tools

@@ -56,13 +56,12 @@ void VelodyneAssembler::add_blocks(ByteView payload, std::int64_t captured_ns) {
   for (std::size_t block = 0; block < kVelodyneBlocks; block += step)
     azimuths_deg.push_back(azimuth_of(payload, block));
   const PacketSteps steps(azimuths_deg, last_turn_deg_);
-  // Its clock is that of the first firing.
-  const std::int64_t sent_ns = captured_ns - std::llround(steps.earlier_ns(0, block_ns));
-  const std::int64_t packet_ns = moment_ns(sent_ns, 1000 * velodyne_clock_us(payload), 1000 * kVelodyneHour_us);
+  const std::int64_t packet_ns = packet_moment_ns(captured_ns, 1000 * velodyne_clock_us(payload),
+                                                  1000 * kVelodyneHour_us, steps, block_ns, ClockIs::kOfBegin);
   for (std::size_t k = 0; k < azimuths_deg.size(); ++k) {
     const double turn_deg = steps.after_deg(k);
     const std::byte* const lasers = payload.data + k * step * kVelodyneBlockBytes + 4;
-    const double began_ns = static_cast<double>(k) * block_ns + steps.later_ns(k, block_ns);
+    const double began_ns = static_cast<double>(k) * block_ns + steps.moved_ns(k, block_ns, ClockIs::kOfBegin);
     for (std::size_t i = 0; i < firings; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(firings);
       const double firing_ns = static_cast<double>(i) * traits_->beams.cycle_ns;

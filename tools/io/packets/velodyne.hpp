@@ -16,8 +16,8 @@
 namespace pose_wall::tools {
 
 // Frames are cut where the azimuth passes 0. Axes as in ROS: x at azimuth 0, y to the left, z up. Of two returns the
-// last is taken. Stamps are of the capture: the sensor itself counts within the hour. The first packets tell
-// which model it is; add and finish throw FrameError where they contradict themselves, or what is stated.
+// last is taken. Stamps are of arrival (packet_clock.hpp): the sensor itself counts within the hour. The first packets
+// tell which model it is; add and finish throw FrameError where they contradict themselves, or what is stated.
 class VelodyneAssembler : public TurnAssembler {
  public:
   explicit VelodyneAssembler(std::optional<VelodyneModel> stated = std::nullopt) : stated_(stated) {}

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <stdexcept>
@@ -27,6 +28,8 @@ std::string ipv4_text(std::uint32_t address) {
 
 // More than a receive buffer ever holds. What seems to have waited longer was stamped before the clock was set.
 constexpr std::int64_t kWaitedMost_ns = 1'000'000'000;
+// NTP that steers changes it by half a thousandth; between two packets that is less.
+constexpr std::int64_t kSetLeast_ns = 5'000'000;
 
 [[noreturn]] void fail(std::uint32_t address, std::uint16_t port, const char* what) {
   throw std::runtime_error(
@@ -49,7 +52,8 @@ void turn_on(int file, int level, int option) {
 
 }  // namespace
 
-UdpReceiver::UdpReceiver(std::uint32_t address, std::uint16_t port) : address_(address) {
+UdpReceiver::UdpReceiver(std::uint32_t address, std::uint16_t port)
+    : address_(address), apart_ns_(wall_ns() - monotonic_ns()) {
   file_ = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (file_ < 0) fail(address, port, "no socket");
   const int wished = kBufferWished;
@@ -110,9 +114,13 @@ std::optional<Datagram> UdpReceiver::next(int timeout_ms) {
     if (part->cmsg_type == SO_RXQ_OVFL) std::memcpy(&lost_, CMSG_DATA(part), sizeof lost_);
   }
   Datagram datagram;
-  // The kernel stamps by the clock that people set. How long ago that was, no setting meanwhile changes by much.
-  const std::int64_t waited_ns = wall_ns() - (std::int64_t{arrived.tv_sec} * 1'000'000'000 + arrived.tv_nsec);
-  datagram.captured_ns = monotonic_ns() - std::clamp<std::int64_t>(waited_ns, 0, kWaitedMost_ns);
+  // The kernel stamps by the clock that people set. Where that was set what waited meanwhile has stamps of before.
+  const std::int64_t now_ns = monotonic_ns(), wall_now_ns = wall_ns();
+  if (std::abs(wall_now_ns - now_ns - apart_ns_) > kSetLeast_ns) set_at_ns_ = now_ns;
+  apart_ns_ = wall_now_ns - now_ns;
+  const std::int64_t stamp_ns = std::int64_t{arrived.tv_sec} * 1'000'000'000 + arrived.tv_nsec;
+  const std::int64_t waited_ns = std::clamp<std::int64_t>(wall_now_ns - stamp_ns, 0, kWaitedMost_ns);
+  datagram.captured_ns = now_ns - (set_at_ns_ > 0 && now_ns - set_at_ns_ < kWaitedMost_ns ? 0 : waited_ns);
   datagram.from.address = ntohl(sender.sin_addr.s_addr);
   datagram.from.port = ntohs(sender.sin_port);
   datagram.from.to_port = port_;

@@ -46,6 +46,8 @@ class UdpReceiver {
   std::uint16_t port_ = 0;
   int buffer_bytes_ = 0;
   std::uint32_t lost_ = 0;
+  std::int64_t apart_ns_;       // the clock that people set less the one that nobody sets
+  std::int64_t set_at_ns_ = 0;  // when it was set last, by the latter; 0: never
   std::array<std::byte, kDatagramMax> payload_{};
 };
 
