@@ -171,12 +171,7 @@ void LslidarHybridAssembler::add_points(ByteView packet, std::int64_t captured_n
   std::optional<std::int64_t> clock_ns;
   if (clock_unit_ns_ > 0) clock_ns = clock_unit_ns_ * hybrid_clock(packet);
   const std::int64_t end_ns = clock_.moment_ns(captured_ns, clock_ns, kClockSecond_ns);
-  // Behind a pause the frame is another one, whose mark is lost.
-  if (!scan_.points.empty() && end_ns - last_end_ns_ > kPacketPause_ns) {
-    end_frame(false);
-    frame_begun_ = false;
-  }
-  last_end_ns_ = end_ns;
+  end_behind_pause(end_ns);
   for (std::size_t i = 0; i < items.count; ++i) {
     const std::size_t offset = i * items.bytes;
     const double share = static_cast<double>(i) / static_cast<double>(items.count);
@@ -207,6 +202,15 @@ void LslidarHybridAssembler::add_points(ByteView packet, std::int64_t captured_n
     }
     scan_.points.push_back(point);
   }
+}
+
+// Behind a pause the frame is another one, whose mark is lost.
+void LslidarHybridAssembler::end_behind_pause(std::int64_t end_ns) {
+  if (!scan_.points.empty() && end_ns - last_end_ns_ > kPacketPause_ns) {
+    end_frame(false);
+    frame_begun_ = false;
+  }
+  last_end_ns_ = end_ns;
 }
 
 void LslidarHybridAssembler::end_frame(bool is_complete) {

@@ -42,6 +42,7 @@ class LslidarHybridAssembler : public ScanAssembler {
 
   void start_if_known(bool is_last);
   void add_points(ByteView packet, std::int64_t captured_ns);
+  void end_behind_pause(std::int64_t end_ns);
   void end_frame(bool is_complete);
 
   std::optional<LslidarFaces> faces_;
