@@ -35,7 +35,7 @@ std::int64_t PacketClock::went_ns(std::int64_t clock_ns, std::int64_t arrived_ns
   return whole > 0.0 ? went_ns + modulus_ns * static_cast<std::int64_t>(whole) : went_ns;
 }
 
-// By their clock packets are 1.3 ms apart, or late by as much as kPacketLateMost_ns, or follow a pause.
+// A packet follows the last one soon, or is late by as much as kPacketLateMost_ns, or follows a pause.
 bool PacketClock::is_believed(std::int64_t went_ns, std::int64_t arrived_ns) const {
   const bool is_next = went_ns >= -kPacketLateMost_ns && went_ns <= kPacketPause_ns;
   const bool is_behind_pause = arrived_ns > kPacketPause_ns && std::abs(went_ns - arrived_ns) <= kPacketPause_ns;
