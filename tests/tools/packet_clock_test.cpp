@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,16 @@ TEST(PacketClock, ADamagedTimeOfArrivalIsForgotten) {
     const std::int64_t arrival_ns = i == 3'000 ? 0 : kBegan_ns + i * kStep_ns;
     const std::int64_t stamp_ns = clock.moment_ns(arrival_ns, i * kStep_ns, 0) + clock.offset_ns();
     EXPECT_EQ(stamp_ns, arrival_ns) << i;
+  }
+}
+
+// Bytes that are no time, as of a RoboSense, are as large as they can be.
+TEST(PacketClock, ClocksOfAnySizeAreDoubted) {
+  PacketClock clock;
+  const std::int64_t most = std::numeric_limits<std::int64_t>::max() / 2;
+  for (std::int64_t i = 0; i < 100; ++i) {
+    const std::int64_t arrival_ns = kBegan_ns + i * kStep_ns;
+    EXPECT_EQ(clock.moment_ns(arrival_ns, i % 3 * (most / 3), 0), arrival_ns) << i;
   }
 }
 

@@ -19,6 +19,8 @@ constexpr std::int64_t kDelayWindow_ns = 1'000'000'000;
 constexpr std::int64_t kEarlyMost_ns = 50'000'000;
 // Beside the sensor's clock arrival leaps by so much where the computer's was set; no buffer holds packets longer.
 constexpr std::int64_t kArrivalLeap_ns = 1'000'000'000;
+// A year: such a time of arrival is damaged, and nothing is told by it.
+constexpr std::int64_t kDamaged_ns = 31'536'000'000'000'000;
 
 }  // namespace
 
@@ -39,9 +41,10 @@ std::int64_t PacketClock::went_ns(std::int64_t clock_ns, std::int64_t arrived_ns
 bool PacketClock::is_believed(std::int64_t went_ns, std::int64_t arrived_ns) const {
   const bool is_next = went_ns >= -kPacketLateMost_ns && went_ns <= kPacketPause_ns;
   const bool is_behind_pause = arrived_ns > kPacketPause_ns && std::abs(went_ns - arrived_ns) <= kPacketPause_ns;
+  if (!is_next && !is_behind_pause) return false;
   const std::int64_t delay_ns = anchor_->arrival_ns + arrived_ns - anchor_->moment_ns - went_ns;
   const bool is_early = windows_ > 1 && arrived_ns >= 0 && delay_ns < offset_ns() - kEarlyMost_ns;
-  return (is_next || is_behind_pause) && !is_early;
+  return !is_early;
 }
 
 void PacketClock::hear_delay(std::int64_t delay_ns, std::int64_t arrival_ns) {
@@ -62,7 +65,7 @@ void PacketClock::begin_windows(std::int64_t delay_ns, std::int64_t arrival_ns) 
 
 std::int64_t PacketClock::moment_ns(std::int64_t arrival_ns, std::optional<std::int64_t> clock_ns,
                                     std::int64_t modulus_ns) {
-  if (!anchor_) {
+  if (!anchor_ || std::abs(arrival_ns - anchor_->arrival_ns) > kDamaged_ns) {
     anchor_ = {arrival_ns, arrival_ns, clock_ns};
     begin_windows(0, arrival_ns);
     return arrival_ns;

@@ -193,7 +193,8 @@ std::int64_t robosense_clock_us(const RoboSenseTraits& traits, ByteView payload)
   constexpr std::int64_t kSecond_us = 1'000'000;
   const bool is_calendar = traits.layout == RoboSenseLayout::kFirst && traits.model != RoboSenseModel::kBpearl4;
   if (!is_calendar) {
-    constexpr std::uint64_t kSecondsMost = 1ULL << 40U;  // bytes that are no time do not overflow
+    constexpr std::uint64_t kSecondsMost = 1ULL
+                                           << 32U;  // in 2106; nanoseconds of bytes that are no time do not overflow
     const std::uint64_t seconds = std::min(robosense_number(payload, kHeadTimeAt, 6), kSecondsMost);
     return static_cast<std::int64_t>(seconds) * kSecond_us +
            static_cast<std::int64_t>(robosense_number(payload, kHeadTimeAt + 6, 4));
