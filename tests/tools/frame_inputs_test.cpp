@@ -144,6 +144,17 @@ TEST(InputList, AFolderThatHoldsWhatIsMeantNamesIt) {
   EXPECT_NE(error("captures").find(named), std::string::npos);
   folder.write("bare/frames/notes.txt", "");
   EXPECT_EQ(error("bare").find("mean"), std::string::npos);
+  folder.write("road/truth.csv", "0,0.1,0.2,0.3\n1,0.1,0.2,0.3\n");
+  EXPECT_NE(error("road").find("; did you mean '"), std::string::npos) << "a table beside frames is no cloud";
+}
+
+TEST(InputList, RecordingsBesideFramesAreNamedAndNotRead) {
+  const TempFolder folder;
+  for (const char* name : {"1.pcd", "b.pcap", "a.db3"}) folder.write(name, "");
+  const FrameInputs inputs = collect_inputs({folder.path()});
+  EXPECT_EQ(inputs.files.size(), 1U);
+  ASSERT_EQ(inputs.notes.size(), 1U);
+  EXPECT_NE(inputs.notes.front().find(folder.file("a.db3") + ", " + folder.file("b.pcap")), std::string::npos);
 }
 
 TEST(InputList, AnEmptyFolderIsAnErrorThatNamesTheEndings) {

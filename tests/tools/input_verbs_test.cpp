@@ -69,6 +69,28 @@ TEST(RunVerb, ABagThatWasCutKeepsItsFramesAndEndsWithOne) {
   EXPECT_EQ(table.cell(2, *table.find_column("status")), "unreadable");
 }
 
+// As a recording of results alone has it: the topic is there and holds nothing. The table of the last run stays.
+TEST(InputVerbs, ATopicWithoutAMessageIsSaidAndCostsNoResults) {
+  const TempFolder folder;
+  const std::string bag = folder.write("empty.mcap", mcap({{"/lidar/points", kClouds}}, {}, nullptr));
+  const std::string kept = folder.write("kept.csv", "of the last run\n");
+  const std::string why = "topic /lidar/points holds no message";
+  EXPECT_TRUE(test::says(command({"run", "-o", kept, bag}), 1, why));
+  EXPECT_EQ(text_of(kept), "of the last run\n");
+  EXPECT_TRUE(test::says(command({"doctor", bag}), 1, why));
+  const Ran info = command({"info", bag});
+  EXPECT_TRUE(test::says(info, 1, why));
+  EXPECT_TRUE(contains(info.printed, "/lidar/points")) << "its topics are listed";
+}
+
+TEST(RunVerb, OneFrameAloneIsExplained) {
+  const TempFolder folder;
+  const std::string bag = folder.write("one.mcap", mcap({{"/points", kClouds}}, {{0, cdr_message(cloud(1))}}, nullptr));
+  EXPECT_TRUE(contains(command({"run", "-o", folder.file("o.csv"), bag}).errors, "One frame alone"));
+  EXPECT_FALSE(
+      contains(command({"run", "-s", "motion=off", "-o", folder.file("o.csv"), bag}).errors, "One frame alone"));
+}
+
 TEST(RunVerb, ABagWithoutCloudsSaysWhatItHolds) {
   const TempFolder folder;
   const std::string bag = folder.write("a.mcap", mcap({{"/words", "std_msgs/msg/String"}}, {{0, "x"}}, nullptr));

@@ -24,6 +24,7 @@
 namespace pose_wall::tools {
 namespace {
 
+// Some day in 2023, and what a packet of a VLP-16 takes.
 constexpr std::int64_t kBegan_ns = 1'700'000'000'000'000'000, kStep_ns = 1'327'000;
 
 TEST(PacketClock, BurstsMoveNoMoment) {
@@ -226,6 +227,7 @@ void expect_times_by_azimuth(ScanAssembler* assembler, const std::vector<SentBlo
   }
 }
 
+// Of a view of 260 degrees, and how long the head turns through it at 600 turns a minute.
 constexpr double kHole_deg = 100.0, kHole_us = kHole_deg / 3600.0 * 1e6;
 
 // Of eight packets the fourth spans a hole: behind its middle all is 100 degrees and as many times later.

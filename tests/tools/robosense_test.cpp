@@ -462,6 +462,7 @@ sim::SceneSetup road_before_an_m1() {
   return setup;
 }
 
+// rs_driver 4eeadace: 25 blocks of 5, and 630 packets in 0.1 s.
 constexpr std::size_t kM1PacketPoints = 125, kM1Packets = 630;
 constexpr std::int64_t kM1Packet_us = 158;
 
@@ -536,6 +537,24 @@ TEST(RoboSenseM1, ARoadComesBackWithItsTimesAndItsValues) {
     if (judged.is(q, POSE_WALL_INVALID)) continue;
     EXPECT_LE(std::fabs(judged.error(q)), judged.result.quantity[q].protection_level) << pose_wall_quantity_name(q);
   }
+}
+
+// Behind an outage numbers may go on as if nothing had been: what comes is of another frame.
+TEST(RoboSenseM1, AnOutageWithinAFrameEndsIt) {
+  RoboSenseM1Assembler assembler;
+  std::int64_t at_ns = kCaptured_ns;
+  for (std::uint16_t number = 0; number < 630; ++number) {
+    at_ns += number == 300 ? 500'000'000 : 158'730;
+    EXPECT_TRUE(add(assembler, m1_payload(number), at_ns));
+  }
+  assembler.finish();
+  for (const std::size_t packets : {300U, 330U}) {
+    const Scan part = assembler.take().value();
+    EXPECT_FALSE(part.is_complete);
+    EXPECT_EQ(part.points.size(), packets * 125U);
+    EXPECT_LT(part.points.back().t_ns, 100'000'000U);
+  }
+  EXPECT_FALSE(assembler.take());
 }
 
 TEST(RoboSenseM1, TwoReturnsAreRefused) {

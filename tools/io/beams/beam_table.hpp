@@ -107,5 +107,8 @@ const BeamTable& robosense_bpearl();
 const BeamTable& robosense_bpearl4();
 const BeamTable& robosense_airy();
 std::vector<const BeamTable*> lslidar_tables();
+// In which column a laser of a C32 of firmware 3 stands, in the order of firing: of two, or of four where it is dense
+// in the middle. The sensor tells their angles.
+std::size_t lslidar_c32_column(bool is_dense, std::size_t laser);
 
 }  // namespace pose_wall::tools

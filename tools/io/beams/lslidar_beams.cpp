@@ -54,21 +54,16 @@ BeamTable with_eight_ahead(BeamTable table) {
   return table;
 }
 
-// In two columns by turns of elevation, which are two and two in the order of firing. How far apart they are each
-// sensor tells in its device packet; the drivers agree for 3 to 4.6 degrees. Four are judgement, 2026-12-01.
-BeamTable in_two_columns(BeamTable table) {
+// A C32 of firmware 3. How far apart its columns are each sensor tells in its device packet. The drivers agree for 3 to
+// 4.6 degrees of two; these angles are judgement, 2026-12-01.
+BeamTable in_columns(BeamTable table) {
+  const bool is_dense = table.word == "lslidar-c32-v3-dense";
+  const std::vector<double> columns_deg =
+      is_dense ? std::vector<double>{-4.5, -1.5, 1.5, 4.5} : std::vector<double>{2.0, -2.0};
   table.source = "lslidar 26220e90";
-  for (std::size_t i = 0; i < table.lasers.size(); ++i) table.lasers[i].azimuth_deg = i % 4 < 2 ? 2.0 : -2.0;
-  return table;
-}
-
-// In four columns, by the older driver's four lists. Each sensor tells their angles; these are judgement, 2026-12-01.
-BeamTable in_four_columns(BeamTable table) {
-  constexpr std::array<std::size_t, kReturnsOfBlock> column = {3, 3, 2, 2, 3, 1, 2, 0, 3, 3, 2, 2, 3, 1, 2, 0,
-                                                               3, 3, 2, 2, 1, 3, 0, 2, 3, 3, 2, 2, 1, 3, 0, 2};
-  table.source = "lslidar 26220e90";
-  constexpr std::array<double, 4> kColumns_deg = {-4.5, -1.5, 1.5, 4.5};
-  for (std::size_t i = 0; i < table.lasers.size(); ++i) table.lasers[i].azimuth_deg = kColumns_deg[column[i]];
+  for (std::size_t i = 0; i < table.lasers.size(); ++i) {
+    table.lasers[i].azimuth_deg = columns_deg[lslidar_c32_column(is_dense, i)];
+  }
   return table;
 }
 
@@ -81,15 +76,14 @@ const std::vector<BeamTable>& of_firmware_3() {
           "lslidar-c16-v3-narrow", "LSLidar C16, firmware 2 or 3, of 10 degrees",
           {-10.0, 0.665, -8.665, 2.0, -7.33, 3.33, -6.0, 4.665, -4.665, 6.0, -3.33, 7.33, -2.0, 8.665, -0.665, 10.0},
           kLensC16V3, kUnitV3_m),
-      in_two_columns(lslidar("lslidar-c32-v3", "LSLidar C32, firmware 2 or 3",
-                             {-16, 0, -15, 1, -14, 2,  -13, 3,  -12, 4,  -11, 5,  -10, 6,  -9, 7,
-                              -8,  8, -7,  9, -6,  10, -5,  11, -4,  12, -3,  13, -2,  14, -1, 15},
-                             kLensC32V3, kUnitV4_m)),
-      in_four_columns(
-          lslidar("lslidar-c32-v3-dense", "LSLidar C32, firmware 2 or 3, dense in the middle",
-                  {-18, -1,   -15,   -0.66, -12, -0.33, -10,   0, -8,    0.33, -7, 0.66, -6,    1,  -5,    1.33,
-                   -4,  1.66, -3.33, 2,     -3,  3,     -2.66, 4, -2.33, 6,    -2, 8,    -1.66, 11, -1.33, 14},
-                  kLensC32V3, kUnitV4_m))};
+      in_columns(lslidar("lslidar-c32-v3", "LSLidar C32, firmware 2 or 3",
+                         {-16, 0, -15, 1, -14, 2,  -13, 3,  -12, 4,  -11, 5,  -10, 6,  -9, 7,
+                          -8,  8, -7,  9, -6,  10, -5,  11, -4,  12, -3,  13, -2,  14, -1, 15},
+                         kLensC32V3, kUnitV4_m)),
+      in_columns(lslidar("lslidar-c32-v3-dense", "LSLidar C32, firmware 2 or 3, dense in the middle",
+                         {-18, -1,   -15,   -0.66, -12, -0.33, -10,   0, -8,    0.33, -7, 0.66, -6,    1,  -5,    1.33,
+                          -4,  1.66, -3.33, 2,     -3,  3,     -2.66, 4, -2.33, 6,    -2, 8,    -1.66, 11, -1.33, 14},
+                         kLensC32V3, kUnitV4_m))};
   return tables;
 }
 
@@ -155,6 +149,14 @@ const std::vector<BeamTable>& of_hemispheres() {
 }
 
 }  // namespace
+
+std::size_t lslidar_c32_column(bool is_dense, std::size_t laser) {
+  // The older driver's four lists for firmware 3. Two columns stand by turns of elevation, which are two and two in the
+  // order of firing.
+  constexpr std::array<std::size_t, kReturnsOfBlock> dense = {3, 3, 2, 2, 3, 1, 2, 0, 3, 3, 2, 2, 3, 1, 2, 0,
+                                                              3, 3, 2, 2, 1, 3, 0, 2, 3, 3, 2, 2, 1, 3, 0, 2};
+  return is_dense ? dense.at(laser) : laser / 2 % 2;
+}
 
 std::vector<const BeamTable*> lslidar_tables() {
   std::vector<const BeamTable*> all;

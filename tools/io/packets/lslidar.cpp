@@ -22,16 +22,10 @@ constexpr std::size_t kHeldMax = 8'000;  // of two returns 3,400 come in two sec
 // A head turns 0.7 degrees from block to block at 1,200 turns a minute.
 constexpr double kStepMost_deg = 5.0;
 constexpr double kAzimuthUnit_deg = 0.01;
+constexpr std::int64_t kPacketLeast_us = 100;  // one takes 0.2 to 2.4 ms
 
 ByteView held_bytes(const Bytes& bytes) {
   return {bytes.data(), bytes.size()};
-}
-
-// The unit of the clock, by the gap between two packets; 0: it does not tell. It is a microsecond, or in firmware 4 and
-// 5 a nanosecond, by a time mode that only device packets tell. A packet takes 0.2 to 2.4 ms, so both are never meant.
-std::int64_t clock_unit_ns(std::int64_t gap, bool may_be_ns) {
-  if (gap >= 100 && gap <= 10'000) return 1000;
-  return may_be_ns && gap >= 100'000 && gap <= 10'000'000 ? 1 : 0;
 }
 
 // How far the head turns from block to block, or from pair to pair; 0: it does not tell.
@@ -132,8 +126,9 @@ void LslidarAssembler::learn_clock() {
     const double step_deg = step_of(before, is_dual), moments = static_cast<double>(moments_of(is_dual));
     const double turn_deg = turned_deg(lslidar_azimuth_deg(before, 0), lslidar_azimuth_deg(now, 0));
     const std::int64_t gap = std::int64_t{lslidar_clock(now, *traits_)} - lslidar_clock(before, *traits_);
-    const std::int64_t unit_ns = clock_unit_ns(gap, !traits_->is_first_kind());
-    if (step_deg > 0.0 && unit_ns > 0 && std::abs(turn_deg - moments * step_deg) < step_deg) {
+    const std::int64_t unit_ns = lslidar_clock_unit_ns(gap, kPacketLeast_us);
+    const bool is_known = unit_ns == 1000 || (unit_ns == 1 && !traits_->is_first_kind());
+    if (step_deg > 0.0 && is_known && std::abs(turn_deg - moments * step_deg) < step_deg) {
       blocks_ns.push_back(static_cast<double>(gap * unit_ns) / moments);
       clock_unit_ns_ = unit_ns;
     }
@@ -167,12 +162,13 @@ void LslidarAssembler::add_blocks(ByteView packet, std::int64_t captured_ns) {
     } else if (std::abs(mean_step_deg - last_step_deg_) <= 2.0 * kAzimuthUnit_deg) {
       last_step_deg_ = mean_step_deg;  // azimuths are rounded, and beyond the last there is none
     }
+    const double begins_ns =
+        block_ns_ * static_cast<double>(block / blocks) + steps.moved_ns(block / blocks, block_ns_, ClockIs::kOfEnd);
     const std::byte* const first = packet.data + block * kLslidarBlockBytes + 4;
     const std::byte* const second = first + (is_dual ? kLslidarBlockBytes : 0);
     for (std::size_t i = 0; i < firings; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(firings);
-      const double before_ns = packet_ns - block_ns_ * (static_cast<double>(block / blocks) + part);
-      firing_.time_ns = end_ns - std::llround(before_ns - steps.moved_ns(block / blocks, block_ns_, ClockIs::kOfEnd));
+      firing_.time_ns = end_ns + std::llround(begins_ns + part * block_ns_ - packet_ns);
       fill_firing({first + i * firing_bytes, firing_bytes}, {second + i * firing_bytes, firing_bytes},
                   azimuth_deg + part * last_step_deg_);
       add_firing(firing_, last_step_deg_);

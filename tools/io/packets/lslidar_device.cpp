@@ -98,18 +98,15 @@ void set_columns(BeamTable* beams, ByteView device) {
             apart_deg));
   }
   for (std::size_t i = 0; i < beams->lasers.size(); ++i) {
-    beams->lasers[i].azimuth_deg = i % 4 < 2 ? even_deg : odd_deg;
+    beams->lasers[i].azimuth_deg = lslidar_c32_column(false, i) == 0 ? even_deg : odd_deg;
   }
 }
 
-// Which column each of them stands in: the older driver's four lists for firmware 3.
 void set_dense_columns(BeamTable* beams, ByteView device) {
-  constexpr std::array<int, 32> column = {4, 4, 3, 3, 4, 2, 3, 1, 4, 4, 3, 3, 4, 2, 3, 1,
-                                          4, 4, 3, 3, 2, 4, 1, 3, 4, 4, 3, 3, 2, 4, 1, 3};
   const std::array<double, 4> angles_deg = {column_deg(device, 186), column_deg(device, 190), column_deg(device, 188),
                                             column_deg(device, 192)};
   for (std::size_t i = 0; i < beams->lasers.size(); ++i) {
-    beams->lasers[i].azimuth_deg = angles_deg.at(static_cast<std::size_t>(column.at(i) - 1));
+    beams->lasers[i].azimuth_deg = angles_deg.at(lslidar_c32_column(true, i));
   }
 }
 

@@ -24,7 +24,8 @@ constexpr std::uint32_t kHybridLines = 128;
 constexpr double kHybridUnit_m = 0.01 / 256.0;
 constexpr std::size_t kHybridPacketsForClock = 6;
 constexpr std::int64_t kWaitForFaces_ns = 2'000'000'000;
-constexpr std::size_t kHybridHeldMax = 20'000;  // 9,000 a second in the maker's example
+constexpr std::size_t kHybridHeldMax = 20'000;      // 9,000 a second in the maker's example
+constexpr std::int64_t kHybridPacketLeast_us = 50;  // one takes 0.1 to 1 ms
 constexpr std::size_t kHybridPointsMax = 2'000'000;
 // Where the clock stands still and packets came at once.
 constexpr double kHybridPacket_ns = 225'000.0;
@@ -75,13 +76,6 @@ bool has_upper_half(ByteView packet) {
     if (!is_mark(packet, i * items.bytes) && big_at(packet, i * items.bytes, 1) >= kHybridLines / 2) return true;
   }
   return false;
-}
-
-// Microseconds, or nanoseconds where the sensor has its time by PTP. A packet takes 0.1 to 1 ms, so both are never
-// meant.
-std::int64_t hybrid_unit_ns(std::int64_t gap) {
-  if (gap >= 50 && gap <= 5'000) return 1000;
-  return gap >= 50'000 && gap <= 5'000'000 ? 1 : 0;
 }
 
 std::int64_t hybrid_clock(ByteView packet) {
@@ -153,7 +147,7 @@ void LslidarHybridAssembler::start_if_known(bool is_last) {
   std::vector<double> gaps_ns, arrivals_ns;
   for (std::size_t i = 1; i < held_.size(); ++i) {
     const std::int64_t gap = hybrid_clock(view(held_[i])) - hybrid_clock(view(held_[i - 1]));
-    if (const std::int64_t unit_ns = hybrid_unit_ns(gap); unit_ns > 0) {
+    if (const std::int64_t unit_ns = lslidar_clock_unit_ns(gap, kHybridPacketLeast_us); unit_ns > 0) {
       gaps_ns.push_back(static_cast<double>(unit_ns * gap));
       clock_unit_ns_ = unit_ns;
     }

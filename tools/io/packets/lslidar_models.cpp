@@ -94,6 +94,12 @@ std::uint32_t lslidar_clock(ByteView packet, const LslidarTraits& traits) {
   return little_endian_at(packet, traits.is_first_kind() ? 1200 : 1206, 4);
 }
 
+std::int64_t lslidar_clock_unit_ns(std::int64_t gap, std::int64_t least_us) {
+  const auto is_within = [gap](std::int64_t least) { return gap >= least && gap <= 100 * least; };
+  if (is_within(least_us)) return 1000;
+  return is_within(1000 * least_us) ? 1 : 0;
+}
+
 std::string unread_lslidar(ByteView payload) {
   const ByteView packet = lslidar_packet(payload);
   if (packet.size != kLaterBytes || !has_blocks(packet) || lslidar_model_of(packet)) return "";

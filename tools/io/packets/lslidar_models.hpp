@@ -64,6 +64,10 @@ double lslidar_azimuth_deg(ByteView packet, std::size_t block);
 // The part of the sensor's clock that every packet has, in units that are told by how it goes: see lslidar.cpp.
 std::uint32_t lslidar_clock(ByteView packet, const LslidarTraits& traits);
 
+// The unit of a clock by the gap between two packets, which take `least_us` to a hundred times as long: a microsecond,
+// or a nanosecond by a time mode that only device packets tell. Both are never meant. 0: the gap does not tell.
+std::int64_t lslidar_clock_unit_ns(std::int64_t gap, std::int64_t least_us);
+
 // Of LSLidar's packets those that are known and not read: "an LSLidar C1 of one line"; else "".
 std::string unread_lslidar(ByteView payload);
 

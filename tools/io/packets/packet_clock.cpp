@@ -10,8 +10,7 @@
 namespace pose_wall::tools {
 namespace {
 
-// One packet may be damaged, and a late one may be later than is believed; so many in a row tell that the clock was
-// set.
+// One packet may be damaged, or later than is believed. So many in a row tell that the clock was set.
 constexpr int kDoubtedMost = 3;
 // Long enough that some packet comes at once, also from a driver that hands on whole turns.
 constexpr std::int64_t kDelayWindow_ns = 1'000'000'000;

@@ -13,12 +13,12 @@
 #include "io/packets/one_sender.hpp"
 #include "io/packets/ouster_profiles.hpp"
 #include "io/packets/sender_facts.hpp"
+#include "io/packets/velodyne_models.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
-constexpr std::size_t kKindsKept = 4;                  // as many as one line holds
-constexpr std::uint16_t kVelodynePositionPort = 8308;  // manual of the VLP-16
+constexpr std::size_t kKindsKept = 4;  // as many as one line holds
 
 }  // namespace
 

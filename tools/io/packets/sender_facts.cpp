@@ -13,14 +13,14 @@
 #include "io/packets/one_sender.hpp"
 #include "io/packets/robosense_device.hpp"
 #include "io/packets/sensors.hpp"
+#include "io/packets/velodyne_models.hpp"
 
 namespace pose_wall::tools {
 namespace {
 
 constexpr std::size_t kSendersMost = 64;
 constexpr std::size_t kLooksMost = 16;
-// Velodyne's position packets: their port, their size, and where the sentence of NMEA begins (manual of the VLP-16).
-constexpr std::uint16_t kPositionPort = 8308;
+// Velodyne's position packets: their size, and where the sentence of NMEA begins (manual of the VLP-16).
 constexpr std::size_t kPositionBytes = 512, kSentenceAt = 206;
 constexpr std::size_t kSpeedAt = 8;  // of RoboSense's and LSLidar's device packets, in turns a minute
 constexpr std::size_t kViewAt = 32, kTopFirmwareAt = 40, kBottomFirmwareAt = 45, kReturnModeAt = 300;
@@ -101,7 +101,7 @@ SenderFacts::Heard* SenderFacts::heard_of(const Sender& from) {
 
 bool SenderFacts::hear_device(const Datagram& datagram) {
   const ByteView payload = datagram.payload;
-  const bool is_position = payload.size == kPositionBytes && datagram.from.to_port == kPositionPort;
+  const bool is_position = payload.size == kPositionBytes && datagram.from.to_port == kVelodynePositionPort;
   if (!is_position && !is_robosense_device(payload) && !is_lslidar_device(lslidar_packet(payload))) return false;
   const auto is_same = [&](const Device& d) {
     return d.from.address == datagram.from.address && d.from.card == datagram.from.card &&

@@ -201,13 +201,13 @@ VelodyneModel identify_velodyne(const std::vector<ByteView>& packets, std::optio
   if (const VelodyneTraits* const told = model_of_product(product)) {
     if (!clock.contradicts(*told)) return told->model;
     const std::string words = clock.words_with(*told);
-    throw FrameError(clock.who().empty()
-                         ? say("the packets contradict themselves: {}, {}; sensors of LSLidar and others send such "
-                               "packets in another "
-                               "unit, which would scale all distances. If it is that one, name it: {}",
-                               product_says(product, *told), clock_says(clock), words)
-                         : say("the packets contradict themselves: {}, {}; name it as its type plate does: {}",
-                               product_says(product, *told), clock_says(clock), words));
+    throw FrameError(
+        clock.who().empty()
+            ? say("the packets contradict themselves: {}, {}; sensors of LSLidar and others send such "
+                  "packets in another unit, which would scale all distances. If it is that one, name it: {}",
+                  product_says(product, *told), clock_says(clock), words)
+            : say("the packets contradict themselves: {}, {}; name it as its type plate does: {}",
+                  product_says(product, *told), clock_says(clock), words));
   }
   if (const char* const other = stranger(product)) {
     throw FrameError(say("packets of {} (product byte 0x{:02x}) are not read", other, product));

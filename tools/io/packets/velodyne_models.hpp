@@ -51,6 +51,9 @@ bool is_velodyne_dual(ByteView payload);
 
 std::uint8_t velodyne_product(ByteView payload);
 
+// To it a sensor sends what a GPS receiver tells (manual of the VLP-16).
+constexpr std::uint16_t kVelodynePositionPort = 8308;
+
 // The clock of its first firing, which begins anew with each hour.
 constexpr std::int64_t kVelodyneHour_us = 3'600'000'000;
 std::int64_t velodyne_clock_us(ByteView payload);
